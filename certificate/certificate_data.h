@@ -128,11 +128,35 @@ struct Persons {
     std::optional<Person> performed_by, reviewed_by, authorised_by;
 };
 
+/// Limits that differ from point to point of a table; docs/certificate_data.md.
+struct PointLimits {
+    /// "points": their columns limit_low, limit_high or mpe. Else the largest permissible error: "accuracy" of an
+    /// instrument, "steps" of an argument, "expression" of arguments
+    std::string by;
+    std::string about;                   ///< column or input that the limits lie about; "": 0
+    std::string of;                      ///< accuracy: column or input that was read
+    std::string range_column = "range";  ///< accuracy: column with the words of Accuracy::range
+    struct Accuracy {
+        std::string range;  ///< word of the points that it holds for; "": all that no entry before names
+        std::string unit;   ///< of full_scale, digit and constant; "": that of the specification
+        std::optional<double> percent_of_reading, percent_of_range, full_scale, digits, digit, constant;
+    };
+    std::vector<Accuracy> accuracy;
+    struct Step {
+        double up_to = 0.0;  ///< in the unit of the argument
+        double mpe = 0.0;    ///< in the unit of the specification
+    };
+    std::vector<Step> steps;                    ///< rising
+    std::vector<CapabilityArgument> arguments;  ///< steps: one; `of` names a column or an input
+    std::string expression;                     ///< plain numbers, as in a capability
+};
+
 /// An agreed specification and the rule by which conformity is decided (ISO/IEC 17025:2017, 7.1.3 and 7.8.6).
 struct AgreedSpecification {
     std::string id;
     std::vector<std::string> results;    ///< as in ScopeEntry::results
     std::optional<double> lower, upper;  ///< tolerance limits, in `unit`; one or both
+    std::optional<PointLimits> limits;   ///< in place of them, where the limits differ from point to point
     std::string unit;
     std::string document, edition, clause;
     struct Rule {

@@ -16,6 +16,7 @@ namespace gumcert::certificate {
 //   a.needed(key, member, R)  a member without which the object around it means nothing
 //   a.filled(key, member)     a member that the program fills in: in records, not in jobs
 //   a.named(key, enumerator, { words })   an enumerator by its name, in the order of the words
+//   a.if_any(key, member, R)  a member of a later release: in records only where it holds something
 //   a.group(key, function)    an object that is no struct of its own: calls function(archive of it)
 
 enum class NumberRule { any, not_negative, positive, at_least_one, one_or_two, probability };
@@ -220,12 +221,43 @@ void describe(Archive& a, Struct& r) {
     a("prescribed_by", r.prescribed_by);
 }
 
+template <class Archive, Described<PointLimits::Accuracy> Struct>
+void describe(Archive& a, Struct& r) {
+    a("range", r.range);
+    a("unit", r.unit, TextForm::unit);
+    a("percent_of_reading", r.percent_of_reading, NumberRule::positive);
+    a("percent_of_range", r.percent_of_range, NumberRule::positive);
+    a("full_scale", r.full_scale, NumberRule::positive);
+    a("digits", r.digits, NumberRule::positive);
+    a("digit", r.digit, NumberRule::positive);
+    a("constant", r.constant, NumberRule::positive);
+}
+
+template <class Archive, Described<PointLimits::Step> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("up_to", r.up_to, NumberRule::positive);
+    a.needed("mpe", r.mpe, NumberRule::positive);
+}
+
+template <class Archive, Described<PointLimits> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("by", r.by, {"points", "accuracy", "steps", "expression"});
+    a("about", r.about);
+    a("of", r.of);
+    a("range_column", r.range_column);
+    a("accuracy", r.accuracy);
+    a("steps", r.steps);
+    a("arguments", r.arguments);
+    a("expression", r.expression, TextForm::text);
+}
+
 template <class Archive, Described<AgreedSpecification> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("id", r.id);
     a.needed("results", r.results);
     a("lower", r.lower);
     a("upper", r.upper);
+    a.if_any("limits", r.limits);
     a.needed("unit", r.unit, TextForm::unit);
     a("document", r.document);
     a("edition", r.edition);
@@ -418,10 +450,71 @@ void describe(Archive& a, Struct& r) {
     a("printed", r.printed);
 }
 
+template <class Archive, Described<PointColumn> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("heading", r.heading);
+    a("role", r.role);
+    a("stage", r.stage);
+    a("unit", r.unit);
+    a("printed_unit", r.printed_unit);
+    a("values", r.values);
+    a("printed", r.printed);
+}
+
+template <class Archive, Described<ShownColumn> Struct>
+void describe(Archive& a, Struct& r) {
+    a("show", r.show, {"point", "column", "value", "U", "k", "nu_eff", "limit", "limit_low", "limit_high", "verdict"});
+    a("of", r.of);
+    a("heading", r.heading);
+    a("role", r.role);
+    a("stage", r.stage);
+}
+
+template <class Archive, Described<TableRequest::GroupUnit> Struct>
+void describe(Archive& a, Struct& r) {
+    a("group", r.group);
+    a("of", r.of);
+    a("unit", r.unit);
+}
+
+template <class Archive, Described<TableRequest::RowChoice> Struct>
+void describe(Archive& a, Struct& r) {
+    a("column", r.column);
+    a("is", r.is);
+}
+
+template <class Archive, Described<TableRequest> Struct>
+void describe(Archive& a, Struct& r) {
+    a("title", r.title);
+    a("group_by", r.group_by);
+    a("where", r.where);
+    a("units", r.units);
+    a("columns", r.columns);
+}
+
+template <class Archive, Described<PointTable> Struct>
+void describe(Archive& a, Struct& r) {
+    a("points", r.points);
+    a("columns", r.columns);
+    a("tables", r.tables);
+}
+
+template <class Archive, Described<TableLayout> Struct>
+void describe(Archive& a, Struct& r) {
+    a("title", r.title);
+    a("group_heading", r.group_heading);
+    a("group_role", r.group_role);
+    a("group", r.group);
+    a("columns", r.columns);
+    a("shown", r.shown);
+}
+
 template <class Archive, Described<CertifiedTable> Struct>
 void describe(Archive& a, Struct& r) {
     a("id", r.id);
     a("argument", r.argument);
+    a.if_any("layout", r.layout);
     a("columns", r.columns);
 }
 

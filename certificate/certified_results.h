@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certificate/certificate_data.h"
+#include "certificate/point_tables.h"
 
 namespace gumcert::certificate {
 
@@ -75,6 +76,7 @@ struct CertifiedTable {
         std::vector<std::string> printed;
     };
     std::optional<Argument> argument;      ///< none: every column has one value
+    std::optional<TableLayout> layout;     ///< where the job says which columns are shown
     std::vector<CertifiedColumn> columns;  ///< all of the same length
 };
 

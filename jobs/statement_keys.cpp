@@ -63,6 +63,14 @@ StatementKeys StatementKeys::with(std::string_view key, double number, const Csv
     return both;
 }
 
+StatementKeys StatementKeys::with(std::string_view key, const std::vector<double>& numbers, const CsvTable& table,
+                                  const CsvCell& cell, ProblemList& problems, const std::string& column) const {
+    StatementKeys both = *this;
+    both.stands_at(table, cell, problems, column);
+    both.put({key, std::make_shared<const json>(numbers), both.origin_, false});
+    return both;
+}
+
 void StatementKeys::put(Entry entry) {
     const auto same =
         std::find_if(entries_.begin(), entries_.end(), [&](const Entry& known) { return known.key == entry.key; });

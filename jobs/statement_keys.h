@@ -31,6 +31,10 @@ public:
     [[nodiscard]] StatementKeys with(std::string_view key, double number, const CsvTable& table, const CsvCell& cell,
                                      ProblemList& problems, const std::string& column) const;
 
+    /// The same with several numbers of a row, the first of which stands in the cell.
+    [[nodiscard]] StatementKeys with(std::string_view key, const std::vector<double>& numbers, const CsvTable& table,
+                                     const CsvCell& cell, ProblemList& problems, const std::string& column) const;
+
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Null pointer when the key is absent, or its number was refused while the text was read.
     [[nodiscard]] const nlohmann::json* value(std::string_view key) const;

@@ -56,6 +56,14 @@ public:
         self().require(key);
     }
 
+    /// A member that is stated only where it holds something.
+    template <class Type, class... Rule>
+    void if_any(std::string_view key, Type& v, const Rule&... rule) {
+        if (object_.contains(key)) {
+            (*this)(key, v, rule...);
+        }
+    }
+
     /// To be called when every key was asked for: what is left in the object is unknown.
     void finish() {
         std::sort(asked_.begin(), asked_.end(), std::less<>());

@@ -6,6 +6,7 @@
 
 #include "certificate/result_names.h"
 #include "certificate/stated_text.h"
+#include "text/visible_text.h"
 
 namespace gumcert::certificate {
 
@@ -61,9 +62,29 @@ const std::string& last_day(const Dates& dates) {
 
 bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names) {
     return std::any_of(certificate.tables.begin(), certificate.tables.end(), [&](const CertifiedTable& table) {
-        return std::any_of(table.columns.begin(), table.columns.end(),
-                           [&](const CertifiedColumn& column) { return is_named(names, column.result); });
+        return std::any_of(table.columns.begin(), table.columns.end(), [&](const CertifiedColumn& column) {
+            if (is_named(names, column.result)) {
+                return true;
+            }
+            const bool has_points = table.argument && table.argument->name == "point";
+            return has_points &&
+                   std::any_of(table.argument->printed.begin(), table.argument->printed.end(),
+                               [&](const auto& point) { return is_named(names, column.result + "[" + point + "]"); });
+        });
     });
+}
+
+std::vector<std::string> result_names(const Certificate& certificate) {
+    std::vector<std::string> names;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            std::string name = text::in_quotes(column.result);
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                names.push_back(std::move(name));
+            }
+        }
+    }
+    return names;
 }
 
 std::string iso_17025(const std::string& clause) {

@@ -55,6 +55,9 @@ private:
 /// Whether a result of the certificate has one of the names of a scope, a specification …
 [[nodiscard]] bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names);
 
+/// Names of the results of a certificate in quotes, each once: of all points, where there is a table of them.
+[[nodiscard]] std::vector<std::string> result_names(const Certificate& certificate);
+
 /// "ISO/IEC 17025:2017, 7.8.2.1 e" from "7.8.2.1 e".
 [[nodiscard]] std::string iso_17025(const std::string& clause);
 

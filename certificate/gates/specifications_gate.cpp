@@ -12,6 +12,7 @@
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "gum/argument_check.h"
+#include "text/lists.h"
 #include "text/numbers.h"
 
 namespace gumcert::certificate {
@@ -148,13 +149,14 @@ void specification(FindingList& found, const Certificate& certificate, std::size
                     name + " names this certificate itself as its document",
                     "Name the document in which the limits stand.");
     }
-    if (!s.lower && !s.upper) {
+    if (!s.lower && !s.upper && !s.limits) {
         found.major("D03", iso_17025("7.8.6.2 b"), where("upper"), name + " has no limit", "State the limit values.");
     }
     if (!certificate.tables.empty() && !names_a_result(certificate, s.results)) {
         found.major("D07", iso_17025("7.8.6.2 a"), where("results"),
                     name + " names no result of the certificate, so that nothing is decided by it",
-                    "Correct the names of the results.");
+                    "Correct the names of the results; those of the certificate are " +
+                        text::listed(result_names(certificate), 8) + ".");
     }
 }
 

@@ -56,6 +56,8 @@ void check_entry(const certificate::ScopeEntry& entry, const CertificatePlace& p
 void check_entry(const certificate::StandardUsed& standard, const CertificatePlace& place);
 void check_entry(const certificate::Condition& condition, const CertificatePlace& place);
 void check_entry(const certificate::Method& method, const CertificatePlace& place);
+void check_entry(const certificate::PointLimits& limits, const CertificatePlace& place);
+void check_entry(const certificate::PointLimits::Accuracy& accuracy, const CertificatePlace& place);
 void check_entry(const certificate::AgreedSpecification& specification, const CertificatePlace& place);
 void check_entry(const certificate::ExternalResults& external, const CertificatePlace& place);
 void check_entry(const certificate::Profile& profile, const CertificatePlace& place);

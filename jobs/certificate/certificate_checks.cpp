@@ -6,6 +6,7 @@
 
 #include "certificate/capability.h"
 #include "gum/conformity/conformity.h"
+#include "gum/quantity/unit.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/input_text.h"
 #include "text/numbers.h"
@@ -69,7 +70,9 @@ void check_rule(const certificate::AgreedSpecification& s, const CertificatePlac
     if (!rule) {
         return;
     }
-    const gum::ToleranceLimits limits{.lower = s.lower, .upper = s.upper};
+    // Limits of points lie on both sides of a value; those in columns may miss one side, which no rule depends on.
+    const gum::ToleranceLimits limits{.lower = s.limits ? std::optional(-1.0) : s.lower,
+                                      .upper = s.limits ? std::optional(1.0) : s.upper};
     for (const std::string& sentence : gum::check_decision_rule(*rule, parameters_of(s.rule), limits)) {
         place.below("/rule").refuse(k_certificate_rule_incomplete, sentence,
                                     "a rule is applied with the parameters that it has, and with no others",
@@ -128,14 +131,99 @@ void check_entry(const certificate::Method& method, const CertificatePlace& plac
     }
 }
 
+void check_entry(const certificate::PointLimits::Accuracy& accuracy, const CertificatePlace& place) {
+    const auto needs = [&](bool stated, bool other_stated, const char* key, const char* other) {
+        if (stated && !other_stated) {
+            place.refuse(k_certificate_missing_key, text::in_quotes(key) + " without " + text::in_quotes(other),
+                         "a part of an accuracy has all its numbers", "add " + text::in_quotes(other));
+        }
+    };
+    needs(accuracy.percent_of_range.has_value(), accuracy.full_scale.has_value(), "percent_of_range", "full_scale");
+    needs(accuracy.full_scale.has_value(), accuracy.percent_of_range.has_value(), "full_scale", "percent_of_range");
+    needs(accuracy.digits.has_value(), accuracy.digit.has_value(), "digits", "digit");
+    needs(accuracy.digit.has_value(), accuracy.digits.has_value(), "digit", "digits");
+    if (!accuracy.percent_of_reading && !accuracy.percent_of_range && !accuracy.digits && !accuracy.constant) {
+        place.refuse(k_certificate_no_limit, "an accuracy without a part",
+                     "an accuracy is a sum of percent_of_reading, percent_of_range, digits and constant",
+                     "state at least one of them");
+    }
+}
+
+void check_entry(const certificate::PointLimits& limits, const CertificatePlace& place) {
+    struct Part {
+        const char* key;
+        bool stated, belongs, needed;
+    };
+    const bool accuracy = limits.by == "accuracy";
+    const bool steps = limits.by == "steps";
+    const bool expression = limits.by == "expression";
+    const bool of_reading = std::any_of(limits.accuracy.begin(), limits.accuracy.end(),
+                                        [](const auto& entry) { return entry.percent_of_reading.has_value(); });
+    for (const Part& part : {Part{"accuracy", !limits.accuracy.empty(), accuracy, accuracy},
+                             Part{"of", !limits.of.empty(), accuracy, accuracy && of_reading},
+                             Part{"steps", !limits.steps.empty(), steps, steps},
+                             Part{"arguments", !limits.arguments.empty(), steps || expression, steps || expression},
+                             Part{"expression", !limits.expression.empty(), expression, expression}}) {
+        if (part.stated && !part.belongs) {
+            place.below("/" + std::string(part.key))
+                .refuse(k_certificate_contradiction,
+                        text::in_quotes(part.key) + " beside limits by " + text::in_quotes(limits.by),
+                        "limits are stated in one way", "remove it, or correct \"by\"");
+        } else if (!part.stated && part.needed) {
+            place.refuse(k_certificate_missing_key, text::in_quotes(part.key) + " is missing",
+                         "limits by " + text::in_quotes(limits.by) + " need it", "add " + text::in_quotes(part.key));
+        }
+    }
+    if (steps && limits.arguments.size() > 1) {
+        place.below("/arguments")
+            .refuse(k_certificate_contradiction, std::to_string(limits.arguments.size()) + " arguments",
+                    "steps have one argument", "keep the one that the steps are of");
+    }
+    for (std::size_t i = 1; i < limits.steps.size(); ++i) {
+        demand_order(limits.steps[i - 1].up_to, limits.steps[i].up_to, "steps", "", place);
+    }
+    if (expression && !limits.arguments.empty() && !limits.expression.empty()) {
+        certificate::Capability mpe;
+        mpe.form = "function";
+        mpe.unit = "1";
+        mpe.arguments = limits.arguments;
+        mpe.expression = limits.expression;
+        for (const certificate::CapabilityProblem& problem : certificate::check_capability(mpe)) {
+            place.below(problem.key).refuse(k_certificate_capability, problem.what, problem.rule, problem.action);
+        }
+    }
+}
+
 void check_entry(const certificate::AgreedSpecification& specification, const CertificatePlace& place) {
     demand_some(specification.results, "results", place);
     const std::optional<double> lower = specification.lower;
     const std::optional<double> upper = specification.upper;
+    if (specification.limits) {
+        if (lower || upper) {
+            place.below(lower ? "/lower" : "/upper")
+                .refuse(k_certificate_contradiction, "a limit for all points beside limits of points",
+                        "the limits of a specification are stated in one way", "remove it, or \"limits\"");
+        }
+        const gum::Unit unit = gum::Unit::parse(specification.unit);
+        for (std::size_t i = 0; i < specification.limits->accuracy.size(); ++i) {
+            const std::string& stated = specification.limits->accuracy[i].unit;
+            if (!stated.empty() && !(gum::Unit::parse(stated).dimension() == unit.dimension())) {
+                place.below("/limits/accuracy")
+                    .child(i)
+                    .below("/unit")
+                    .refuse(k_certificate_unit,
+                            "the unit " + text::in_quotes(stated) + " beside " + text::in_quotes(specification.unit) +
+                                " of the specification",
+                            "an accuracy and its limits are of one kind of quantity", "correct the unit");
+            }
+        }
+        check_rule(specification, place);
+        return;
+    }
     if (!lower && !upper) {
         place.refuse(k_certificate_no_limit, "a specification without a limit",
                      "conformity is decided against a lower limit, an upper limit or both",
-                     "add \"lower\" or \"upper\"");
+                     "add \"lower\" or \"upper\", or \"limits\" where they differ from point to point");
         return;
     }
     if (lower && upper && *lower >= *upper) {

@@ -119,6 +119,14 @@ public:
         (*this)(key, v, allowed);
     }
 
+    /// A key that a later release added, and that earlier records do without where there is nothing to say.
+    template <class Type, class... Rule>
+    void if_any(const char* key, const Type& v, const Rule&... rule) {
+        if (v.has_value()) {
+            (*this)(key, *v, rule...);
+        }
+    }
+
     template <class Describe>
     void group(const char* key, const Describe& describe_group) {
         Writer inner(place_.child(key));

@@ -41,6 +41,10 @@ public:
     }
     template <class Type>
     void filled(const char*, const Type&) {}
+    template <class Type>
+    void if_any(const char* key, const Type& v) {
+        (*this)(key, v);
+    }
 
     template <class Struct>
     static nlohmann::json structure(const Struct& v) {
@@ -87,6 +91,35 @@ inline certificate::CertificateData complete_certificate_data() {
         entry.capability = capability;
         d.accreditation->scope.push_back(entry);
     };
+    AgreedSpecification of_points = d.specifications.front();
+    of_points.id = "of_points";
+    of_points.lower.reset();
+    of_points.upper.reset();
+    of_points.limits.emplace();
+    of_points.limits->by = "accuracy";
+    of_points.limits->about = "nominal";
+    of_points.limits->of = "V_s";
+    of_points.limits->accuracy = {{.range = "10 V",
+                                   .unit = "mm",
+                                   .percent_of_reading = 0.01,
+                                   .percent_of_range = 0.001,
+                                   .full_scale = 1000.0,
+                                   .digits = 2.0,
+                                   .digit = 0.1,
+                                   .constant = 0.5}};
+    d.specifications.push_back(of_points);
+    of_points.id = "of_steps";
+    of_points.limits.emplace();
+    of_points.limits->by = "steps";
+    of_points.limits->arguments = {{.name = "L", .unit = "mm", .of = "L_n"}};
+    of_points.limits->steps = {{.up_to = 10.0, .mpe = 0.12}};
+    d.specifications.push_back(of_points);
+    of_points.id = "of_expression";
+    of_points.limits.emplace();
+    of_points.limits->by = "expression";
+    of_points.limits->arguments = {{.name = "L", .unit = "mm", .of = "L_n"}};
+    of_points.limits->expression = "0.1 + 0.001*L";
+    d.specifications.push_back(of_points);
     Capability range;
     range.form = "range";
     range.unit = "um";

@@ -44,6 +44,9 @@ public:
     }
     template <class Type>
     void filled(const char*, Type&) {}
+    /// Limits of points replace those of the specification: what they give is in the verdicts.
+    template <class Type>
+    void if_any(const char*, Type&) {}
 
     [[nodiscard]] std::size_t count() const { return at_; }
     [[nodiscard]] const std::string& stated() const { return stated_; }  ///< its place: "/item/owner"

@@ -125,6 +125,11 @@ public:
         added(key, v.number, rule...);
         text_added(key, v.text);
     }
+    /// Absent, and never null, where there is nothing to say.
+    template <class Type, class... Rule>
+    void if_any(const char* key, const Type&, const Rule&... rule) {
+        added(key, typename Type::value_type{}, rule...);
+    }
     void text(const char* key, const std::string&) { texts_.emplace_back(key, false); }
     void text_added(const char* key, const std::string&) { texts_.emplace_back(key, true); }
     template <class Number>

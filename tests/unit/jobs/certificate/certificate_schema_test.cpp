@@ -106,11 +106,29 @@ TEST_F(CertificateSchema, AcceptsEveryKey) {
 
 TEST_F(CertificateSchema, RefusesWhatTheReaderRefusesWhereASchemaCan) {
     // Characters, units, calendars, comparisons of two keys and names that must differ are beyond this schema.
-    const std::set<std::string> beyond{
-        "no_unit_of_U",   "line_feed",     "direction",        "space",    "date_day",
-        "unit",           "unit_of_scope", "rule_parameter",   "scope_id", "specification_id",
-        "language_twice", "conditions",    "limits_of_method", "limits",   "range",
-        "deviations"};
+    const std::set<std::string> beyond{"no_unit_of_U",
+                                       "line_feed",
+                                       "direction",
+                                       "space",
+                                       "date_day",
+                                       "unit",
+                                       "unit_of_scope",
+                                       "rule_parameter",
+                                       "scope_id",
+                                       "specification_id",
+                                       "limits_of_points_and_others",
+                                       "accuracy_missing",
+                                       "accuracy_part",
+                                       "accuracy_empty",
+                                       "accuracy_unit",
+                                       "two_ways_of_limits",
+                                       "expression_of_limits",
+                                       "language_twice",
+                                       "conditions",
+                                       "limits_of_method",
+                                       "limits",
+                                       "range",
+                                       "deviations"};
     const json whole = test::CertificateJsonWriter::structure(test::complete_certificate_data());
     for (const test::BadData& bad : test::bad_certificate_data()) {
         EXPECT_EQ(accepts_data(bad.in(whole)), beyond.contains(bad.name)) << bad.name;

@@ -54,10 +54,15 @@ std::string sample_png() {
 
 using Files = std::map<std::string, std::string>;
 
+/// A length at one point, with what the limits of the complete data refer to.
+const std::string k_length =
+    R"("inputs": {"l": {"value": 1, "u": 0.1}}, "points": {
+        "columns": {"range": "text", "nominal": "mm", "V_s": "mm", "L_n": "mm"},
+        "list": [{"l": 1, "range": "10 V", "nominal": 50, "V_s": 50, "L_n": 5}]})";
+
 /// Certificate data in a file beside a small budget job.
 CertificateData read(const std::string& data, Files files = {}) {
-    files["job.json"] =
-        test::budget_text(R"("inputs": {"l": {"value": 1, "u": 0.1}}, "certificate": "certificate.json")");
+    files["job.json"] = test::budget_text(k_length + R"(, "certificate": "certificate.json")");
     files.emplace("symbol.png", sample_png());
     files["certificate.json"] = data;
     return read_budget_job(MemoryFileSource(files), "job.json").certificate.value();
@@ -94,8 +99,7 @@ TEST(CertificateStatement, ReadsEverything) {
 
 TEST(CertificateStatement, ReadsTheObjectInAJob) {
     const BudgetJob job =
-        test::read_budget(R"("inputs": {"l": {"value": 1, "u": 0.1}}, "certificate": )" + complete().dump(),
-                          {{"symbol.png", sample_png()}});
+        test::read_budget(k_length + R"(, "certificate": )" + complete().dump(), {{"symbol.png", sample_png()}});
     ASSERT_TRUE(job.certificate);
     EXPECT_EQ(CertificateJsonWriter::structure(*job.certificate), complete());
     EXPECT_THAT(job.files, ElementsAre("job.json", "symbol.png"));

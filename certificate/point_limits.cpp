@@ -1,0 +1,179 @@
+#include "certificate/point_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certificate/capability.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+using gum::Unit;
+
+constexpr double k_step_noise = 1e-12;  // of a nominal value that a unit was converted of
+
+LimitsAt without_limits(std::string problem) {
+    return {.lower = {}, .upper = {}, .problem = std::move(problem)};
+}
+
+/// ± half-width about 0, or about a value of the point.
+LimitsAt about(const AgreedSpecification& s, const PointLookup& point, double half_width) {
+    if (!std::isfinite(half_width) || !(half_width > 0.0)) {
+        return without_limits("the maximum permissible error is " + text::shortest(half_width) + " " + s.unit +
+                              ", which is not greater than 0");
+    }
+    double centre = 0.0;
+    if (!s.limits->about.empty()) {
+        const std::optional<double> stated = point.number(s.limits->about, s.unit, false);
+        if (!stated) {
+            return without_limits("the point has no value of " + text::in_quotes(s.limits->about) + " in " + s.unit);
+        }
+        centre = *stated;
+    }
+    return {.lower = centre - half_width, .upper = centre + half_width};
+}
+
+LimitsAt of_columns(const AgreedSpecification& s, const PointLookup& point) {
+    if (const auto mpe = point.number("mpe", s.unit, true)) {
+        return about(s, point, *mpe);
+    }
+    LimitsAt limits{.lower = point.number("limit_low", s.unit, false),
+                    .upper = point.number("limit_high", s.unit, false)};
+    if (!limits.lower && !limits.upper) {
+        limits.problem = "the point states no limit";
+    } else if (limits.lower && limits.upper && *limits.lower >= *limits.upper) {
+        return without_limits("the lower limit of the point is not below the upper one");
+    }
+    return limits;
+}
+
+LimitsAt of_accuracy(const AgreedSpecification& s, const PointLookup& point) {
+    const PointLimits& limits = *s.limits;
+    const std::string range = point.word(limits.range_column);
+    const auto entry = std::find_if(limits.accuracy.begin(), limits.accuracy.end(), [&](const auto& candidate) {
+        return candidate.range.empty() || candidate.range == range;
+    });
+    if (entry == limits.accuracy.end()) {
+        return without_limits("the accuracy is not stated for the range " + text::in_quotes(range));
+    }
+    const Unit target = Unit::parse(s.unit);
+    const Unit stated = entry->unit.empty() ? target : Unit::parse(entry->unit);
+    const auto in_unit = [&](double v) {
+        return entry->unit.empty() || entry->unit == s.unit ? v : target.difference_from_si(stated.difference_to_si(v));
+    };
+    double half_width =
+        in_unit(entry->full_scale.value_or(0.0) * entry->percent_of_range.value_or(0.0) / 100.0 +
+                entry->digits.value_or(0.0) * entry->digit.value_or(0.0) + entry->constant.value_or(0.0));
+    if (entry->percent_of_reading) {
+        const std::optional<double> reading = point.number(limits.of, s.unit, false);
+        if (!reading) {
+            return without_limits("the point has no value of " + text::in_quotes(limits.of) + " in " + s.unit);
+        }
+        half_width += std::abs(*reading) * *entry->percent_of_reading / 100.0;
+    }
+    return about(s, point, half_width);
+}
+
+LimitsAt of_steps(const AgreedSpecification& s, const PointLookup& point) {
+    const CapabilityArgument& argument = s.limits->arguments.front();
+    const std::optional<double> at = point.number(argument.of, argument.unit, false);
+    if (!at) {
+        return without_limits("the point has no value of " + text::in_quotes(argument.of) + " in " + argument.unit);
+    }
+    const double size = std::abs(*at);
+    const auto step = std::find_if(
+        s.limits->steps.begin(), s.limits->steps.end(),
+        [&](const PointLimits::Step& candidate) { return size <= candidate.up_to * (1.0 + k_step_noise); });
+    if (step == s.limits->steps.end()) {
+        return without_limits(text::shortest(size) + " " + argument.unit + " is beyond the last step of the limits");
+    }
+    return about(s, point, step->mpe);
+}
+
+LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
+    Capability mpe;
+    mpe.form = "function";
+    mpe.unit = s.unit;
+    mpe.arguments = s.limits->arguments;
+    mpe.expression = s.limits->expression;
+    std::vector<ArgumentValue> values;
+    for (const CapabilityArgument& argument : mpe.arguments) {
+        const std::optional<double> at = point.number(argument.of, argument.unit, false);
+        if (!at) {
+            return without_limits("the point has no value of " + text::in_quotes(argument.of) + " in " + argument.unit);
+        }
+        values.push_back({argument.name, *at});
+    }
+    const CapabilityAt found = capability_at(mpe, values);
+    return found.U ? about(s, point, *found.U)
+                   : without_limits("the expression of the maximum permissible error has no value above 0 here");
+}
+
+}  // namespace
+
+PointLookup lookup_at(const PointTable& table, std::size_t point) {
+    const auto find = [&table](const std::string& name) -> const PointColumn* {
+        const auto found = std::find_if(table.columns.begin(), table.columns.end(),
+                                        [&](const PointColumn& column) { return column.name == name; });
+        return found == table.columns.end() ? nullptr : &*found;
+    };
+    return {.number = [=](const std::string& name, const std::string& unit, bool difference) -> std::optional<double> {
+                const PointColumn* const column = find(name);
+                if (column == nullptr || point >= column->values.size() || !column->values[point]) {
+                    return std::nullopt;
+                }
+                const double value = *column->values[point];
+                if (column->unit.empty() || column->unit == unit) {
+                    return value;
+                }
+                const Unit from = Unit::parse(column->unit);
+                const Unit to = Unit::parse(unit);
+                if (!(from.dimension() == to.dimension())) {
+                    return std::nullopt;
+                }
+                return difference ? to.difference_from_si(from.difference_to_si(value)) : to.from_si(from.to_si(value));
+            },
+            .word = [=](const std::string& name) -> std::string {
+                const PointColumn* const column = find(name);
+                return column == nullptr || point >= column->printed.size() ? std::string() : column->printed[point];
+            }};
+}
+
+LimitsAt limits_at(const AgreedSpecification& specification, const PointLookup& point) {
+    if (!specification.limits) {
+        return {.lower = specification.lower, .upper = specification.upper};
+    }
+    const std::string& by = specification.limits->by;
+    return by == "accuracy"     ? of_accuracy(specification, point)
+           : by == "steps"      ? of_steps(specification, point)
+           : by == "expression" ? of_expression(specification, point)
+                                : of_columns(specification, point);
+}
+
+std::vector<std::string> columns_of_limits(const PointLimits& limits) {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
+            names.push_back(name);
+        }
+    };
+    add(limits.about);
+    if (limits.by == "accuracy") {
+        add(limits.of);
+        if (std::any_of(limits.accuracy.begin(), limits.accuracy.end(),
+                        [](const PointLimits::Accuracy& entry) { return !entry.range.empty(); })) {
+            add(limits.range_column);
+        }
+    }
+    for (const CapabilityArgument& argument : limits.arguments) {
+        add(argument.of);
+    }
+    return names;
+}
+
+}  // namespace gumcert::certificate

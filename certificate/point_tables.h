@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certificate/localised_text.h"
+
+namespace gumcert::certificate {
+
+// Tables of points as certificates show them: what a point has beside its results, and which columns a table has.
+
+/// What a quantity is to the reader of a certificate. The wording has a heading for each, the digital certificate a
+/// name; "" says nothing.
+inline constexpr std::array<std::string_view, 8> k_quantity_roles{
+    "nominal", "setting", "reference", "indication", "measured_value", "error", "deviation", "correction"};
+/// Before and after an adjustment; "" where nothing was adjusted.
+inline constexpr std::array<std::string_view, 2> k_quantity_stages{"as_found", "as_left"};
+
+/// Columns of points that state limits, in the order lower, upper, maximum permissible error.
+inline constexpr std::array<std::string_view, 3> k_limit_columns{"limit_low", "limit_high", "mpe"};
+
+/// One column of a table of points: words or numbers that belong to the points, no results.
+struct PointColumn {
+    std::string name;       ///< as the job has it: "range", "V_s"
+    LocalisedText heading;  ///< empty: that of the role, else the name
+    std::string role;       ///< of k_quantity_roles, or ""
+    std::string stage;      ///< of k_quantity_stages, or ""
+    std::string unit;       ///< UDUNITS-2; "" where the column has words, or limits in the unit of a specification
+    std::string printed_unit;
+    std::vector<std::optional<double>> values;  ///< one a point, in `unit`; none: a word
+    std::vector<std::string> printed;           ///< one a point
+};
+
+/// One column that a table shows.
+struct ShownColumn {
+    /// "point", "column" (`of` is a PointColumn), or of the result `of`: "value", "U", "k", "nu_eff", "limit",
+    /// "limit_low", "limit_high", "verdict"
+    std::string show;
+    std::string of;
+    LocalisedText heading;  ///< empty: that of what is shown
+    std::string role, stage;
+};
+
+/// What a job wants of one table of the certificate.
+struct TableRequest {
+    /// Unit of numbers in one group of rows.
+    struct GroupUnit {
+        std::string group;  ///< word of the column `group_by`
+        std::string of;     ///< column or result; "": all of this kind of quantity
+        std::string unit;   ///< UDUNITS-2
+    };
+    /// Rows of the table: those that have this word in a column.
+    struct RowChoice {
+        std::string column, is;
+    };
+    LocalisedText title;   ///< empty: that of results
+    std::string group_by;  ///< column with words; "": one group
+    std::vector<RowChoice> where;
+    std::vector<GroupUnit> units;
+    std::vector<ShownColumn> columns;
+};
+
+/// The points of a job, what they have beside their results, and the tables that show them.
+struct PointTable {
+    std::vector<std::string> points;  ///< their names
+    std::vector<PointColumn> columns;
+    std::vector<TableRequest> tables;
+};
+
+/// How a certified table shows one group of points.
+struct TableLayout {
+    LocalisedText title;          ///< empty: that of results
+    LocalisedText group_heading;  ///< of the column that groups the rows; empty: none
+    std::string group_role;
+    std::string group;                 ///< what all rows have there
+    std::vector<PointColumn> columns;  ///< values of the rows, in the units of this group
+    std::vector<ShownColumn> shown;
+};
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,161 @@
+#include "certificate/point_limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace gumcert::certificate {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Two points in different ranges.
+PointTable points() {
+    PointTable table;
+    table.points = {"a", "b"};
+    table.columns = {{.name = "range",
+                      .heading = {},
+                      .role = "",
+                      .stage = "",
+                      .unit = "",
+                      .printed_unit = "",
+                      .values = {{}, {}},
+                      .printed = {"100 mV", "10 V"}},
+                     {.name = "V",
+                      .heading = {},
+                      .role = "",
+                      .stage = "",
+                      .unit = "V",
+                      .printed_unit = "V",
+                      .values = {0.05, -10.0},
+                      .printed = {"0.05", "-10"}},
+                     {.name = "mpe",
+                      .heading = {},
+                      .role = "",
+                      .stage = "",
+                      .unit = "",
+                      .printed_unit = "",
+                      .values = {0.2, {}},
+                      .printed = {"0.2", ""}},
+                     {.name = "limit_low",
+                      .heading = {},
+                      .role = "",
+                      .stage = "",
+                      .unit = "uV",
+                      .printed_unit = "µV",
+                      .values = {{}, -300.0},
+                      .printed = {"", "-300"}}};
+    return table;
+}
+
+AgreedSpecification specification(const std::string& by) {
+    AgreedSpecification s;
+    s.id = "s";
+    s.unit = "mV";
+    s.limits.emplace();
+    s.limits->by = by;
+    return s;
+}
+
+TEST(PointLimits, AreThoseOfTheSpecificationWithoutLimitsOfPoints) {
+    AgreedSpecification s;
+    s.lower = -1.0;
+    const PointTable table = points();
+    const LimitsAt limits = limits_at(s, lookup_at(table, 0));
+    EXPECT_EQ(limits.lower, -1.0);
+    EXPECT_FALSE(limits.upper);
+    EXPECT_EQ(limits.problem, "");
+}
+
+TEST(PointLimits, StandInColumns) {
+    const PointTable table = points();
+    AgreedSpecification s = specification("points");
+    const LimitsAt first = limits_at(s, lookup_at(table, 0));  // mpe in the unit of the specification
+    EXPECT_EQ(first.lower, -0.2);
+    EXPECT_EQ(first.upper, 0.2);
+    const LimitsAt second = limits_at(s, lookup_at(table, 1));  // -300 µV, one-sided
+    ASSERT_TRUE(second.lower);
+    EXPECT_NEAR(*second.lower, -0.3, 1e-15);
+    EXPECT_FALSE(second.upper);
+    s.limits->about = "V";
+    const LimitsAt about = limits_at(s, lookup_at(table, 0));
+    EXPECT_NEAR(*about.lower, 49.8, 1e-12);
+    EXPECT_NEAR(*about.upper, 50.2, 1e-12);
+}
+
+TEST(PointLimits, AreAnAccuracyByRange) {
+    const PointTable table = points();
+    AgreedSpecification s = specification("accuracy");
+    s.limits->of = "V";
+    s.limits->accuracy = {{.range = "100 mV",
+                           .unit = "mV",
+                           .percent_of_reading = 0.005,
+                           .percent_of_range = 0.0035,
+                           .full_scale = 100.0,
+                           .digits = {},
+                           .digit = {},
+                           .constant = {}},
+                          {.range = "10 V",
+                           .unit = "V",
+                           .percent_of_reading = 0.0035,
+                           .percent_of_range = {},
+                           .full_scale = {},
+                           .digits = 2.0,
+                           .digit = 1e-5,
+                           .constant = 1e-4}};
+    // 50 mV · 0.005 % + 100 mV · 0.0035 % = 0.0025 mV + 0.0035 mV
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 0)).upper, 0.006, 1e-15);
+    // 10 V · 0.0035 % + 2 · 10 µV + 100 µV = 0.35 mV + 0.02 mV + 0.1 mV
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 1)).upper, 0.47, 1e-14);
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 1)).lower, -0.47, 1e-14);
+    s.limits->accuracy.pop_back();
+    EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("not stated for the range \"10 V\""));
+    s.limits->accuracy.front().range.clear();
+    EXPECT_EQ(limits_at(s, lookup_at(table, 1)).problem, "");
+}
+
+TEST(PointLimits, AreStepsOfANominalValue) {
+    const PointTable table = points();
+    AgreedSpecification s = specification("steps");
+    s.limits->arguments = {{.name = "U", .unit = "V", .of = "V"}};
+    s.limits->steps = {{.up_to = 0.05, .mpe = 0.1}, {.up_to = 5.0, .mpe = 0.2}};
+    EXPECT_EQ(limits_at(s, lookup_at(table, 0)).upper, 0.1) << "the end of a step belongs to it";
+    EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("10 V is beyond the last step"));
+}
+
+TEST(PointLimits, AreAnExpression) {
+    const PointTable table = points();
+    AgreedSpecification s = specification("expression");
+    s.limits->arguments = {{.name = "U", .unit = "V", .of = "V"}};
+    s.limits->expression = "0.1 + 0.02*abs(U)";
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 1)).upper, 0.3, 1e-15);
+    s.limits->expression = "-1*abs(U)";
+    EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("no value above 0"));
+    s.limits->arguments.front().of = "W";
+    EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("\"W\""));
+}
+
+TEST(PointLimits, SayWhichColumnsTheyNeed) {
+    PointLimits limits;
+    limits.by = "accuracy";
+    limits.of = "V";
+    limits.about = "N";
+    limits.accuracy.emplace_back();
+    EXPECT_THAT(columns_of_limits(limits), ElementsAre("N", "V"));
+    limits.accuracy.front().range = "1 V";
+    EXPECT_THAT(columns_of_limits(limits), ElementsAre("N", "V", "range"));
+}
+
+TEST(PointLimits, FindNoNumberOfAnotherKind) {
+    const PointTable table = points();
+    const PointLookup lookup = lookup_at(table, 0);
+    EXPECT_FALSE(lookup.number("V", "mm", false));
+    EXPECT_FALSE(lookup.number("range", "V", false));
+    EXPECT_EQ(lookup.word("range"), "100 mV");
+    EXPECT_EQ(lookup.word("none"), "");
+}
+
+}  // namespace
+}  // namespace gumcert::certificate
