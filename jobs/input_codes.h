@@ -146,6 +146,11 @@ inline constexpr InputCode k_equation_text{"GC-INPUT-0332", "an equation that is
 inline constexpr InputCode k_empty_cell{"GC-INPUT-0340", "an empty cell in a table of points"};
 inline constexpr InputCode k_digits_lost{"GC-INPUT-0341",
                                          "a number with more digits than can be held beside its uncertainty"};
+inline constexpr InputCode k_point_column{"GC-INPUT-0360", "a column of points that cannot be declared so"};
+inline constexpr InputCode k_table_column{"GC-INPUT-0361", "a column that a table cannot show"};
+inline constexpr InputCode k_table_incomplete{"GC-INPUT-0362",
+                                              "tables that leave out points, or what belongs to a result"};
+inline constexpr InputCode k_point_without_limit{"GC-INPUT-0363", "a point without the limits of its specification"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -281,6 +286,10 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_equation_text,
                                           k_empty_cell,
                                           k_digits_lost,
+                                          k_point_column,
+                                          k_table_column,
+                                          k_table_incomplete,
+                                          k_point_without_limit,
                                           k_file_not_readable,
                                           k_warn_extra_column,
                                           k_warn_unused_station,

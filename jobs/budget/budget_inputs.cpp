@@ -26,6 +26,37 @@ using nlohmann::json;
 constexpr std::size_t k_most_points = 100'000;
 constexpr std::string_view k_point = "point";
 constexpr std::size_t k_most_named = 5;
+constexpr std::size_t k_most_columns = 100;
+
+/// Words that a table has for what belongs to a result.
+constexpr std::array<std::string_view, 6> k_reserved{k_point, "U", "k", "nu_eff", "limit", "verdict"};
+
+/// The keys of an input that state something of it.
+std::span<const std::string_view> statement_keys() {
+    static const std::vector<std::string_view> k_keys = [] {
+        std::vector<std::string_view> keys(keys_of<InputStatement>().begin(), keys_of<InputStatement>().end());
+        std::erase(keys, "role");
+        std::erase(keys, "stage");
+        return keys;
+    }();
+    return k_keys;
+}
+
+bool is_limit(std::string_view name) {
+    return std::find(certificate::k_limit_columns.begin(), certificate::k_limit_columns.end(), name) !=
+           certificate::k_limit_columns.end();
+}
+
+/// A number as it was written; the shortest text of one with an exponent.
+std::string plain_text(const std::string& written, double value) {
+    return written.find_first_not_of("0123456789.-") == std::string::npos ? written : text::shortest_plain(value);
+}
+
+/// Decimals of a number as it was written.
+int decimals_as_written(const std::string& plain) {
+    const std::size_t point = plain.find('.');
+    return point == std::string::npos ? 0 : static_cast<int>(plain.size() - point - 1);
+}
 
 std::string small_letters(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -40,6 +71,13 @@ double value_in_unit(const gum::BudgetInput& input) {
     }
     return sum;
 }
+
+/// Readings of one input in a row of a file of points.
+struct FileReadings {
+    std::vector<double> numbers;
+    std::size_t first = 0;  ///< column of the first of them
+    int decimals = 0;
+};
 
 double value_in_si(const gum::BudgetInput& input) {
     double sum = 0.0;
@@ -129,13 +167,18 @@ void BudgetInputs::read_input(const std::string& name, const std::string& pointe
     const JsonObject object(document_, pointer, keys_of<InputStatement>(), problems_);
     const auto unit = read_unit(object, "unit", problems_);
     symbols_are_whole_ = symbols_are_whole_ && unit && is_name;
+    const QuantityPart part{std::string(object.optional_choice<std::string_view>("role", k_role_words).value_or("")),
+                            std::string(object.optional_choice<std::string_view>("stage", k_stage_words).value_or(""))};
+    if (!part.role.empty() || !part.stage.empty()) {
+        parts_[name] = part;
+    }
     Stated stated;
     stated.name = name;
     stated.unit = unit.value_or(gum::Unit());
-    stated.keys.emplace(document_, pointer, keys_of<InputStatement>(), problems_);
+    stated.keys.emplace(document_, pointer, statement_keys(), problems_);
     if (has_points) {
         stated.pending = std::make_unique<ProblemList>(problems_.file());
-        stated.base = evaluate(stated, StatementKeys(document_, pointer, keys_of<InputStatement>(), *stated.pending));
+        stated.base = evaluate(stated, StatementKeys(document_, pointer, statement_keys(), *stated.pending));
     } else {
         stated.base = evaluate(stated, *stated.keys);
     }
@@ -441,15 +484,187 @@ void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
     if (points->is_array()) {
         read_point_array(*points, root.pointer("points"), job);
     } else if (points->is_object()) {
-        const auto object = root.optional_object("points", k_file_object_keys);
-        if (const auto name = object ? JobFiles::file_name(*object, "file", true) : std::nullopt) {
+        static constexpr std::array<std::string_view, 3> k_keys{"file", "list", "columns"};
+        const JsonObject object(document_, root.pointer("points"), k_keys, problems_);
+        read_columns(object, job);
+        if (object.has("list")) {
+            if (object.has("file")) {
+                object.refuse(k_two_statements, "list", "\"file\" and \"list\" are given together",
+                              "points stand in a file or in the job", "keep one of them");
+            } else if (const json* list = object.optional_array("list")) {
+                read_point_array(*list, object.pointer("list"), job);
+            }
+        } else if (const auto name = JobFiles::file_name(object, "file", true)) {
             read_point_file(*name, job);
         }
+        fill_columns(job.points.size(), job);
     } else {
         root.refuse(k_wrong_type, "points", described(*points), "must be an array or an object",
                     "give an array of points, or {\"file\": \"points.csv\"}");
     }
     finish_points(job);
+}
+
+void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
+    const json* columns = points.find("columns");
+    if (columns == nullptr) {
+        return;
+    }
+    if (!columns->is_object() || columns->size() > k_most_columns) {
+        points.refuse(k_wrong_type, "columns",
+                      columns->is_object() ? std::to_string(columns->size()) + " columns" : described(*columns),
+                      "must be an object of at most " + std::to_string(k_most_columns) + " columns",
+                      "write {\"range\": \"text\", \"nominal\": \"V\"}");
+        return;
+    }
+    for (const std::string& name : keys_in_order(document_, points.pointer("columns"))) {
+        const std::string at = child_pointer(points.pointer("columns"), name);
+        const std::string where = document_.where(at);
+        if (const auto objection = name_objection(name)) {
+            problems_.refuse(k_text_not_allowed, where, "the name of the column " + *objection,
+                             "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters",
+                             "correct the name");
+            continue;
+        }
+        if (std::find(k_reserved.begin(), k_reserved.end(), name) != k_reserved.end()) {
+            problems_.refuse(k_point_column, where, text::in_quotes(name) + " is declared as a column of points",
+                             "in tables this word stands for something else", "rename the column");
+            continue;
+        }
+        if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
+            problems_.refuse(k_point_column, where, text::in_quotes(name) + " is an input and a column of points",
+                             "a name stands for one quantity; the column of an input is not declared",
+                             "remove it, or rename one of the two");
+            continue;
+        }
+        const json& value = columns->at(name);
+        certificate::PointColumn column;
+        column.name = name;
+        std::optional<std::string> unit;
+        if (value.is_string()) {
+            if (value.get<std::string>() != "text") {
+                unit = value.get<std::string>();
+            }
+        } else if (value.is_object()) {
+            static constexpr std::array<std::string_view, 4> k_keys{"unit", "heading", "role", "stage"};
+            const JsonObject object(document_, at, k_keys, problems_);
+            unit = object.optional_string("unit");
+            column.role = object.optional_choice<std::string_view>("role", k_role_words).value_or("");
+            column.stage = object.optional_choice<std::string_view>("stage", k_stage_words).value_or("");
+            if (const json* heading = object.find("heading"); heading != nullptr && heading->is_object()) {
+                read_localised(*heading, column.heading, false, {&document_, object.pointer("heading"), &problems_});
+            } else {
+                column.heading = object.optional_name("heading").value_or("");
+            }
+        } else {
+            problems_.refuse(k_wrong_type, where, described(value), "must be \"text\", a unit or an object",
+                             "write \"text\" for words, or the unit of numbers");
+            continue;
+        }
+        if (unit) {
+            try {
+                column.unit = gum::Unit::parse(*unit).text();
+            } catch (const gum::DiagnosedError& error) {
+                refuse_as(error, where, problems_);
+                continue;
+            }
+            column.printed_unit = gum::unit_for_people(column.unit);
+        }
+        const auto role = std::find(certificate::k_quantity_roles.begin(), certificate::k_quantity_roles.end(), name);
+        if (column.role.empty() && role != certificate::k_quantity_roles.end()) {
+            column.role = name;
+        }
+        has_words_.push_back(!unit && !is_limit(name));
+        job.point_columns.push_back(std::move(column));
+    }
+}
+
+std::optional<std::size_t> BudgetInputs::information(const std::string& name, BudgetJob& job) {
+    for (std::size_t i = 0; i < job.point_columns.size(); ++i) {
+        if (job.point_columns[i].name == name) {
+            return i;
+        }
+    }
+    if (!is_limit(name) || of_name_.contains(name)) {
+        return std::nullopt;
+    }
+    certificate::PointColumn& column = job.point_columns.emplace_back();
+    column.name = name;
+    has_words_.push_back(false);
+    return job.point_columns.size() - 1;
+}
+
+void BudgetInputs::read_information(const FileColumn& column, const CsvTable& table, std::size_t row,
+                                    std::size_t position, ProblemList& problems, BudgetJob& job) {
+    certificate::PointColumn& into = job.point_columns[*column.information];
+    const CsvCell& cell = table.cell(row, position);
+    into.values.emplace_back();
+    into.printed.emplace_back();
+    if (cell.text.empty()) {
+        return;
+    }
+    if (!has_words_[*column.information]) {
+        into.values.back() = table.number(row, position, {});
+        if (into.values.back()) {
+            into.printed.back() = plain_text(table.number_text(row, position), *into.values.back());
+        }
+    } else if (const auto objection = name_objection(cell.text)) {
+        problems.refuse(k_text_not_allowed, table.where(cell),
+                        "the text in the column " + text::in_quotes(column.name) + " " + *objection,
+                        "a text has 1 to 256 bytes, no spaces around it and no control or hidden characters",
+                        "correct the text", "text " + column.name);
+    } else {
+        into.printed.back() = cell.text;
+    }
+}
+
+void BudgetInputs::read_information(std::size_t column, const json& value, const std::string& where, BudgetJob& job) {
+    certificate::PointColumn& into = job.point_columns[column];
+    fill_columns(job.points.size(), job);
+    into.values.emplace_back();
+    into.printed.emplace_back();
+    if (!has_words_[column]) {
+        if (value.is_number()) {
+            into.values.back() = value.get<double>();
+            into.printed.back() = text::shortest_plain(value.get<double>());
+            return;
+        }
+        problems_.refuse(k_wrong_type, where, described(value), "must be a number",
+                         "write the number without quotes and unit");
+        return;
+    }
+    const auto objection = value.is_string() ? name_objection(value.get<std::string>()) : std::nullopt;
+    if (!value.is_string() || objection) {
+        problems_.refuse(value.is_string() ? k_text_not_allowed : k_wrong_type, where,
+                         objection ? "the text " + *objection : described(value),
+                         "must be a text of 1 to 256 bytes without spaces around it and hidden characters",
+                         "write it in quotes");
+        return;
+    }
+    into.printed.back() = value.get<std::string>();
+}
+
+void BudgetInputs::fill_columns(std::size_t points, BudgetJob& job) {
+    for (certificate::PointColumn& column : job.point_columns) {
+        column.values.resize(points);
+        column.printed.resize(points);
+    }
+}
+
+void BudgetInputs::note_decimals(std::size_t input, std::size_t point, int decimals) {
+    constexpr int k_most_decimals = 15;
+    std::vector<int>& all = decimals_[input];
+    all.resize(point + 1, -1);
+    all[point] = std::min(decimals, k_most_decimals);
+}
+
+std::optional<int> BudgetInputs::decimals(const std::string& input, std::size_t point) const {
+    const auto index = of_name_.find(input);
+    const auto found = index == of_name_.end() ? decimals_.end() : decimals_.find(index->second);
+    if (found == decimals_.end() || point >= found->second.size() || found->second[point] < 0) {
+        return std::nullopt;
+    }
+    return found->second[point];
 }
 
 void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
@@ -578,16 +793,31 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 }
                 continue;
             }
+            if (const auto own = information(key, job)) {
+                read_information(*own, value, document_.where(at), job);
+                continue;
+            }
             const auto index = point_input(key, document_.where(at), job, problems_);
             if (!index) {
                 continue;
             }
             const StatementKeys& base = *stated_[*index].keys;
             if (value.is_number()) {
+                note_decimals(*index, job.points.size(),
+                              decimals_as_written(text::shortest_plain(value.get<double>())));
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
                 ++stated_[*index].overridden["value"];
             } else if (value.is_object()) {
                 const JsonObject object(document_, at, keys_of<OverrideStatement>(), problems_);
+                if (const json* readings = object.find("observations"); readings != nullptr && readings->is_array()) {
+                    int most = 0;
+                    for (const json& reading : *readings) {
+                        most = std::max(most, reading.is_number()
+                                                  ? decimals_as_written(text::shortest_plain(reading.get<double>()))
+                                                  : 0);
+                    }
+                    note_decimals(*index, job.points.size(), most + (readings->size() > 1 ? 1 : 0));
+                }
                 const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
                 overrides.emplace(*index, base.with(own));
                 for (const std::string_view own_key : own.present()) {
@@ -602,6 +832,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
         name_point(point, name, document_.where(here), job, problems_);
         read_point(point, overrides, told, job);
         job.points.push_back(std::move(point));
+        fill_columns(job.points.size(), job);
     }
 }
 
@@ -610,12 +841,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
     if (!file) {
         return;
     }
-    struct Column {
-        std::string name;
-        std::optional<std::size_t> input;
-        std::string_view key;
-    };
-    std::vector<Column> columns;
+    std::vector<FileColumn> columns;
     std::vector<std::string> seen;
     std::optional<std::size_t> name_column;
     const std::span<const std::string_view> keys = budget_column_keys();
@@ -627,11 +853,23 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         seen.push_back(field.name);
         if (field.name == k_point) {
             name_column = columns.size();
-            columns.push_back({field.name, std::nullopt, {}});
+            columns.push_back({.name = field.name});
+            continue;
+        }
+        if (const auto own = information(field.name, job)) {
+            columns.push_back({.name = field.name, .information = own});
             continue;
         }
         const std::string where = text::where_in_text(name, field.place);
         const std::size_t dot = field.name.rfind('.');
+        const bool is_reading = dot != std::string::npos && dot + 1 < field.name.size() &&
+                                field.name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+        if (is_reading) {
+            const auto index = point_input(field.name.substr(0, dot), where, job, *file->problems);
+            is_known = is_known && index;
+            columns.push_back({.name = field.name, .input = index, .key = "observations", .is_reading = true});
+            continue;
+        }
         const std::string_view key =
             dot == std::string::npos ? std::string_view{"value"} : std::string_view{field.name}.substr(dot + 1);
         const auto known = std::find(keys.begin(), keys.end(), key);
@@ -647,10 +885,10 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             is_known = false;
             continue;
         }
-        columns.push_back({field.name, index, *known});
+        columns.push_back({.name = field.name, .input = index, .key = *known});
     }
     std::vector<std::string_view> wanted;
-    for (const Column& column : columns) {
+    for (const FileColumn& column : columns) {
         wanted.emplace_back(column.name);
     }
     const auto table = read_csv_table(std::move(file->bytes), wanted, {}, *file->problems, {.rows = k_most_points});
@@ -662,8 +900,13 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         std::optional<std::string> point_name;
         std::map<std::size_t, StatementKeys> overrides;
         std::set<std::size_t> told;
+        std::map<std::size_t, FileReadings> readings;
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            const Column& column = columns[c];
+            const FileColumn& column = columns[c];
+            if (column.information) {
+                read_information(column, *table, row, c, *file->problems, job);
+                continue;
+            }
             if (!column.input) {
                 const auto text = table->name(row, c);
                 point_name = text ? std::optional{std::string{*text}} : std::nullopt;
@@ -680,6 +923,17 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             if (const auto number = table->number(row, c, {})) {
+                const int decimals = decimals_as_written(plain_text(table->number_text(row, c), *number));
+                if (column.is_reading) {
+                    FileReadings& of_input = readings[*column.input];
+                    of_input.first = of_input.numbers.empty() ? c : of_input.first;
+                    of_input.numbers.push_back(*number);
+                    of_input.decimals = std::max(of_input.decimals, decimals);
+                    continue;
+                }
+                if (column.key == "value") {
+                    note_decimals(*column.input, job.points.size(), decimals);
+                }
                 const auto found = overrides.find(*column.input);
                 const StatementKeys& before = found == overrides.end() ? *stated_[*column.input].keys : found->second;
                 overrides.insert_or_assign(
@@ -688,6 +942,15 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             } else {
                 told.insert(*column.input);
             }
+        }
+        for (const auto& [input, read] : readings) {
+            const auto found = overrides.find(input);
+            const StatementKeys& before = found == overrides.end() ? *stated_[input].keys : found->second;
+            const FileColumn& column = columns[read.first];
+            overrides.insert_or_assign(input, before.with("observations", read.numbers, *table,
+                                                          table->cell(row, read.first), *file->problems, column.name));
+            ++stated_[input].overridden["observations"];
+            note_decimals(input, job.points.size(), read.decimals + (read.numbers.size() > 1 ? 1 : 0));
         }
         if (!columns.empty()) {
             const std::string where = table->where(table->cell(row, name_column.value_or(0)));

@@ -38,10 +38,16 @@ public:
     [[nodiscard]] const std::map<std::string, certificate::LocalisedText>& descriptions() const {
         return descriptions_;
     }
+    /// Decimals with which a point states the value of an input, or one more where it is a mean of several readings;
+    /// nothing where the point does not state it by numbers of its own.
+    [[nodiscard]] std::optional<int> decimals(const std::string& input, std::size_t point) const;
     /// Names and units of all inputs, for the equations.
     [[nodiscard]] std::vector<gum::InputSymbol> symbols() const;
     /// True when the specification of another input refers to it.
     [[nodiscard]] bool is_read_by_specification(const std::string& name) const;
+
+    /// What the inputs are to the reader of a certificate, by their names.
+    [[nodiscard]] const std::map<std::string, QuantityPart>& parts() const { return parts_; }
 
     /// Reads the key `points`. The inputs of the job must be in it already, with correlations and fits.
     void read_points(const JsonObject& root, BudgetJob& job);
@@ -82,6 +88,23 @@ private:
     /// What the points leave open, and what of the job they leave unused.
     void finish_points(BudgetJob& job);
 
+    /// One column of a file of points.
+    struct FileColumn {
+        std::string name;
+        std::optional<std::size_t> input = {};
+        std::string_view key = {};
+        std::optional<std::size_t> information = {};  ///< in BudgetJob::point_columns
+        bool is_reading = false;
+    };
+    void read_columns(const JsonObject& points, BudgetJob& job);
+    [[nodiscard]] std::optional<std::size_t> information(const std::string& name, BudgetJob& job);
+    void read_information(const FileColumn& column, const CsvTable& table, std::size_t row, std::size_t position,
+                          ProblemList& problems, BudgetJob& job);
+    void read_information(std::size_t column, const nlohmann::json& value, const std::string& where, BudgetJob& job);
+    /// Every column has a value for each of the first `points`.
+    static void fill_columns(std::size_t points, BudgetJob& job);
+    void note_decimals(std::size_t input, std::size_t point, int decimals);
+
     void read_point_array(const nlohmann::json& points, const std::string& pointer, BudgetJob& job);
     void read_point_file(const std::string& name, BudgetJob& job);
     /// \param told  inputs that were refused at this point already
@@ -103,6 +126,9 @@ private:
     std::vector<std::vector<std::size_t>> readers_;  ///< inputs whose specification refers to one, in stated_
     std::map<std::string, std::string> point_names_;
     std::map<std::string, certificate::LocalisedText> descriptions_;
+    std::map<std::string, QuantityPart> parts_;
+    std::vector<bool> has_words_;                       ///< columns of points that are declared, as in the job
+    std::map<std::size_t, std::vector<int>> decimals_;  ///< of stated_: one a point, -1 where not stated
     bool symbols_are_whole_ = true;
 };
 

@@ -12,6 +12,7 @@
 #include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_statement.h"
+#include "jobs/budget/budget_tables.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/job_files.h"
@@ -69,6 +70,7 @@ private:
         read_outputs(*root);
         inputs.read_points(*root, job_);
         job_.input_descriptions = inputs.descriptions();
+        job_.input_parts = inputs.parts();
         double p = job_.coverage_probability;
         for (const gum::BudgetOutput& output : job_.outputs) {
             p = std::max(p, output.coverage_probability.value_or(p));
@@ -76,6 +78,7 @@ private:
         job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
         check_model(*root, inputs);
         job_.certificate = read_certificate(files_, *document_, *problems_);
+        read_tables(*root, *document_, inputs, job_, *problems_);
     }
 
     bool is_budget() {
@@ -208,6 +211,9 @@ private:
                 JobReader(object).read(probability);
                 output.coverage_probability = probability.coverage_probability;
                 output.coverage = probability.coverage;
+                if (!probability.role.empty() || !probability.stage.empty()) {
+                    job_.output_parts[name] = {std::string(probability.role), std::string(probability.stage)};
+                }
                 if (object.has("unit")) {
                     output.unit = read_unit(object, "unit", *problems_);
                     model_is_whole_ = model_is_whole_ && output.unit;

@@ -10,6 +10,7 @@
 
 #include "certificate/certificate_data.h"
 #include "certificate/localised_text.h"
+#include "certificate/point_tables.h"
 #include "gum/budget/budget.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
@@ -17,9 +18,20 @@
 
 namespace gumcert::jobs {
 
+/// What a quantity is to the reader of a certificate (certificate/point_tables.h); "" says nothing.
+struct QuantityPart {
+    std::string role, stage;
+};
+
 /// A job of kind `budget`: the budget, and the job as it was read.
 struct BudgetJob : gum::Budget {
     std::string title;
+    std::map<std::string, QuantityPart> input_parts, output_parts;  ///< by their names; those that state one
+    /// What points have beside their inputs, and then the inputs that tables and limits name.
+    std::vector<certificate::PointColumn> point_columns;
+    std::vector<certificate::TableRequest> tables;
+    /// Units of results by their names, where a table shows a point in others; one a point, or empty.
+    std::vector<std::map<std::string, gum::Unit>> point_units;
     /// What inputs and outputs are, by their names: "length of the standard"; those without are not here.
     std::map<std::string, certificate::LocalisedText> input_descriptions, output_descriptions;
     nlohmann::json document;

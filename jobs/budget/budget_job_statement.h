@@ -23,7 +23,11 @@ struct UnknownStatement {
 struct OutputStatement {
     std::optional<double> coverage_probability;
     std::optional<gum::CoverageChoice> coverage;
+    std::string_view role, stage;
 };
+
+/// One table of results as the job wants it; read by jobs/budget/budget_tables.h.
+struct TableStatement {};
 
 struct BudgetStatement {
     BudgetJob job;
@@ -32,6 +36,7 @@ struct BudgetStatement {
     std::vector<FitStatement> fits;
     std::vector<UnknownStatement> solve_for;
     std::vector<OutputStatement> outputs;
+    std::vector<TableStatement> tables;
     MonteCarloStatement monte_carlo;
 };
 
@@ -49,6 +54,28 @@ void describe(Archive& a, OutputStatement& r) {
     a("coverage", r.coverage, gum::k_coverage_choices, "Which evaluation of this result is reported.");
     a.by_hand("description", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
               "What the quantity is.");
+    a("role", r.role, k_role_words, "What tables of results call it.");
+    a("stage", r.stage, k_stage_words, "Of an item that was adjusted.");
+}
+
+template <class Archive>
+void describe(Archive& a, TableStatement&) {
+    a.by_hand("title", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
+              "Of the table; Results when left out.");
+    a.by_hand(
+        "columns", R"({"type": "array", "minItems": 1, "maxItems": 40, "items": {"anyOf": [
+        {"$ref": "#/definitions/name"},
+        {"type": "object", "required": ["column"], "additionalProperties": false, "properties": {
+            "column": {"$ref": "#/definitions/name"}, "heading": {"$ref": "#/definitions/description"}}}]}})",
+        "1 to 40 names, or objects of a `column` and its `heading`",
+        "Columns of points, inputs, results, roles, and point, U, k, nu_eff, limit, limit_low, limit_high, verdict "
+        "of the result before them; when left out: what has a role, and what belongs to the results.");
+    a.by_code("group_by", Line{}, "A column with words: a group of rows with a heading for each; range when left out.");
+    a.by_code("where", ByName{Line{}}, "Rows of the table: those that have these words in these columns.");
+    a.by_hand("units", R"({"type": "object", "additionalProperties": {"anyOf": [{"$ref": "#/definitions/name"},
+        {"type": "object", "additionalProperties": {"$ref": "#/definitions/name"}}]}})",
+              "a unit for each group, or an object of columns and their units",
+              "Units of the numbers of a group of rows.");
 }
 
 template <class Archive>
@@ -75,11 +102,21 @@ void describe(Archive& a, BudgetStatement& r) {
         {"type": "array", "minItems": 1, "maxItems": 100000, "items": {
             "type": "object", "properties": {"point": {"type": ["string", "number"]}},
             "additionalProperties": {"anyOf": [{"type": "number"}, {"$ref": "#/definitions/budget_override"}]}}},
-        {"$ref": "#/definitions/file_object"}]})",
+        {"type": "object", "additionalProperties": false, "properties": {
+            "file": {"$ref": "#/definitions/file_name"},
+            "list": {"type": "array", "minItems": 1, "maxItems": 100000, "items": {"type": "object"}},
+            "columns": {"type": "object", "additionalProperties": {"anyOf": [{"$ref": "#/definitions/name"},
+                {"type": "object", "additionalProperties": false, "properties": {
+                    "unit": {"$ref": "#/definitions/name"},
+                    "heading": {"$ref": "#/definitions/description"},
+                    "role": {"enum": ["nominal", "setting", "reference", "indication", "measured_value", "error",
+                                      "deviation", "correction"]},
+                    "stage": {"enum": ["as_found", "as_left"]}}}]}}}}]})",
         "1 to 100000 objects of numbers and of [budget_override](#budget_override); or an object with the name of "
-        "a `file`",
+        "a `file` or such a `list`, and `columns` of points that are no inputs",
         "A table of test points: under the names of inputs their values, or whatever differs; point is the name "
         "of the point.");
+    a.list("tables", r.tables, "Tables of results; one with all points when left out.", {.least = 1, .most = 100});
     a.named("fits", r.fits, "Least-squares fits whose parameters are used like inputs.");
     a.part("reporting", r.job, "How numbers are reported.", [](auto& in, BudgetJob& job) {
         constexpr Words<bool, 2> k_degrees{{{"exact", false}, {"truncated", true}}};

@@ -28,4 +28,13 @@ std::vector<std::pair<std::string, gum::Unit>> budget_results(const gum::Budget&
     return results;
 }
 
+const gum::Unit& result_unit(const BudgetJob& job, std::size_t point, const std::string& result,
+                             const gum::Unit& unit) {
+    if (point >= job.point_units.size()) {
+        return unit;
+    }
+    const auto own = job.point_units[point].find(result);
+    return own == job.point_units[point].end() ? unit : own->second;
+}
+
 }  // namespace gumcert::jobs

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certificate/point_tables.h"
 #include "gum/quantity/distribution.h"
 #include "jobs/job_common_fields.h"
 #include "jobs/job_fields.h"
@@ -215,6 +216,18 @@ void describe(Archive& a, OverrideStatement&) {
     a.list("components", components, "Statements whose sum the input is.", {.least = 1, .most = k_most_components});
 }
 
+/// Words of certificate/point_tables.h as a choice.
+template <std::size_t n>
+constexpr Words<std::string_view, n> words_of_quantities(const std::array<std::string_view, n>& all) {
+    Words<std::string_view, n> words{};
+    for (std::size_t i = 0; i < n; ++i) {
+        words[i] = {all[i], all[i]};
+    }
+    return words;
+}
+inline constexpr auto k_role_words = words_of_quantities(certificate::k_quantity_roles);
+inline constexpr auto k_stage_words = words_of_quantities(certificate::k_quantity_stages);
+
 template <class Archive>
 void describe(Archive& a, InputStatement&) {
     OverrideStatement statement;
@@ -223,6 +236,8 @@ void describe(Archive& a, InputStatement&) {
     describe_unit(a);
     a.by_hand("description", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
               "What the quantity is.");
+    a.by_code("role", k_role_words, "What tables of results call it.");
+    a.by_code("stage", k_stage_words, "Of an item that was adjusted.");
 }
 
 template <class Archive>

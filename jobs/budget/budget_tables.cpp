@@ -1,0 +1,725 @@
+#include "jobs/budget/budget_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "certificate/point_limits.h"
+#include "certificate/result_names.h"
+#include "gum/rounding.h"
+#include "jobs/budget/budget_fit_statement.h"
+#include "jobs/budget/budget_job_statement.h"
+#include "jobs/budget/budget_results.h"
+#include "jobs/certificate/certificate_archive.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
+
+namespace gumcert::jobs {
+
+namespace {
+
+using certificate::PointColumn;
+using certificate::ShownColumn;
+using certificate::TableRequest;
+using gum::Unit;
+using nlohmann::json;
+
+constexpr std::size_t k_most_tables = 100;
+constexpr std::size_t k_most_shown = 40;
+constexpr std::string_view k_range = "range";
+constexpr std::array<std::string_view, 7> k_of_results{"U",         "k",          "nu_eff", "limit",
+                                                       "limit_low", "limit_high", "verdict"};
+
+bool is_of_result(std::string_view word) {
+    return std::find(k_of_results.begin(), k_of_results.end(), word) != k_of_results.end();
+}
+
+class TableReader {
+public:
+    TableReader(const JsonDocument& document, const BudgetInputs& inputs, BudgetJob& job, ProblemList& problems)
+        : document_(document), inputs_(inputs), job_(job), problems_(problems), results_(budget_results(job)) {}
+
+    void read(const JsonObject& root) {
+        if (const json* list = root.find("tables")) {
+            read_list(*list, root.pointer("tables"));
+        } else if (wants_table()) {
+            add_default(TableRequest(), document_.where("/points"));
+        }
+        if (problems_.refusals() == 0) {
+            add_inputs();
+            check_limits();
+            check_points();
+            set_units();
+        }
+    }
+
+private:
+    const JsonDocument& document_;
+    const BudgetInputs& inputs_;
+    BudgetJob& job_;
+    ProblemList& problems_;
+    std::vector<std::pair<std::string, Unit>> results_;
+
+    /// Columns that state something for people, not limits alone.
+    [[nodiscard]] bool wants_table() const {
+        return !job_.points.empty() &&
+               (!job_.point_columns.empty() || !job_.input_parts.empty() || !job_.output_parts.empty());
+    }
+
+    // ---- names ------------------------------------------------------------------------------------------------------
+
+    [[nodiscard]] const PointColumn* column(std::string_view name) const {
+        const auto found = std::find_if(job_.point_columns.begin(), job_.point_columns.end(),
+                                        [&](const PointColumn& c) { return c.name == name; });
+        return found == job_.point_columns.end() ? nullptr : &*found;
+    }
+    [[nodiscard]] std::optional<std::size_t> input(std::string_view name) const {
+        for (std::size_t i = 0; i < job_.inputs.size(); ++i) {
+            if (job_.inputs[i].name == name) {
+                return i;
+            }
+        }
+        return std::nullopt;
+    }
+    [[nodiscard]] const Unit* result(std::string_view name) const {
+        const auto found =
+            std::find_if(results_.begin(), results_.end(), [&](const auto& known) { return known.first == name; });
+        return found == results_.end() ? nullptr : &found->second;
+    }
+    [[nodiscard]] QuantityPart part_of_result(const std::string& name) const {
+        const auto found = job_.output_parts.find(name);
+        return found == job_.output_parts.end() ? QuantityPart() : found->second;
+    }
+
+    /// What has a role: columns of points, inputs, results.
+    [[nodiscard]] std::vector<std::string> with_role(std::string_view role) const {
+        std::vector<std::string> names;
+        for (const PointColumn& c : job_.point_columns) {
+            if (c.role == role) {
+                names.push_back(c.name);
+            }
+        }
+        for (const gum::BudgetInput& i : job_.inputs) {
+            if (const auto part = job_.input_parts.find(i.name);
+                part != job_.input_parts.end() && part->second.role == role) {
+                names.push_back(i.name);
+            }
+        }
+        for (const auto& [name, unit] : results_) {
+            if (part_of_result(name).role == role) {
+                names.push_back(name);
+            }
+        }
+        return names;
+    }
+
+    [[nodiscard]] std::vector<std::string> known_names() const {
+        std::vector<std::string> names;
+        for (const PointColumn& c : job_.point_columns) {
+            names.push_back(c.name);
+        }
+        for (const auto& [name, unit] : results_) {
+            names.push_back(name);
+        }
+        for (const gum::BudgetInput& i : job_.inputs) {
+            names.push_back(i.name);
+        }
+        return names;
+    }
+
+    void refuse_name(const std::string& name, const std::string& where) const {
+        const std::vector<std::string> names = known_names();
+        std::vector<std::string_view> known(names.begin(), names.end());
+        known.insert(known.end(), k_of_results.begin(), k_of_results.end());
+        known.insert(known.end(), certificate::k_quantity_roles.begin(), certificate::k_quantity_roles.end());
+        const auto nearest = nearest_word(name, known);
+        problems_.refuse(
+            k_table_column, where, text::in_quotes(name) + " is nothing that the points of this job have",
+            "a table shows columns of points, inputs, results, what has a role (\"reference\", \"error\" …), "
+            "and point, U, k, nu_eff, limit, limit_low, limit_high, verdict",
+            nearest ? "did you mean " + text::in_quotes(*nearest) + "?"
+                    : "correct the name, or declare it in the columns of points");
+    }
+
+    /// A column of points, an input or a result as a table shows it.
+    [[nodiscard]] std::optional<ShownColumn> shown(const std::string& name) const {
+        if (const PointColumn* const c = column(name)) {
+            return ShownColumn{.show = "column", .of = name, .heading = {}, .role = c->role, .stage = c->stage};
+        }
+        if (result(name) != nullptr) {
+            const QuantityPart part = part_of_result(name);
+            const auto described = job_.output_descriptions.find(name);
+            return ShownColumn{.show = "value",
+                               .of = name,
+                               .heading = part.role.empty() && described != job_.output_descriptions.end()
+                                              ? described->second
+                                              : certificate::LocalisedText(),
+                               .role = part.role,
+                               .stage = part.stage};
+        }
+        if (input(name)) {
+            const auto part = job_.input_parts.find(name);
+            return ShownColumn{.show = "column",
+                               .of = name,
+                               .heading = {},
+                               .role = part == job_.input_parts.end() ? "" : part->second.role,
+                               .stage = part == job_.input_parts.end() ? "" : part->second.stage};
+        }
+        return std::nullopt;
+    }
+
+    // ---- what the job says ------------------------------------------------------------------------------------------
+
+    void read_list(const json& list, const std::string& pointer) {
+        if (!list.is_array() || list.empty() || list.size() > k_most_tables) {
+            problems_.refuse(list.is_array() ? k_wrong_size : k_wrong_type, document_.where(pointer),
+                             list.is_array() ? std::to_string(list.size()) + " tables" : described(list),
+                             "must be an array of 1 to " + std::to_string(k_most_tables) + " tables",
+                             "write [{\"columns\": [\"reference\", \"indication\", \"error\", \"U\"]}]");
+            return;
+        }
+        if (job_.points.empty() && document_.value.contains("points")) {
+            return;  // the table of points was refused
+        }
+        if (job_.points.empty()) {
+            problems_.refuse(k_table_column, document_.where(pointer), "tables in a job without points",
+                             "a table shows the points of a job", "state the points, or remove the tables");
+            return;
+        }
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::string here = child_pointer(pointer, i);
+            if (!list[i].is_object()) {
+                problems_.refuse(k_wrong_type, document_.where(here), described(list[i]), "must be an object",
+                                 "write {\"columns\": [\"reference\", \"indication\", \"error\", \"U\"]}");
+                continue;
+            }
+            read_table(JsonObject(document_, here, jobs::keys_of<TableStatement>(), problems_));
+        }
+    }
+
+    void read_table(const JsonObject& object) {
+        TableRequest table;
+        if (object.has("title")) {
+            read_text(*object.find("title"), object.pointer("title"), table.title);
+        }
+        if (const auto name = object.optional_name("group_by")) {
+            table.group_by = *name;
+            const PointColumn* const c = column(*name);
+            if (c == nullptr || !has_words(*c)) {
+                object.refuse(k_table_column, "group_by", text::in_quotes(*name) + " is no column of points with words",
+                              "rows are grouped by what the points have in common in a column of words",
+                              "declare it in the columns of points as \"text\"");
+            }
+        }
+        read_where(object, table);
+        read_units(object, table);
+        const json* columns = object.find("columns");
+        if (columns == nullptr) {
+            add_default(std::move(table), object.where());
+            return;
+        }
+        if (!columns->is_array() || columns->empty() || columns->size() > k_most_shown) {
+            object.refuse(columns->is_array() ? k_wrong_size : k_wrong_type, "columns",
+                          columns->is_array() ? std::to_string(columns->size()) + " columns" : described(*columns),
+                          "must be an array of 1 to " + std::to_string(k_most_shown) + " columns",
+                          "name what the table shows");
+            return;
+        }
+        read_columns(*columns, object.pointer("columns"), table);
+        finish(std::move(table), object.where());
+    }
+
+    void read_text(const json& value, const std::string& pointer, certificate::LocalisedText& text) {
+        if (value.is_object() || value.is_string()) {
+            read_localised(value, text, false, {&document_, pointer, &problems_});
+        } else {
+            problems_.refuse(k_wrong_type, document_.where(pointer), described(value),
+                             "must be a text, or an object with one in each language", "write a text in quotes");
+        }
+    }
+
+    [[nodiscard]] static bool has_words(const PointColumn& c) {
+        return c.unit.empty() &&
+               std::none_of(c.values.begin(), c.values.end(), [](const auto& v) { return v.has_value(); });
+    }
+
+    void read_where(const JsonObject& object, TableRequest& table) {
+        const json* where = object.find("where");
+        if (where == nullptr) {
+            return;
+        }
+        if (!where->is_object()) {
+            object.refuse(k_wrong_type, "where", described(*where), "must be an object",
+                          "write {\"function\": \"DC voltage\"}");
+            return;
+        }
+        for (const std::string& name : keys_in_order(document_, object.pointer("where"))) {
+            const std::string at = child_pointer(object.pointer("where"), name);
+            const json& word = where->at(name);
+            const PointColumn* const c = column(name);
+            if (!word.is_string()) {
+                problems_.refuse(k_wrong_type, document_.where(at), described(word), "must be a text",
+                                 "write the word that the rows have there");
+            } else if (c == nullptr || !has_words(*c)) {
+                problems_.refuse(k_table_column, document_.where(at),
+                                 text::in_quotes(name) + " is no column of points with words",
+                                 "rows are chosen by what the points have in a column of words",
+                                 "declare it in the columns of points as \"text\"");
+            } else {
+                table.where.push_back({name, word.get<std::string>()});
+            }
+        }
+    }
+
+    void read_units(const JsonObject& object, TableRequest& table) {
+        const json* units = object.find("units");
+        if (units == nullptr) {
+            return;
+        }
+        if (!units->is_object()) {
+            object.refuse(k_wrong_type, "units", described(*units), "must be an object", "write {\"100 mV\": \"mV\"}");
+            return;
+        }
+        for (const std::string& group : keys_in_order(document_, object.pointer("units"))) {
+            const std::string at = child_pointer(object.pointer("units"), group);
+            const json& value = units->at(group);
+            if (!value.is_object()) {
+                add_unit(table, group, "", value, at);
+                continue;
+            }
+            for (const std::string& name : keys_in_order(document_, at)) {
+                const std::string here = child_pointer(at, name);
+                if (!shown(name)) {
+                    refuse_name(name, document_.where(here));
+                    continue;
+                }
+                add_unit(table, group, name, value.at(name), here);
+            }
+        }
+    }
+
+    void add_unit(TableRequest& table, const std::string& group, const std::string& of, const json& value,
+                  const std::string& pointer) {
+        if (!value.is_string()) {
+            problems_.refuse(k_wrong_type, document_.where(pointer), described(value), "must be a unit",
+                             "write a unit in quotes, such as \"mV\"");
+            return;
+        }
+        try {
+            table.units.push_back({group, of, Unit::parse(value.get<std::string>()).text()});
+        } catch (const gum::DiagnosedError& error) {
+            refuse_as(error, document_.where(pointer), problems_);
+        }
+    }
+
+    void read_columns(const json& columns, const std::string& pointer, TableRequest& table) {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            const std::string at = child_pointer(pointer, i);
+            const json& entry = columns[i];
+            certificate::LocalisedText heading;
+            std::string name;
+            if (entry.is_string()) {
+                name = entry.get<std::string>();
+            } else if (entry.is_object()) {
+                static constexpr std::array<std::string_view, 2> k_keys{"column", "heading"};
+                const JsonObject object(document_, at, k_keys, problems_);
+                name = object.required_name("column").value_or("");
+                if (object.has("heading")) {
+                    read_text(*object.find("heading"), object.pointer("heading"), heading);
+                }
+                if (name.empty()) {
+                    continue;
+                }
+            } else {
+                problems_.refuse(k_wrong_type, document_.where(at), described(entry), "must be a name or an object",
+                                 "name a column");
+                continue;
+            }
+            add_column(name, heading, document_.where(at), table);
+        }
+        // What belongs to a result and stands before all of them belongs to the first.
+        const auto first = std::find_if(table.columns.begin(), table.columns.end(),
+                                        [](const ShownColumn& c) { return c.show == "value"; });
+        for (ShownColumn& c : table.columns) {
+            if (is_of_result(c.show) && c.of.empty() && first != table.columns.end()) {
+                c.of = first->of;
+                c.stage = first->stage;
+            }
+        }
+    }
+
+    void add_column(const std::string& name, const certificate::LocalisedText& heading, const std::string& where,
+                    TableRequest& table) {
+        if (name == "point" || is_of_result(name)) {
+            ShownColumn entry{.show = name, .of = "", .heading = heading, .role = "", .stage = ""};
+            for (const ShownColumn& c : table.columns) {
+                if (c.show == "value" && name != "point") {
+                    entry.of = c.of;
+                    entry.stage = c.stage;
+                }
+            }
+            table.columns.push_back(std::move(entry));
+            return;
+        }
+        std::optional<ShownColumn> entry = shown(name);
+        if (!entry) {
+            const std::vector<std::string> meant = with_role(name);
+            if (meant.size() > 1) {
+                problems_.refuse(k_table_column, where,
+                                 text::in_quotes(name) + " is the role of " + text::listed(quoted(meant), 5),
+                                 "a role in a table stands for one quantity", "name the quantity");
+                return;
+            }
+            entry = meant.empty() ? std::nullopt : shown(meant.front());
+        }
+        if (!entry) {
+            refuse_name(name, where);
+            return;
+        }
+        if (!heading.empty()) {
+            entry->heading = heading;
+        }
+        table.columns.push_back(std::move(*entry));
+    }
+
+    [[nodiscard]] static std::vector<std::string> quoted(const std::vector<std::string>& names) {
+        std::vector<std::string> all;
+        for (const std::string& name : names) {
+            all.push_back(text::in_quotes(name));
+        }
+        return all;
+    }
+
+    // ---- what is left out -------------------------------------------------------------------------------------------
+
+    [[nodiscard]] bool is_decided(const std::string& name) const {
+        return job_.certificate &&
+               std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(),
+                           [&](const auto& s) { return certificate::is_named(s.results, name); });
+    }
+
+    void group_by_range(TableRequest& table) const {
+        const PointColumn* const range = column(k_range);
+        if (table.group_by.empty() && range != nullptr && has_words(*range)) {
+            table.group_by = range->name;
+        }
+    }
+
+    /// Columns of points, what has a role, and then each result with U, limit and verdict; before an adjustment first.
+    void add_default(TableRequest table, const std::string& where) {
+        group_by_range(table);
+        const auto is_limit = [](const std::string& name) {
+            return std::find(certificate::k_limit_columns.begin(), certificate::k_limit_columns.end(), name) !=
+                   certificate::k_limit_columns.end();
+        };
+        const auto is_choice = [&](const std::string& name) {
+            return std::any_of(table.where.begin(), table.where.end(), [&](const auto& w) { return w.column == name; });
+        };
+        for (const std::string_view stage :
+             {std::string_view(), certificate::k_quantity_stages[0], certificate::k_quantity_stages[1]}) {
+            const auto add = [&](const std::string& name) {
+                const std::optional<ShownColumn> entry = shown(name);
+                if (entry && entry->stage == stage &&
+                    std::none_of(table.columns.begin(), table.columns.end(),
+                                 [&](const auto& c) { return c.of == name; })) {
+                    table.columns.push_back(*entry);
+                }
+            };
+            for (const PointColumn& c : job_.point_columns) {
+                if (!is_limit(c.name) && !is_choice(c.name) && c.name != table.group_by && has_words(c)) {
+                    add(c.name);
+                }
+            }
+            for (const std::string_view role : certificate::k_quantity_roles) {
+                for (const std::string& name : with_role(role)) {
+                    if (result(name) == nullptr) {
+                        add(name);
+                    }
+                }
+            }
+            for (const PointColumn& c : job_.point_columns) {
+                if (!is_limit(c.name) && !has_words(c)) {
+                    add(c.name);
+                }
+            }
+            for (const auto& [name, unit] : results_) {
+                if (part_of_result(name).stage != stage) {
+                    continue;
+                }
+                add(name);
+                const auto of_result = [&](const char* show) {
+                    table.columns.push_back(
+                        {.show = show, .of = name, .heading = {}, .role = "", .stage = std::string(stage)});
+                };
+                of_result("U");
+                if (is_decided(name)) {
+                    of_result("limit");
+                    of_result("verdict");
+                }
+            }
+        }
+        const bool shows_points =
+            std::any_of(table.columns.begin(), table.columns.end(), [](const auto& c) { return c.show == "column"; });
+        if (!shows_points) {
+            table.columns.insert(table.columns.begin(),
+                                 {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+        }
+        finish(std::move(table), where);
+    }
+
+    void finish(TableRequest table, const std::string& where) {
+        group_by_range(table);
+        std::erase_if(table.columns, [&](const ShownColumn& c) {
+            return c.of == table.group_by && c.show == "column" && !c.of.empty();
+        });
+        std::set<std::string> values, uncertainties;
+        for (const ShownColumn& c : table.columns) {
+            if (is_of_result(c.show) && c.of.empty()) {
+                problems_.refuse(k_table_incomplete, where, text::in_quotes(c.show) + " in a table without a result",
+                                 "U, k, limit and verdict are those of the result that stands before them",
+                                 "add the result");
+                return;
+            }
+            if (c.show == "value") {
+                values.insert(c.of);
+            } else if (c.show == "U") {
+                uncertainties.insert(c.of);
+            }
+        }
+        for (const std::string& name : values) {
+            if (!uncertainties.contains(name)) {
+                problems_.refuse(k_table_incomplete, where, "the table shows " + text::in_quotes(name) + " without U",
+                                 "a certificate states the uncertainty of every result (ISO/IEC 17025:2017, 7.8.4.1 a)",
+                                 "add \"U\" behind " + text::in_quotes(name));
+            }
+        }
+        if (values.empty()) {
+            problems_.refuse(k_table_incomplete, where, "a table without a result", "a table shows one result at least",
+                             "add the name of a result");
+        }
+        for (const TableRequest::GroupUnit& unit : table.units) {
+            const PointColumn* const groups = table.group_by.empty() ? nullptr : column(table.group_by);
+            if (groups == nullptr ||
+                std::find(groups->printed.begin(), groups->printed.end(), unit.group) == groups->printed.end()) {
+                problems_.refuse(k_table_column, where,
+                                 "units of the group " + text::in_quotes(unit.group) + ", which no point has",
+                                 "units are stated for the groups of the rows",
+                                 groups == nullptr ? "state the column of the groups (\"group_by\")"
+                                                   : "correct the name of the group");
+            }
+        }
+        job_.tables.push_back(std::move(table));
+    }
+
+    // ---- what follows from it ---------------------------------------------------------------------------------------
+
+    /// The inputs that tables and limits name become columns of the points.
+    void add_inputs() {
+        std::set<std::string> wanted;
+        for (const TableRequest& table : job_.tables) {
+            for (const ShownColumn& c : table.columns) {
+                if (c.show == "column") {
+                    wanted.insert(c.of);
+                }
+            }
+        }
+        if (job_.certificate) {
+            for (const certificate::AgreedSpecification& s : job_.certificate->specifications) {
+                if (s.limits) {
+                    for (const std::string& name : certificate::columns_of_limits(*s.limits)) {
+                        wanted.insert(name);
+                    }
+                }
+            }
+        }
+        for (std::size_t i = 0; i < job_.inputs.size(); ++i) {
+            const gum::BudgetInput& stated = job_.inputs[i];
+            if (!wanted.contains(stated.name) || column(stated.name) != nullptr) {
+                continue;
+            }
+            PointColumn added;
+            added.name = stated.name;
+            if (const auto part = job_.input_parts.find(stated.name); part != job_.input_parts.end()) {
+                added.role = part->second.role;
+                added.stage = part->second.stage;
+            }
+            if (const auto described = job_.input_descriptions.find(stated.name);
+                added.role.empty() && described != job_.input_descriptions.end()) {
+                added.heading = described->second;
+            }
+            added.unit = stated.unit.text();
+            added.printed_unit = gum::unit_for_people(added.unit);
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                const double value = stated.unit.from_si(gum::input_total(gum::input_at(job_, i, p)).value);
+                added.values.emplace_back(value);
+                const std::optional<int> decimals = inputs_.decimals(stated.name, p);
+                added.printed.push_back(decimals ? gum::round_to_quantum(value, *decimals)
+                                                 : text::shortest_plain(value));
+            }
+            job_.point_columns.push_back(std::move(added));
+        }
+    }
+
+    [[nodiscard]] certificate::PointTable table_of_points() const {
+        certificate::PointTable points;
+        for (const gum::BudgetPoint& point : job_.points) {
+            points.points.push_back(point.name);
+        }
+        points.columns = job_.point_columns;
+        return points;
+    }
+
+    void check_limits() {
+        if (!job_.certificate) {
+            return;
+        }
+        const certificate::PointTable points = table_of_points();
+        for (const certificate::AgreedSpecification& s : job_.certificate->specifications) {
+            if (!s.limits) {
+                continue;
+            }
+            const std::string where = document_.where("/certificate");
+            const std::string name = "the specification " + text::in_quotes(s.id);
+            if (job_.points.empty()) {
+                problems_.refuse(k_point_without_limit, where, name + " states limits of points, and there are none",
+                                 "limits that differ from point to point need a table of points",
+                                 "state \"lower\" and \"upper\" in place of \"limits\"");
+                continue;
+            }
+            for (const std::string& needed : certificate::columns_of_limits(*s.limits)) {
+                if (column(needed) == nullptr) {
+                    refuse_name(needed, where);
+                }
+            }
+            std::vector<std::string> without;
+            std::string problem;
+            for (std::size_t p = 0; p < points.points.size() && problems_.refusals() == 0; ++p) {
+                const certificate::LimitsAt limits = certificate::limits_at(s, certificate::lookup_at(points, p));
+                if (!limits.problem.empty()) {
+                    problem = without.empty() ? limits.problem : problem;
+                    without.push_back(text::in_quotes(points.points[p]));
+                }
+            }
+            if (!without.empty()) {
+                problems_.refuse(k_point_without_limit, where,
+                                 name + " has no limits at the point" + (without.size() == 1 ? " " : "s ") +
+                                     text::listed(without, 5) + ": " + problem,
+                                 "every point has the limits of a specification that names its result",
+                                 s.limits->by == "points" ? "state them in the columns limit_low, limit_high or mpe"
+                                                          : "complete \"limits\" of the specification");
+            }
+        }
+    }
+
+    [[nodiscard]] bool holds(const TableRequest& table, std::size_t point) const {
+        return std::all_of(table.where.begin(), table.where.end(), [&](const TableRequest::RowChoice& choice) {
+            const PointColumn* const c = column(choice.column);
+            return c != nullptr && point < c->printed.size() && c->printed[point] == choice.is;
+        });
+    }
+
+    void check_points() {
+        std::vector<std::string> nowhere;
+        for (std::size_t p = 0; p < job_.points.size() && !job_.tables.empty(); ++p) {
+            if (std::none_of(job_.tables.begin(), job_.tables.end(), [&](const auto& t) { return holds(t, p); })) {
+                nowhere.push_back(text::in_quotes(job_.points[p].name));
+            }
+        }
+        if (!nowhere.empty()) {
+            problems_.refuse(
+                k_table_incomplete, document_.where("/tables"),
+                "no table shows the point" + std::string(nowhere.size() == 1 ? " " : "s ") + text::listed(nowhere, 5),
+                "what was measured stands in a table", "correct \"where\", or add a table");
+        }
+        for (std::size_t t = 0; t < job_.tables.size(); ++t) {
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                if (holds(job_.tables[t], p)) {
+                    break;
+                }
+                if (p + 1 == job_.points.size()) {
+                    problems_.refuse(k_table_incomplete, document_.where(child_pointer("/tables", t)),
+                                     "a table without rows: no point has what \"where\" says",
+                                     "a table shows one point at least", "correct \"where\"");
+                }
+            }
+        }
+        std::set<std::pair<std::string, std::size_t>> seen;
+        for (const TableRequest& table : job_.tables) {
+            std::set<std::string> names;
+            for (const ShownColumn& c : table.columns) {
+                if (c.show == "value") {
+                    names.insert(c.of);
+                }
+            }
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                for (const std::string& name : names) {
+                    if (holds(table, p) && !seen.emplace(name, p).second) {
+                        problems_.refuse(k_table_incomplete, document_.where("/tables"),
+                                         "two tables show " + text::in_quotes(name) + " of the same points",
+                                         "a result stands in one table", "remove it from one of them");
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Results are stated in the units of their groups.
+    void set_units() {
+        for (const TableRequest& table : job_.tables) {
+            if (table.units.empty()) {
+                continue;
+            }
+            job_.point_units.resize(job_.points.size());
+            const PointColumn* const groups = column(table.group_by);
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                if (!holds(table, p)) {
+                    continue;
+                }
+                for (const TableRequest::GroupUnit& stated : table.units) {
+                    if (groups == nullptr || groups->printed[p] != stated.group) {
+                        continue;
+                    }
+                    const Unit unit = Unit::parse(stated.unit);
+                    for (const ShownColumn& c : table.columns) {
+                        const Unit* const own = c.show == "value" ? result(c.of) : nullptr;
+                        if (own == nullptr || (!stated.of.empty() && stated.of != c.of) ||
+                            !(own->dimension() == unit.dimension())) {
+                            continue;
+                        }
+                        // A unit of one result goes before that of all.
+                        if (!stated.of.empty()) {
+                            job_.point_units[p].insert_or_assign(c.of, unit);
+                        } else {
+                            job_.point_units[p].emplace(c.of, unit);
+                        }
+                    }
+                }
+            }
+        }
+    }
+};
+
+}  // namespace
+
+void read_tables(const JsonObject& root, const JsonDocument& document, const BudgetInputs& inputs, BudgetJob& job,
+                 ProblemList& problems) {
+    const bool has_limits =
+        job.certificate && std::any_of(job.certificate->specifications.begin(), job.certificate->specifications.end(),
+                                       [](const auto& s) { return s.limits.has_value(); });
+    const bool is_wanted = root.has("tables") || has_limits || !job.point_columns.empty() || !job.input_parts.empty() ||
+                           !job.output_parts.empty();
+    if (!is_wanted || problems.refusals() > 0) {
+        return;  // nothing to show; or names and units are not known
+    }
+    TableReader(document, inputs, job, problems).read(root);
+}
+
+}  // namespace gumcert::jobs

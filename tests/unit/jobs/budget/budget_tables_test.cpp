@@ -1,0 +1,184 @@
+#include "jobs/budget/budget_tables.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "jobs/input_codes.h"
+#include "tests/support/budget_campaign.h"
+
+namespace gumcert::jobs {
+namespace {
+
+using test::budget_refusals;
+using test::read_budget;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string k_meter =
+    R"j("model": ["E = V_x + dV - V_s"],
+        "inputs": {"V_x": {"unit": "V", "role": "indication"}, "dV": {"unit": "V", "value": 0, "u": 1e-6},
+                   "V_s": {"unit": "V", "constant": true, "role": "reference"}},
+        "outputs": {"E": {"unit": "mV", "role": "error"}})j";
+
+const test::BudgetFiles k_points{{"points.csv",
+                                  "range;V_s;V_x.1;V_x.2;remark;nominal\n"
+                                  "100 mV;0,0500;0,0501;0,0503;;50,0\n"
+                                  "10 V;10,0;10,0001;10,0002;warm;10000\n"}};
+
+std::string meter(const std::string& columns, const std::string& more = "") {
+    return k_meter + R"j(, "points": {"file": "points.csv", "columns": )j" + columns + "}" + more;
+}
+
+const std::string k_columns = R"j({"range": "text", "remark": {"heading": "Note"}, "nominal": "mV"})j";
+
+void expect_refusal(const std::string& keys, const InputCode& code, const std::string& part,
+                    const test::BudgetFiles& files = k_points) {
+    SCOPED_TRACE(part);
+    const std::vector<gum::Diagnostic> found = budget_refusals(keys, files);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found.front().code, code.code) << gum::message(found.front());
+    EXPECT_THAT(gum::message(found.front()), HasSubstr(part));
+}
+
+std::vector<std::string> shown(const certificate::TableRequest& table) {
+    std::vector<std::string> all;
+    for (const certificate::ShownColumn& column : table.columns) {
+        all.push_back(column.show + ":" + column.of);
+    }
+    return all;
+}
+
+TEST(BudgetTables, ReadReadingsAndColumnsOfPoints) {
+    const BudgetJob job = read_budget(meter(k_columns), k_points);
+    ASSERT_EQ(job.points.size(), 2U);
+    ASSERT_EQ(job.points[0].inputs.size(), 2U);
+    EXPECT_EQ(job.points[0].name, "1");
+    EXPECT_THAT(job.points[0].inputs[0].second.components.front().observations, ElementsAre(0.0501, 0.0503));
+    ASSERT_EQ(job.point_columns.size(), 5U);
+    EXPECT_EQ(job.point_columns[0].printed, (std::vector<std::string>{"100 mV", "10 V"}));
+    EXPECT_EQ(job.point_columns[1].printed, (std::vector<std::string>{"", "warm"}));
+    EXPECT_EQ(job.point_columns[2].role, "nominal") << "by its name";
+    EXPECT_EQ(job.point_columns[2].values.at(1), 10000.0);
+    // Inputs as they were written, a mean of several readings with one decimal more.
+    EXPECT_EQ(job.point_columns[3].name, "V_x");
+    EXPECT_EQ(job.point_columns[3].printed, (std::vector<std::string>{"0.05020", "10.00015"}));
+    EXPECT_EQ(job.point_columns[4].printed, (std::vector<std::string>{"0.0500", "10.0"}));
+}
+
+TEST(BudgetTables, ShowWhatHasARoleByThemselves) {
+    const BudgetJob job = read_budget(meter(k_columns), k_points);
+    ASSERT_EQ(job.tables.size(), 1U);
+    EXPECT_EQ(job.tables[0].group_by, "range");
+    EXPECT_THAT(shown(job.tables[0]),
+                ElementsAre("column:remark", "column:nominal", "column:V_s", "column:V_x", "value:E", "U:E"));
+}
+
+TEST(BudgetTables, AreNotMadeWhereNobodyAsks) {
+    const BudgetJob job = read_budget(R"j("inputs": {"x": {"unit": "V", "u": 1}}, "points": [{"x": 1}, {"x": 2}])j");
+    EXPECT_TRUE(job.tables.empty());
+    EXPECT_TRUE(job.point_columns.empty());
+}
+
+TEST(BudgetTables, ShowTheColumnsThatTheJobChooses) {
+    const BudgetJob job =
+        read_budget(meter(k_columns,
+                          R"j(, "tables": [{"title": {"en": "Volts", "de": "Volt"}, "group_by": "range",
+                     "columns": ["range", "nominal", "reference", {"column": "V_x", "heading": "Read"}, "error", "U", "k"],
+                     "units": {"100 mV": {"V_x": "mV", "E": "uV"}, "10 V": "V"}}])j"),
+                    k_points);
+    ASSERT_EQ(job.tables.size(), 1U);
+    EXPECT_THAT(shown(job.tables[0]),
+                ElementsAre("column:nominal", "column:V_s", "column:V_x", "value:E", "U:E", "k:E"))
+        << "the column of the groups stands above them";
+    EXPECT_EQ(job.tables[0].columns[2].heading, certificate::LocalisedText("Read"));
+    ASSERT_EQ(job.point_units.size(), 2U);
+    EXPECT_EQ(job.point_units[0].at("E").text(), "uV");
+    EXPECT_EQ(job.point_units[1].at("E").text(), "V");
+}
+
+TEST(BudgetTables, PutResultsBeforeAndAfterAnAdjustmentSideBySide) {
+    const BudgetJob job = read_budget(
+        R"j("model": ["a = x - r", "b = y - r"],
+            "inputs": {"r": {"unit": "V", "constant": true, "role": "reference"},
+                       "x": {"unit": "V", "u": 0.1, "role": "indication", "stage": "as_found"},
+                       "y": {"unit": "V", "u": 0.1, "role": "indication", "stage": "as_left"}},
+            "outputs": {"a": {"role": "error", "stage": "as_found"}, "b": {"role": "error", "stage": "as_left"}},
+            "points": [{"r": 1, "x": 1.1, "y": 1.0}])j");
+    ASSERT_EQ(job.tables.size(), 1U);
+    EXPECT_THAT(shown(job.tables[0]),
+                ElementsAre("column:r", "column:x", "value:a", "U:a", "column:y", "value:b", "U:b"));
+    EXPECT_EQ(job.tables[0].columns[2].stage, "as_found");
+    EXPECT_EQ(job.tables[0].columns[6].stage, "as_left");
+}
+
+TEST(BudgetTables, ReadPointsOfTheJobWithColumns) {
+    const BudgetJob job = read_budget(k_meter + R"j(, "points": {"columns": {"range": "text"}, "list": [
+            {"point": "low", "range": "1 V", "V_s": 1, "V_x": {"observations": [1.01, 1.02]}, "mpe": 0.5},
+            {"point": "high", "range": "1 V", "V_s": 2, "V_x": {"observations": [2.01, 2.02]}}]})j");
+    ASSERT_EQ(job.points.size(), 2U);
+    ASSERT_GE(job.point_columns.size(), 2U);
+    EXPECT_EQ(job.point_columns[0].printed, (std::vector<std::string>{"1 V", "1 V"}));
+    EXPECT_EQ(job.point_columns[1].name, "mpe");
+    EXPECT_EQ(job.point_columns[1].values, (std::vector<std::optional<double>>{0.5, std::nullopt}));
+}
+
+TEST(BudgetTables, RefuseColumnsOfPointsThatCannotBe) {
+    expect_refusal(meter(R"j({"range": "text", "remark": "text", "nominal": "mV", "V_x": "V"})j"), k_point_column,
+                   "is an input and a column of points");
+    expect_refusal(meter(R"j({"range": "text", "remark": "text", "nominal": "mV", "U": "V"})j"), k_point_column,
+                   "stands for something else");
+    expect_refusal(meter(R"j({"range": "text", "nominal": "mV"})j"), k_unknown_quantity,
+                   "\"remark\" is none of the inputs");
+    expect_refusal(meter(R"j({"range": "text", "remark": 1, "nominal": "mV"})j"), k_wrong_type, "a unit or an object");
+    expect_refusal(meter(R"j({"range": "V", "remark": "text", "nominal": "mV"})j"), k_csv_not_a_number,
+                   "\"100 mV\" in column range");
+}
+
+TEST(BudgetTables, RefuseAMissingReading) {
+    test::BudgetFiles files = k_points;
+    files["points.csv"].replace(files["points.csv"].find("0,0503"), 6, "");
+    expect_refusal(meter(k_columns), k_empty_cell, "no value in the column \"V_x.2\"", files);
+}
+
+TEST(BudgetTables, RefuseWhatTheyCannotShow) {
+    const auto tables = [](const std::string& list) { return meter(k_columns, R"j(, "tables": )j" + list); };
+    expect_refusal(tables(R"j([{"columns": ["V_y", "E", "U"]}])j"), k_table_column, "did you mean \"V_x\"?");
+    expect_refusal(tables(R"j([{"columns": ["E"]}])j"), k_table_incomplete, "shows \"E\" without U");
+    expect_refusal(tables(R"j([{"columns": ["nominal"]}])j"), k_table_incomplete, "a table without a result");
+    expect_refusal(tables(R"j([{"columns": ["U", "nominal"]}])j"), k_table_incomplete,
+                   "\"U\" in a table without a result");
+    expect_refusal(tables(R"j([{"group_by": "nominal"}])j"), k_table_column, "no column of points with words");
+    expect_refusal(tables(R"j([{"units": {"1 V": "mV"}}])j"), k_table_column, "the group \"1 V\", which no point has");
+    expect_refusal(tables(R"j([{"units": {"10 V": "xV"}}])j"), InputCode{"GC-UNIT-0001", ""}, "xV");
+    expect_refusal(tables(R"j([{"where": {"range": "10 V"}}])j"), k_table_incomplete, "no table shows the point \"1\"");
+    expect_refusal(tables(R"j([{}, {}])j"), k_table_incomplete, "two tables show \"E\" of the same points");
+    expect_refusal(tables(R"j([{"where": {"range": "1 V"}}, {}])j"), k_table_incomplete, "a table without rows");
+    expect_refusal(tables("[]"), k_wrong_size, "0 tables");
+    expect_refusal(k_meter + R"j(, "tables": [{}])j", k_no_statement, "nothing is stated");
+}
+
+TEST(BudgetTables, RefuseAPointWithoutTheLimitsOfItsSpecification) {
+    const auto limits = [](const std::string& how) {
+        return meter(k_columns, R"j(, "certificate": {"specifications": [{"id": "s", "results": ["E"], "unit": "mV",
+            "rule": {"id": "DR-01"}, "limits": )j" +
+                                    how + "}]}");
+    };
+    expect_refusal(limits(R"j({"by": "points"})j"), k_point_without_limit,
+                   "the points \"1\" and \"2\": the point states no limit");
+    expect_refusal(
+        limits(R"j({"by": "accuracy", "of": "V_s", "accuracy": [{"range": "10 V", "percent_of_reading": 1}]})j"),
+        k_point_without_limit, "the point \"1\": the accuracy is not stated for the range \"100 mV\"");
+    expect_refusal(
+        limits(
+            R"j({"by": "steps", "arguments": [{"name": "L", "unit": "V", "of": "W"}], "steps": [{"up_to": 1, "mpe": 1}]})j"),
+        k_table_column, "\"W\" is nothing that the points of this job have");
+    EXPECT_TRUE(budget_refusals(limits(R"j({"by": "accuracy", "of": "V_s", "accuracy": [{"percent_of_reading": 1}]})j"),
+                                k_points)
+                    .empty());
+}
+
+}  // namespace
+}  // namespace gumcert::jobs
