@@ -1,12 +1,14 @@
 #include "reports/record/certified_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
+#include "gum/rounding.h"
 #include "reports/record/reported_result.h"
 #include "reports/record/stated_values.h"
 
@@ -64,6 +66,13 @@ CertifiedValue value_of(const StatedValue& q) {
                       : value_of(q.value, q.u, q.U, q.k, q.nu_eff, q.printed);
 }
 
+/// What a result is, for people.
+certificate::LocalisedText name_of(const Result& r) {
+    return !r.description_by_language.empty() ? r.description_by_language
+           : r.description.empty()            ? certificate::LocalisedText(r.quantity.empty() ? r.name : r.quantity)
+                                              : certificate::LocalisedText(r.description);
+}
+
 CertifiedColumn column(const std::string& result, const certificate::LocalisedText& name, const std::string& unit,
                        std::vector<CertifiedValue> values) {
     return {.result = result,
@@ -106,7 +115,7 @@ std::vector<CertifiedTable> tables_of_results(const std::vector<Result>& results
         const std::vector<std::string> points = series.points();
         auto at = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == points; });
         if (at == tables.end()) {
-            CertifiedTable table{.id = id, .argument = {}, .columns = {}};
+            CertifiedTable table{.id = id, .argument = {}, .layout = {}, .columns = {}};
             if (!points.front().empty()) {
                 table.argument = CertifiedTable::Argument{.name = "point",
                                                           .unit = "",
@@ -121,17 +130,148 @@ std::vector<CertifiedTable> tables_of_results(const std::vector<Result>& results
         for (const Result* r : series.results) {
             values.push_back(value_of(*r));
         }
-        at->second.columns.push_back(column(series.quantity,
-                                            !first.description_by_language.empty() ? first.description_by_language
-                                            : first.description.empty() ? certificate::LocalisedText(series.quantity)
-                                                                        : certificate::LocalisedText(first.description),
-                                            series.unit, std::move(values)));
+        at->second.columns.push_back(column(series.quantity, name_of(first), series.unit, std::move(values)));
     }
     std::vector<CertifiedTable> out;
     for (auto& [points, table] : tables) {
         out.push_back(std::move(table));
     }
     return out;
+}
+
+/// Unit of a column or a result in a group of rows; that which it has without one.
+std::string unit_in_group(const certificate::TableRequest& table, const std::string& group, const std::string& name,
+                          const std::string& unit) {
+    std::string found = unit;
+    for (const certificate::TableRequest::GroupUnit& stated : table.units) {
+        if (stated.group != group || (!stated.of.empty() && stated.of != name)) {
+            continue;
+        }
+        if (!stated.of.empty()) {
+            return stated.unit;
+        }
+        if (gum::Unit::parse(stated.unit).dimension() == gum::Unit::parse(unit).dimension()) {
+            found = stated.unit;
+        }
+    }
+    return found;
+}
+
+/// The rows of a group in the unit of the group, with as many decimals as the finest of them was written with.
+certificate::PointColumn in_group(const certificate::PointColumn& all, const std::vector<std::size_t>& rows,
+                                  const std::string& unit) {
+    certificate::PointColumn column = all;
+    column.values.clear();
+    column.printed.clear();
+    int decimals = 0;
+    for (const std::size_t row : rows) {
+        column.values.push_back(all.values[row]);
+        column.printed.push_back(all.printed[row]);
+        if (all.values[row]) {
+            decimals = std::max(decimals, certificate::decimals_of(all.printed[row]));
+        }
+    }
+    if (unit == all.unit) {
+        for (std::size_t i = 0; i < column.values.size(); ++i) {
+            if (column.values[i]) {
+                column.printed[i] = gum::round_to_quantum(*column.values[i], decimals);
+            }
+        }
+        return column;
+    }
+    const gum::Unit from = gum::Unit::parse(all.unit);
+    const gum::Unit to = gum::Unit::parse(unit);
+    constexpr double k_noise = 1e-9;
+    const double factor = to.difference_from_si(from.difference_to_si(1.0));
+    decimals = std::max(0, decimals - static_cast<int>(std::floor(std::log10(factor) + k_noise)));
+    column.unit = unit;
+    column.printed_unit = gum::unit_for_people(unit);
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+        if (std::optional<double>& value = column.values[i]) {
+            value = to.from_si(from.to_si(*value));
+            column.printed[i] = gum::round_to_quantum(*value, decimals);
+        }
+    }
+    return column;
+}
+
+/// One group of rows of a table that the job asks for.
+CertifiedTable table_of_group(const EvaluationRecord& record, const certificate::TableRequest& request,
+                              const std::vector<std::size_t>& rows, const std::string& group) {
+    const certificate::PointTable& points = *record.points;
+    const auto column_of = [&](const std::string& name) {
+        return std::find_if(points.columns.begin(), points.columns.end(),
+                            [&](const certificate::PointColumn& c) { return c.name == name; });
+    };
+    CertifiedTable table{.id = "results", .argument = CertifiedTable::Argument{}, .layout = {}, .columns = {}};
+    table.argument->name = "point";
+    for (const std::size_t row : rows) {
+        table.argument->values.emplace_back();
+        table.argument->printed.push_back(points.points[row]);
+    }
+    certificate::TableLayout& layout = table.layout.emplace();
+    layout.title = request.title;
+    layout.group = group;
+    if (const auto groups = column_of(request.group_by); groups != points.columns.end()) {
+        layout.group_heading = groups->heading.empty() ? certificate::LocalisedText(groups->name) : groups->heading;
+        layout.group_role = groups->heading.empty() ? groups->name : "";
+    }
+    layout.shown = request.columns;
+    for (const certificate::ShownColumn& shown : request.columns) {
+        const auto from = shown.show == "column" ? column_of(shown.of) : points.columns.end();
+        if (from != points.columns.end()) {
+            const std::string unit = from->unit.empty() ? "" : unit_in_group(request, group, from->name, from->unit);
+            layout.columns.push_back(in_group(*from, rows, unit));
+        }
+        const bool is_known = std::any_of(table.columns.begin(), table.columns.end(),
+                                          [&](const CertifiedColumn& c) { return c.result == shown.of; });
+        if (shown.show == "column" || shown.show == "point" || is_known) {
+            continue;
+        }
+        std::vector<CertifiedValue> values;
+        const Result* first = nullptr;
+        for (const std::size_t row : rows) {
+            const auto result = std::find_if(record.results.begin(), record.results.end(), [&](const Result& r) {
+                return r.quantity == shown.of && r.point == points.points[row];
+            });
+            if (result != record.results.end()) {
+                first = first == nullptr ? &*result : first;
+                values.push_back(value_of(*result));
+            }
+        }
+        if (first != nullptr && values.size() == rows.size()) {
+            table.columns.push_back(column(shown.of, name_of(*first), first->unit, std::move(values)));
+        }
+    }
+    return table;
+}
+
+std::vector<CertifiedTable> tables_of_points(const EvaluationRecord& record) {
+    const certificate::PointTable& points = *record.points;
+    const auto word_of = [&](const std::string& name, std::size_t row) -> std::string {
+        const auto found = std::find_if(points.columns.begin(), points.columns.end(),
+                                        [&](const certificate::PointColumn& c) { return c.name == name; });
+        return found == points.columns.end() ? "" : found->printed[row];
+    };
+    std::vector<CertifiedTable> tables;
+    for (const certificate::TableRequest& request : points.tables) {
+        std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;  // in the order of the points
+        for (std::size_t row = 0; row < points.points.size(); ++row) {
+            if (!std::all_of(request.where.begin(), request.where.end(),
+                             [&](const auto& choice) { return word_of(choice.column, row) == choice.is; })) {
+                continue;
+            }
+            const std::string group = word_of(request.group_by, row);
+            const auto known =
+                std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == group; });
+            (known == groups.end() ? groups.emplace_back(group, std::vector<std::size_t>{}) : *known)
+                .second.push_back(row);
+        }
+        for (const auto& [group, rows] : groups) {
+            tables.push_back(table_of_group(record, request, rows, group));
+        }
+    }
+    return tables;
 }
 
 /// The points of a circle closure are angles.
@@ -166,8 +306,10 @@ void add_stated_values(const RotaryTable& r, std::vector<CertifiedTable>& tables
     for (const auto& place : stated_values(r, ErrorOrder::by_motion)) {
         const bool motions = place.group == StatedGroup::error_motions;
         if (const char* const id = group_name(place.group); tables.empty() || tables.back().id != id) {
-            tables.push_back(
-                {.id = id, .argument = motions ? std::optional(angles_of(r)) : std::nullopt, .columns = {}});
+            tables.push_back({.id = id,
+                              .argument = motions ? std::optional(angles_of(r)) : std::nullopt,
+                              .layout = {},
+                              .columns = {}});
         }
         std::vector<CertifiedColumn>& columns = tables.back().columns;
         if (!motions || place.index == 0) {
@@ -200,6 +342,9 @@ const Result* result_of(const EvaluationRecord& record, const CertifiedTable& ta
 }
 
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
+    if (record.points && !record.points->tables.empty()) {
+        return tables_of_points(record);
+    }
     if (!record.rotary) {
         std::vector<CertifiedTable> tables = tables_of_results(record.results, "results");
         if (record.circle_closure) {

@@ -253,6 +253,29 @@ void check_results(const EvaluationRecord& r, const RecordBreach& report) {
     }
 }
 
+/// Columns of points have one value a row, numbers or words; what a table shows is there.
+void check_columns(const std::string& at, const std::vector<certificate::PointColumn>& columns,
+                   const std::vector<certificate::ShownColumn>& shown, std::size_t rows, const RecordBreach& report) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        for (const auto& [key, size] :
+             {std::pair{"/values", columns[i].values.size()}, std::pair{"/printed", columns[i].printed.size()}}) {
+            if (size != rows) {
+                report(at + "/columns/" + std::to_string(i) + key, std::to_string(size) + " items",
+                       "must be " + std::to_string(rows) + ", one a row");
+            }
+        }
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const bool is_there =
+            shown[i].show != "column" ||
+            std::any_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == shown[i].of; });
+        if (!is_there) {
+            report(at + "/shown/" + std::to_string(i) + "/of", '"' + shown[i].of + '"',
+                   "must be the name of one of the columns");
+        }
+    }
+}
+
 /// What must hold between the parts of a certificate, so that a document can be made of it.
 void check_certificate(const certificate::Certificate& c, const RecordBreach& report) {
     const auto length = [&](const std::string& at, std::size_t found, std::size_t expected, const char* rule) {
@@ -268,6 +291,12 @@ void check_certificate(const certificate::Certificate& c, const RecordBreach& re
                    "one a printed value");
         }
         const std::size_t rows = table.argument ? table.argument->printed.size() : 1;
+        if (table.layout) {
+            check_columns(at + "/layout", table.layout->columns, table.layout->shown, rows, report);
+            if (!table.argument) {
+                report(at + "/argument", "missing", "a table with a layout has points");
+            }
+        }
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             const std::string column = at + "/columns/" + std::to_string(i) + "/values";
             length(column, table.columns[i].values.size(), rows, table.argument ? "one a row" : "one without argument");
@@ -318,6 +347,9 @@ void check_record(const EvaluationRecord& record, const RecordBreach& report) {
                "a record of kind comparison holds a comparison of the form \"laboratories\" or \"methods\"");
     }
     check_results(record, report);
+    if (record.points) {
+        check_columns("/points", record.points->columns, {}, record.points->points.size(), report);
+    }
     if (record.certificate) {
         check_certificate(*record.certificate, report);
     }

@@ -16,6 +16,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
+#include "jobs/budget/budget_results.h"
 #include "reports/record/make/budget/budget_findings.h"
 #include "reports/record/make/budget/budget_fit_record.h"
 #include "reports/record/make/budget/budget_readings.h"
@@ -235,10 +236,12 @@ Eigen::MatrixXd in_units(const Eigen::MatrixXd& si, const std::vector<Unit>& uni
     return scaled;
 }
 
-std::vector<Unit> result_units(const gum::BudgetResult& result) {
+std::vector<Unit> result_units(const BudgetJob& job, const gum::BudgetResult& result) {
     std::vector<Unit> units;
     for (std::size_t p = 0; p < result.points.size(); ++p) {
-        units.insert(units.end(), result.output_units.begin(), result.output_units.end());
+        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+            units.push_back(jobs::result_unit(job, p, result.output_names[i], result.output_units[i]));
+        }
     }
     return units;
 }
@@ -252,7 +255,7 @@ struct NamedCovariance {
 
 NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, const Eigen::MatrixXd& covariance) {
     const std::vector<std::string> names = gum::budget_result_names(job, result);
-    const std::vector<Unit> units = result_units(result);
+    const std::vector<Unit> units = result_units(job, result);
     NamedCovariance all;
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
@@ -472,6 +475,15 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
         }
     }
 
+    if (!job.point_columns.empty() || !job.tables.empty()) {
+        record.points.emplace();
+        for (const gum::BudgetPoint& point : job.points) {
+            record.points->points.push_back(point.name);
+        }
+        record.points->columns = job.point_columns;
+        record.points->tables = job.tables;
+    }
+
     const gum::MonteCarloRequest asked =
         job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(gum::MonteCarloRequest{}));
     const std::vector<std::string> names = gum::budget_result_names(job, result);
@@ -482,7 +494,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
         for (std::size_t i = 0; i < result.output_names.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
             const gum::BudgetOutputResult& from = point.outputs[i];
-            const Unit& unit = result.output_units[i];
+            const Unit& unit = jobs::result_unit(job, p, result.output_names[i], result.output_units[i]);
             reports::Result out;
             out.name = names[p * result.output_names.size() + i];
             out.quantity = result.output_names[i];

@@ -9,6 +9,7 @@
 
 #include "gum/budget/budget_model.h"
 #include "gum/monte_carlo/convolution.h"
+#include "jobs/budget/budget_results.h"
 
 namespace gumcert::reports {
 
@@ -61,6 +62,17 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
         inputs.values.emplace(job.inputs[i].name, values_of(job, i));
     }
+    for (const certificate::PointColumn& column : job.point_columns) {
+        if (column.unit.empty() || std::any_of(column.values.begin(), column.values.end(),
+                                               [](const auto& value) { return !value.has_value(); })) {
+            continue;
+        }
+        certificate::InputValues values{.unit = column.unit, .values = {}};
+        for (const std::optional<double>& value : column.values) {
+            values.values.push_back(*value);
+        }
+        inputs.values.emplace(column.name, std::move(values));  // those of inputs are there already
+    }
     if (!job.certificate || job.certificate->specifications.empty()) {
         return inputs;
     }
@@ -70,7 +82,7 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
         const gum::BudgetPointResult& point = result.points[p];
         for (std::size_t i = 0; i < outputs; ++i) {
             const std::string& name = names[p * outputs + i];
-            const gum::Unit& unit = result.output_units[i];
+            const gum::Unit& unit = jobs::result_unit(job, p, result.output_names[i], result.output_units[i]);
             const auto output = static_cast<Eigen::Index>(i);
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,

@@ -80,7 +80,7 @@ Found argument_of(const certificate::CertificateData& data, const ScopeEntry& en
     if (const auto input = inputs.values.find(argument.of); input != inputs.values.end()) {
         const std::vector<double>& values = input->second.values;
         if (!values.empty()) {
-            return converted(values.size() == 1 ? values.front() : values.at(place.row), input->second.unit,
+            return converted(values.size() == 1 ? values.front() : values.at(place.point), input->second.unit,
                              argument.unit, what);
         }
     }

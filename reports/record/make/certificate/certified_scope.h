@@ -16,6 +16,7 @@ struct ScopePlace {
     const certificate::CertifiedTable& table;
     const certificate::CertifiedColumn& column;
     std::size_t row = 0;
+    std::size_t point = 0;               ///< position of the row among the points of the job
     double coverage_probability = 0.95;  ///< of its expanded uncertainty
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "certificate/gates/gates.h"
+#include "certificate/point_limits.h"
 #include "certificate/result_names.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluation_choice.h"
@@ -66,6 +68,11 @@ public:
         if (inputs.rounding == gum::RoundingMode::up) {
             rule_.rounding = gum::RoundingMode::up;
         }
+        if (record.points) {
+            for (std::size_t p = 0; p < record.points->points.size(); ++p) {
+                points_.emplace(record.points->points[p], p);
+            }
+        }
         scoped_ = c.data.accreditation.has_value() && c.data.status != "not_accredited";
     }
 
@@ -101,7 +108,14 @@ private:
     const certificate::CapabilityInputs& inputs_;
     PrintRule rule_;
     bool scoped_ = false;
+    std::map<std::string, std::size_t> points_;  ///< of the job, by their names
     std::vector<Finding> findings_;
+
+    /// Position of a row of a table among the points of the job.
+    [[nodiscard]] std::size_t point_of(const CertifiedTable& table, std::size_t row) const {
+        const auto found = table.layout ? points_.find(table.argument->printed[row]) : points_.end();
+        return found == points_.end() ? row : found->second;
+    }
 
     [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
 
@@ -109,11 +123,16 @@ private:
                        std::size_t row, const Result* result) {
         CertifiedValue& value = column.values[row];
         const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
-        place_in_scope({.tables = tables, .table = table, .column = column, .row = row, .coverage_probability = p},
+        place_in_scope({.tables = tables,
+                        .table = table,
+                        .column = column,
+                        .row = row,
+                        .point = point_of(table, row),
+                        .coverage_probability = p},
                        value);
         print(value);
         note_coverage(column, p);
-        decide(column, value, result);
+        decide(column, value, result, point_of(table, row));
     }
 
     void place_in_scope(const ScopePlace& place, CertifiedValue& value) {
@@ -219,9 +238,10 @@ private:
         }
     }
 
-    void decide(const CertifiedColumn& column, CertifiedValue& value, const Result* result) {
+    void decide(const CertifiedColumn& column, CertifiedValue& value, const Result* result, std::size_t point) {
         for (const certificate::AgreedSpecification& specification : data().specifications) {
-            if (!certificate::is_named(specification.results, column.result)) {
+            if (!certificate::is_named(specification.results, column.result) &&
+                (result == nullptr || !certificate::is_named(specification.results, result->name))) {
                 continue;
             }
             if (value.verdict) {
@@ -234,9 +254,31 @@ private:
                      .action = "Name a result in one specification; decide the other on a certificate of its own."});
                 continue;
             }
-            value.verdict = verdict_of(specification, column, value,
-                                       value.external ? KnownDistribution() : known_distribution(value, result));
+            const KnownDistribution known = value.external ? KnownDistribution() : known_distribution(value, result);
+            value.verdict = specification.limits ? at_point(specification, column, value, known, point)
+                                                 : verdict_of(specification, column, value, known);
         }
+    }
+
+    /// By the limits of one point.
+    [[nodiscard]] certificate::Verdict at_point(const certificate::AgreedSpecification& specification,
+                                                const CertifiedColumn& column, const CertifiedValue& value,
+                                                const KnownDistribution& known, std::size_t point) const {
+        const certificate::LimitsAt limits =
+            record_.points ? certificate::limits_at(specification, certificate::lookup_at(*record_.points, point))
+                           : certificate::LimitsAt{.lower = {}, .upper = {}, .problem = "no points"};
+        if (!limits.problem.empty()) {
+            certificate::Verdict none;
+            none.specification = specification.id;
+            none.rule = specification.rule.id;
+            none.verdict = none.verdict_from_printed = "not_applicable";
+            none.note = "the specification states limits of points, and the result has none";
+            return none;
+        }
+        certificate::AgreedSpecification here = specification;
+        here.lower = limits.lower;
+        here.upper = limits.upper;
+        return verdict_of(here, column, value, known);
     }
 
     [[nodiscard]] KnownDistribution known_distribution(const CertifiedValue& value, const Result* result) const;

@@ -51,6 +51,54 @@ TEST(CertifiedTables, PutResultsOfTheSamePointsIntoOneTable) {
     EXPECT_EQ(tables[1].columns.at(0).result, "d");
 }
 
+TEST(CertifiedTables, HoldAGroupOfPointsEachInItsUnits) {
+    EvaluationRecord record = test::sample_budget_record();
+    Result one = record.results[0];
+    one.quantity = "E";
+    record.results.clear();
+    certificate::PointTable& points = record.points.emplace();
+    points.points = {"1", "2", "3"};
+    for (const std::string& point : points.points) {
+        one.point = point;
+        one.name = "E[" + point + "]";
+        record.results.push_back(one);
+    }
+    points.columns = {{.name = "range",
+                       .heading = {},
+                       .role = "",
+                       .stage = "",
+                       .unit = "",
+                       .printed_unit = "",
+                       .values = {{}, {}, {}},
+                       .printed = {"100 mV", "10 V", "100 mV"}},
+                      {.name = "V_s",
+                       .heading = {},
+                       .role = "reference",
+                       .stage = "",
+                       .unit = "V",
+                       .printed_unit = "V",
+                       .values = {0.05, 10.0, 0.1},
+                       .printed = {"0.05000", "10", "0.1"}}};
+    certificate::TableRequest request;
+    request.group_by = "range";
+    request.units = {{.group = "100 mV", .of = "V_s", .unit = "mV"}};
+    request.columns = {{.show = "column", .of = "V_s", .heading = {}, .role = "reference", .stage = ""},
+                       {.show = "value", .of = "E", .heading = {}, .role = "error", .stage = ""},
+                       {.show = "U", .of = "E", .heading = {}, .role = "", .stage = ""}};
+    points.tables = {request};
+    const std::vector<CertifiedTable> tables = certified_tables(record);
+    ASSERT_EQ(tables.size(), 2U);
+    ASSERT_TRUE(tables[0].layout);
+    EXPECT_EQ(tables[0].layout->group, "100 mV");
+    EXPECT_EQ(tables[0].argument->printed, (std::vector<std::string>{"1", "3"}));
+    const certificate::PointColumn& reference = tables[0].layout->columns.at(0);
+    EXPECT_EQ(reference.printed_unit, "mV");
+    EXPECT_EQ(reference.printed, (std::vector<std::string>{"50.00", "100.00"})) << "the decimals that were written";
+    EXPECT_EQ(tables[0].columns.at(0).values.size(), 2U);
+    EXPECT_EQ(tables[1].layout->columns.at(0).printed, (std::vector<std::string>{"10"}));
+    EXPECT_EQ(tables[1].layout->columns.at(0).unit, "V");
+}
+
 TEST(CertifiedTables, HoldARotaryTable) {
     const EvaluationRecord record = test::sample_record();
     const std::vector<CertifiedTable> tables = certified_tables(record);

@@ -412,6 +412,51 @@ TEST(Certify, DecidesOnConformityInTheUnitOfTheResult) {
 }
 
 // Golden vector 4: y = 9.8, u = 0.1, limits 9 and 10: p_c = 0.977250.
+TEST(Certify, DecidesByTheLimitsOfEachPoint) {
+    EvaluationRecord record = one_result(0.3, 0.1, "mV");
+    record.results.push_back(record.results.front());
+    certificate::PointTable& points = record.points.emplace();
+    points.points = {"a", "b"};
+    for (std::size_t p = 0; p < points.points.size(); ++p) {
+        record.results[p].point = points.points[p];
+        record.results[p].name = "l[" + points.points[p] + "]";
+    }
+    points.columns = {{.name = "mpe",
+                       .heading = {},
+                       .role = "",
+                       .stage = "",
+                       .unit = "uV",
+                       .printed_unit = "µV",
+                       .values = {250.0, 350.0},
+                       .printed = {"250", "350"}}};
+    CertificateData data = data_with(test::capability_of_one_value(1e-3, "mV"));
+    data.specifications = {test::sample_specification("mpe", "l", 0.0, 0.0, "mV")};
+    data.specifications[0].lower.reset();
+    data.specifications[0].upper.reset();
+    data.specifications[0].limits.emplace();
+    data.specifications[0].limits->by = "points";
+    data.specifications[0].rule.id = "DR-01";
+    EvaluationRecord with_limits = record;
+    certify(with_limits, data, {}, {});
+    const std::vector<CertifiedValue>& values = with_limits.certificate->tables.at(0).columns.at(0).values;
+    ASSERT_EQ(values.size(), 2U);
+    EXPECT_EQ(values[0].verdict->verdict, "fail");
+    EXPECT_EQ(values[1].verdict->verdict, "pass");
+    EXPECT_NEAR(*values[1].verdict->upper, 0.35, 1e-15);
+    EXPECT_EQ(values[1].verdict->printed.upper, "0.35");
+    // Of one point alone, by the name of its result.
+    data.specifications[0].results = {"l[b]"};
+    EvaluationRecord of_one = record;
+    certify(of_one, data, {}, {});
+    EXPECT_FALSE(of_one.certificate->tables.at(0).columns.at(0).values[0].verdict);
+    EXPECT_TRUE(of_one.certificate->tables.at(0).columns.at(0).values[1].verdict);
+    // Without points nothing is decided, and that is said.
+    record.points.reset();
+    data.specifications[0].results = {"l"};
+    certify(record, data, {}, {});
+    EXPECT_EQ(record.certificate->tables.at(0).columns.at(0).values[0].verdict->verdict, "not_applicable");
+}
+
 TEST(Certify, StatesTheSpecificRiskOfTheGoldenVector) {
     const Verdict v = *certified(one_result(9.8, 0.2, "m"), data_with_rule("DR-01", 9.0, 10.0, "m")).verdict;
     EXPECT_NEAR(v.conformance_probability, 0.977250, 1e-6);
