@@ -2,6 +2,7 @@
 
 #include "reports/printable_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -34,9 +35,27 @@ std::optional<double> number_of(std::string printed) {
     return v;
 }
 
-/// One limit of all values: a line where it is the same for all, else a mark at each value.
+/// Numbers of the points of a table with a layout that its results are drawn against; none: without any.
+const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
+    if (!table.layout) {
+        return nullptr;
+    }
+    for (const char* const role : {"nominal", "setting", "reference", "indication"}) {
+        for (const certificate::PointColumn& column : table.layout->columns) {
+            const bool complete =
+                std::all_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); });
+            if (column.role == role && complete) {
+                return &column;
+            }
+        }
+    }
+    return nullptr;
+}
+
+/// One limit of all values: a line where it is the same for all, else a mark at each value, or a line from value to value.
 struct CertifiedLimit {
-    std::vector<PlotPoint> points;
+    bool joined = false;  ///< by a line
+    std::vector<PlotPoint> points = {};
     bool constant = true;
 
     void add(double x, const std::optional<double>& limit) {
@@ -52,20 +71,26 @@ struct CertifiedLimit {
         if (constant) {
             panel.limits.push_back({points.front().y, label});
         } else {
-            panel.series.push_back({.label = label, .points = points, .marker = PlotMarker::cross});
+            panel.series.push_back({.label = label,
+                                    .points = points,
+                                    .marker = joined ? PlotMarker::none : PlotMarker::cross,
+                                    .joined = joined,
+                                    .dashed = joined});
         }
     }
 };
 
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
-    PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = true};
-    CertifiedLimit lower;
-    CertifiedLimit upper;
-    CertifiedLimit acceptance_lower;
-    CertifiedLimit acceptance_upper;
+    const certificate::PointColumn* const abscissa = abscissa_of(table);
+    const bool joined = abscissa != nullptr;
+    PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = !joined};
+    CertifiedLimit lower{joined};
+    CertifiedLimit upper{joined};
+    CertifiedLimit acceptance_lower{joined};
+    CertifiedLimit acceptance_upper{joined};
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         const CertifiedValue& value = column.values[i];
-        const std::optional<double>& x = table.argument->values[i];
+        const std::optional<double>& x = abscissa != nullptr ? abscissa->values[i] : table.argument->values[i];
         const std::optional<double> y = number_of(value.printed_value);
         if (!x || !y) {
             continue;
@@ -86,6 +111,12 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
     const std::string name = shortened(printable(column.result), 24);
     PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
+    for (CertifiedLimit* const limit : {&lower, &upper, &acceptance_lower, &acceptance_upper}) {
+        if (limit->joined) {  // from left to right, whatever the order of the points
+            std::stable_sort(limit->points.begin(), limit->points.end(),
+                             [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        }
+    }
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
     panel.series.push_back(std::move(series));
@@ -103,12 +134,19 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
     if (!table.argument || table.columns.empty() || table.columns.size() > k_most_certified_panels) {
         return std::nullopt;
     }
+    const certificate::PointColumn* const abscissa = abscissa_of(table);
+    const auto axis_of = [&](const certificate::PointColumn& of) {
+        const std::string name =
+            !of.heading.empty() ? words.localised(of.heading).first() : words("point_table", of.role).first();
+        return shortened(printable(name), 40) + (of.printed_unit.empty() ? "" : " / " + of.printed_unit);
+    };
     const bool is_angle = table.argument->unit == "degree" || table.argument->printed_unit == "°";
     Plot plot{.id = id,
               .title = caption,
               .description = words.filled("statement", "certified_figure", {{"table", caption}}).first(),
-              .x_label = is_angle
-                             ? words("plot", "angle_axis").first()
+              .x_label = is_angle ? words("plot", "angle_axis").first()
+                         : abscissa != nullptr
+                             ? axis_of(*abscissa)
                              : shortened(printable(table.argument->name), 40) +
                                    (table.argument->printed_unit.empty() ? "" : " / " + table.argument->printed_unit),
               .panels = {},

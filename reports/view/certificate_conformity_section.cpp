@@ -5,6 +5,7 @@
 #include "reports/result_names.h"
 #include "reports/view/certified_value_tables.h"
 #include "reports/view/decision_formula.h"
+#include "reports/view/point_table_view.h"
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,7 @@ struct Decided {
     const CertifiedTable::Argument* argument = nullptr;
     std::string at;          ///< printed argument; "" without
     std::string table = {};  ///< id
+    bool is_shown = false;   ///< its limits and verdict stand in the table of results
 };
 
 std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpecification& specification) {
@@ -45,7 +47,8 @@ std::vector<Decided> decided_by(const Certificate& certificate, const AgreedSpec
                                    .value = &v,
                                    .argument = table.argument ? &*table.argument : nullptr,
                                    .at = table.argument ? table.argument->printed.at(i) : std::string(),
-                                   .table = table.id});
+                                   .table = table.id,
+                                   .is_shown = shows_verdict(table, column.result)});
                 }
             }
         }
@@ -83,7 +86,42 @@ Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
     return text;
 }
 
+/// ±(0.005 % of the reading + 0.0035 % of 100 mV + 2 · 0.0001 mV)
+Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecification& s, const Wording& words) {
+    const std::string unit = gum::unit_for_people(from.unit.empty() ? s.unit : from.unit);
+    Text sum;
+    const auto add = [&](const Text& part) { sum += sum.empty() ? part : " + " + part; };
+    const auto number = [&](double v) { return words.number(plain(v)); };
+    if (from.percent_of_reading) {
+        add(words.filled("point_table", "percent_of_reading", {{"percent", number(*from.percent_of_reading)}}));
+    }
+    if (from.percent_of_range) {
+        add(words.filled("point_table", "percent_of_range",
+                         {{"percent", number(*from.percent_of_range)},
+                          {"range", with_unit(number(from.full_scale.value_or(0.0)), unit)}}));
+    }
+    if (from.digits) {
+        add(number(*from.digits) + "\u00A0·\u00A0" + with_unit(number(from.digit.value_or(0.0)), unit));
+    }
+    if (from.constant) {
+        add(with_unit(number(*from.constant), unit));
+    }
+    const Text whole = "±(" + sum + ")";
+    return from.range.empty() ? whole : from.range + ": " + whole;
+}
+
+Text limits_of_points(const certificate::PointLimits& limits, const AgreedSpecification& s, const Wording& words) {
+    Text text;
+    for (const certificate::PointLimits::Accuracy& entry : limits.accuracy) {
+        text += text.empty() ? accuracy(entry, s, words) : "; " + accuracy(entry, s, words);
+    }
+    return text.empty() ? words("point_table", "limits_by_points") : text;
+}
+
 Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecification& s, const Wording& words) {
+    if (s.limits) {
+        return limits_of_points(*s.limits, s, words);
+    }
     const auto lower = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.lower; }));
     const auto upper = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.upper; }));
     const std::string unit = decided.empty() ? gum::unit_for_people(s.unit) : decided.front().column->printed_unit;
@@ -250,7 +288,11 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
         }
         specification_rows(builder, words, s, decided);
         decision_sentences(builder, words, decided);
-        verdict_table(builder, words, s, decided, "conformity-" + std::to_string(number++));
+        if (std::all_of(decided.begin(), decided.end(), [](const Decided& d) { return d.is_shown; })) {
+            builder.paragraph(words("statement", "verdicts_in_tables"));
+        } else {
+            verdict_table(builder, words, s, decided, "conformity-" + std::to_string(number++));
+        }
         for (const Decided& d : decided) {
             used.insert(d.value->verdict->verdict);
             const std::string& note = d.value->verdict->note;

@@ -327,7 +327,7 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
             figure(i);  // the curves before pages of their numbers
         }
         certified_table(builder, words, table, "certified-" + std::to_string(i), shown, overview);
-        if (table.argument && !record.rotary) {
+        if (table.argument && !table.layout && !record.rotary) {
             certified_meanings(builder, words, table);
         }
     }

@@ -36,6 +36,8 @@ public:
     [[nodiscard]] const std::vector<Coverage>& used() const { return used_; }
     /// k is not the same for all, or the profile wants its column.
     [[nodiscard]] bool k_column() const { return k_column_; }
+    /// Whether a table may have ±.
+    [[nodiscard]] bool plus_minus() const { return certificate_.profile.plus_minus_in_tables; }
     /// Some values are exact.
     [[nodiscard]] bool exact() const { return exact_; }
     /// Some U is the capability of the laboratory.

@@ -2,6 +2,7 @@
 
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
+#include "reports/view/point_table_view.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -222,6 +223,9 @@ void argument_table(CertificateBuilder& builder, const Wording& words, const Cer
 }  // namespace
 
 Text certified_table_name(const CertifiedTable& table, const Wording& words) {
+    if (table.layout) {
+        return layout_caption(*table.layout, words);
+    }
     static const std::set<std::string> known = {"results", "set_up",    "error_motions",   "reversal",
                                                 "ranges",  "axis_line", "location_errors", "positioning"};
     return known.contains(table.id) ? words("table_name", table.id)
@@ -251,7 +255,9 @@ void certified_meanings(CertificateBuilder& builder, const Wording& words, const
 
 void certified_table(CertificateBuilder& builder, const Wording& words, const CertifiedTable& table,
                      const std::string& id, const CertifiedOverview::Holds& shown, const CertifiedOverview& overview) {
-    if (table.argument) {
+    if (table.layout && table.argument) {
+        layout_table(builder, words, table, id, shown, overview);
+    } else if (table.argument) {
         argument_table(builder, words, table, id, shown, overview);
     } else {
         quantity_table(builder, words, table, id, shown, overview);

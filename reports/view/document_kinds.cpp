@@ -225,7 +225,7 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
 }
 
 /// Least and greatest coverage factor and effective degrees of freedom of everything that is reported.
-struct Coverage {
+struct CoverageWords {
     double k_low = 0.0, k_high = 0.0;
     std::optional<double> nu_low, nu_high;  ///< none = infinite
     bool any = false;
@@ -248,7 +248,7 @@ struct Coverage {
 
 /// What U means, for a record without certificate data; with them closing_sections() says it.
 void uncertainty_statement(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
-    Coverage coverage;
+    CoverageWords coverage;
     if (record.rotary) {
         for (const ErrorsAtAngle& at : record.rotary->errors) {
             for (const StatedValue& e : at.errors) {

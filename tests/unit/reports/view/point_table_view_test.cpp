@@ -1,0 +1,193 @@
+#include "reports/view/point_table_view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "reports/forms/asset_files.h"
+#include "reports/plots/certified_plots.h"
+#include "tests/unit/reports/certified_sample.h"
+#include "tests/unit/reports/document_text.h"
+
+namespace gumcert::reports {
+namespace {
+
+using certificate::CertifiedTable;
+using certificate::CertifiedValue;
+using certificate::ShownColumn;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+ShownColumn shown(const std::string& show, const std::string& of, const std::string& role = "",
+                  const std::string& stage = "") {
+    return {.show = show, .of = of, .heading = {}, .role = role, .stage = stage};
+}
+
+CertifiedValue value(const std::string& printed, const std::string& U, const std::string& k, double limit) {
+    CertifiedValue v;
+    v.value = std::stod(printed);
+    v.U = std::stod(U);
+    v.u = *v.U / 2.0;
+    v.k = std::stod(k);
+    v.printed_value = printed;
+    v.printed_U = U;
+    v.printed_k = k;
+    v.coverage = "normal";
+    v.verdict.emplace();
+    v.verdict->specification = "s";
+    v.verdict->lower = -limit;
+    v.verdict->upper = limit;
+    v.verdict->verdict = "pass";
+    v.verdict->printed.lower = "\u2212" + text::shortest(limit);
+    v.verdict->printed.upper = text::shortest(limit);
+    return v;
+}
+
+/// Three points of a range with nominal value, error, U, limit and verdict.
+certificate::Certificate table_of_points() {
+    certificate::Certificate certificate;
+    CertifiedTable& table = certificate.tables.emplace_back();
+    table.id = "results";
+    table.argument.emplace();
+    table.argument->name = "point";
+    table.argument->printed = {"1", "2", "3"};
+    table.argument->values = {{}, {}, {}};
+    table.columns.push_back({.result = "E",
+                             .name = "error",
+                             .unit = "mV",
+                             .printed_unit = "mV",
+                             .values = {value("0.10", "0.20", "2.00", 0.5), value("-0.20", "0.20", "2.00", 0.7),
+                                        value("0.30", "0.20", "2.00", 0.9)}});
+    certificate::TableLayout& layout = table.layout.emplace();
+    layout.title = "DC voltage";
+    layout.group = "10 V";
+    layout.group_role = "range";
+    layout.columns = {{.name = "nominal",
+                       .heading = {},
+                       .role = "nominal",
+                       .stage = "",
+                       .unit = "V",
+                       .printed_unit = "V",
+                       .values = {1.0, 5.0, 10.0},
+                       .printed = {"1.0", "5.0", "10.0"}}};
+    layout.shown = {shown("column", "nominal", "nominal"), shown("value", "E", "error"), shown("U", "E"),
+                    shown("limit", "E"), shown("verdict", "E")};
+    certificate.profile.plus_minus_in_tables = true;
+    return certificate;
+}
+
+json table_in(const certificate::Certificate& certificate, const std::string& language = "en") {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+    const Wording words(texts);
+    const CertifiedOverview overview(certificate);
+    CertificateBuilder builder(words);
+    builder.section("certified_results");
+    layout_table(
+        builder, words, certificate.tables.front(), "t", [](const CertifiedValue&) { return true; }, overview);
+    return builder.take().at(0).at("blocks").at(0).at("table").at(0);
+}
+
+std::vector<std::string> heads(const json& table) {
+    std::vector<std::string> all;
+    for (const json& column : table.at("columns")) {
+        all.push_back(column.at("head").get<std::string>() +
+                      (column.at("unit").empty() ? "" : " / " + column.at("unit").at(0).at("text").get<std::string>()));
+    }
+    return all;
+}
+
+std::vector<std::string> row(const json& table, std::size_t index) {
+    std::vector<std::string> all;
+    for (const json& cell : table.at("rows").at(index).at("cells")) {
+        all.push_back(cell.at("text").get<std::string>());
+    }
+    return all;
+}
+
+TEST(PointTableView, ShowsWhatTheLayoutSays) {
+    const json table = table_in(table_of_points());
+    EXPECT_EQ(table.at("caption"), "DC voltage. Range: 10 V.");
+    EXPECT_THAT(heads(table), ElementsAre("Nominal value / V", "Error / mV", "U / mV", "Limits ± / mV", "Verdict"));
+    EXPECT_THAT(row(table, 1), ElementsAre("5.0", "−0.20", "0.20", "0.7", "pass"));
+    EXPECT_THAT(heads(table_in(table_of_points(), "de")),
+                ElementsAre("Nennwert / V", "Messabweichung / mV", "U / mV", "Grenzen ± / mV", "Aussage"));
+}
+
+TEST(PointTableView, TakesTwoColumnsForLimitsThatAreNotSymmetrical) {
+    certificate::Certificate certificate = table_of_points();
+    certificate.tables[0].columns[0].values[0].verdict->printed.lower = "−0.4";
+    EXPECT_THAT(heads(table_in(certificate)), ElementsAre("Nominal value / V", "Error / mV", "U / mV",
+                                                          "Lower limit / mV", "Upper limit / mV", "Verdict"));
+    certificate = table_of_points();
+    certificate.profile.plus_minus_in_tables = false;
+    EXPECT_EQ(heads(table_in(certificate)).size(), 6U);
+    for (CertifiedValue& v : certificate.tables[0].columns[0].values) {
+        v.verdict->printed.lower.clear();
+    }
+    EXPECT_THAT(heads(table_in(certificate)),
+                ElementsAre("Nominal value / V", "Error / mV", "U / mV", "Upper limit / mV", "Verdict"));
+}
+
+TEST(PointTableView, AddsKWhereItIsNotTheSameForAll) {
+    certificate::Certificate certificate = table_of_points();
+    certificate.tables[0].columns[0].values[2].printed_k = "2.20";
+    EXPECT_THAT(heads(table_in(certificate)),
+                ElementsAre("Nominal value / V", "Error / mV", "U / mV", "k", "Limits ± / mV", "Verdict"));
+    EXPECT_EQ(row(table_in(certificate), 2).at(3), "2.20");
+}
+
+TEST(PointTableView, PutsStagesUnderOneHead) {
+    certificate::Certificate certificate = table_of_points();
+    certificate.tables[0].layout->shown = {shown("column", "nominal", "nominal"),
+                                           shown("value", "E", "error", "as_found"), shown("U", "E", "", "as_found")};
+    const json table = table_in(certificate);
+    ASSERT_EQ(table.at("groups").size(), 1U);
+    const json& cells = table.at("groups").at(0).at("cells");
+    ASSERT_EQ(cells.size(), 2U);
+    EXPECT_EQ(cells.at(1).at("text"), "As found");
+    EXPECT_EQ(cells.at(1).at("span"), "2");
+}
+
+TEST(PointTableView, KnowsWhichTablesShowVerdicts) {
+    certificate::Certificate certificate = table_of_points();
+    EXPECT_TRUE(shows_verdict(certificate.tables[0], "E"));
+    EXPECT_FALSE(shows_verdict(certificate.tables[0], "F"));
+    certificate.tables[0].layout->shown.pop_back();
+    EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
+    certificate.tables[0].layout.reset();
+    EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
+}
+
+TEST(PointTableView, NamesColumnsByHeadingRoleOrName) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    certificate::PointColumn column;
+    column.name = "serial";
+    EXPECT_EQ(heading_of(column, words).first(), "serial");
+    column.name = "range";
+    EXPECT_EQ(heading_of(column, words).first(), "Range");
+    column.role = "reference";
+    EXPECT_EQ(heading_of(column, words).first(), "Reference value");
+    column.heading = "Applied";
+    EXPECT_EQ(heading_of(column, words).first(), "Applied");
+}
+
+TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    const certificate::Certificate certificate = table_of_points();
+    const auto plot = certified_plot(certificate.tables[0], "DC voltage.", words, "p");
+    ASSERT_TRUE(plot);
+    EXPECT_EQ(plot->x_label, "Nominal value / V");
+    ASSERT_EQ(plot->panels.size(), 1U);
+    ASSERT_EQ(plot->panels[0].series.size(), 3U) << "the error and both limits, which differ from point to point";
+    EXPECT_EQ(plot->panels[0].series[0].points[2].x, 10.0);
+    EXPECT_TRUE(plot->panels[0].series[1].dashed);
+}
+
+}  // namespace
+}  // namespace gumcert::reports
