@@ -33,11 +33,26 @@ void write_plain_list(DccWriter& w, const PlainList& list) {
     w.xml.element("si:valueXMLList", full_list(list.values));
     w.xml.element("si:unitXMLList", d_si_unit(list.unit));
     w.xml.close();
+    write_stage(w, list.stage);
     if (needs_unit_definition(list.unit)) {
         w.xml.open("dcc:measurementMetaData");
         write_unit_definition(w, list.unit);
         w.xml.close();
     }
+    w.xml.close();
+}
+
+void write_stage(DccWriter& w, const std::string& stage) {
+    if (stage.empty()) {
+        return;
+    }
+    const Text name = w.words()("point_table", stage);
+    w.xml.open("dcc:influenceConditions");
+    w.xml.open("dcc:influenceCondition", {{"refType", w.ref_types()("stage")}});
+    w.text("dcc:name", name);
+    w.xml.element("dcc:status", stage == "as_found" ? "beforeAdjustment" : "afterAdjustment");
+    w.data_sentence(name);
+    w.xml.close();
     w.xml.close();
 }
 

@@ -25,8 +25,12 @@ struct PlainList {
     std::vector<std::string> values;  ///< as D-SI writes numbers
     std::string unit;                 ///< UDUNITS-2
     std::string label = {};           ///< result that the numbers belong to; "" for none
+    std::string stage = {};           ///< as write_stage() takes it
 };
 void write_plain_list(DccWriter& writer, const PlainList& list);
+
+/// That the numbers of a quantity were found before ("as_found") or after an adjustment ("as_left"); "": nothing.
+void write_stage(DccWriter& writer, const std::string& stage);
 
 /// Entries joined by one blank; one entry where all are the same.
 [[nodiscard]] std::string joined_list(const std::vector<std::string>& entries);

@@ -9,6 +9,7 @@
 #include "reports/dcc/dcc_writer.h"
 #include "reports/result_names.h"
 #include "reports/view/decision_formula.h"
+#include "reports/view/point_table_view.h"
 
 namespace gumcert::reports {
 
@@ -154,6 +155,18 @@ const Verdict* verdict_for(const CertifiedValue& v, const std::string& specifica
     return v.verdict && v.verdict->specification == specification ? &*v.verdict : nullptr;
 }
 
+/// How the layout of a table calls a result; none: it has no layout, or does not.
+const certificate::ShownColumn* shown_as(const CertifiedTable& table, const std::string& result) {
+    if (!table.layout) {
+        return nullptr;
+    }
+    const auto& shown = table.layout->shown;
+    const auto found = std::find_if(shown.begin(), shown.end(), [&](const certificate::ShownColumn& c) {
+        return c.show == "value" && c.of == result;
+    });
+    return found == shown.end() ? nullptr : &*found;
+}
+
 /// Words, one a row; blanks would split them.
 void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type, std::vector<std::string> entries) {
     for (std::string& entry : entries) {
@@ -276,7 +289,9 @@ void meta_data(DccWriter& w, const Column& c) {
 }
 
 void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_data) {
-    const std::string known = w.ref_types()("value_" + c.table.id);
+    const certificate::ShownColumn* const as = shown_as(c.table, c.column.result);
+    const std::string known =
+        w.ref_types()(as != nullptr && !as->role.empty() ? "role_" + as->role : "value_" + c.table.id);
     const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;
     w.xml.open("dcc:quantity", {{"refType", ref_type + " gumcert_" + as_token(c.column.result)}});
     w.text("dcc:name", result_meaning(c.table, c.column, w.words()));
@@ -293,6 +308,9 @@ void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_da
         uncertainty(w, c, stated);
     }
     w.xml.close();
+    if (as != nullptr) {
+        write_stage(w, as->stage);
+    }
     if (with_meta_data) {
         meta_data(w, c);
     }
@@ -343,6 +361,27 @@ void argument(DccWriter& w, const CertifiedTable::Argument& a) {
     write_plain_list(w, {.name = name, .ref_type = w.ref_types()("argument"), .values = entries, .unit = a.unit});
 }
 
+/// A column of points: words, or numbers without uncertainty.
+void point_column(DccWriter& w, const certificate::PointColumn& column) {
+    const Text name = heading_of(column, w.words());
+    const std::string known = column.role.empty() ? "" : w.ref_types()("role_" + column.role);
+    const std::string own = "gumcert_" + as_token(column.name);
+    if (std::none_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); })) {
+        words_quantity(w, name, own, column.printed);
+        return;
+    }
+    std::vector<std::string> entries;
+    for (std::size_t i = 0; i < column.values.size(); ++i) {
+        const std::string printed = d_si_number(column.printed[i]);
+        entries.push_back(!column.values[i] || printed != k_nothing ? printed : d_si_number(*column.values[i]));
+    }
+    write_plain_list(w, {.name = name,
+                         .ref_type = known.empty() ? own : known + " " + own,
+                         .values = entries,
+                         .unit = column.unit.empty() ? "1" : column.unit,
+                         .stage = column.stage});
+}
+
 /// "Results." → "Results": the heading of a table without its full stop, in any language.
 Text heading(const Text& caption, std::size_t languages) {
     std::vector<std::string> all;
@@ -362,13 +401,19 @@ void table(DccWriter& w, const CertifiedTable& t) {
     const Wording& words = w.words();
     const std::string known = w.ref_types()("table_" + t.id);
     w.xml.open("dcc:result", {{"refType", known.empty() ? w.ref_types()("table_results") : known}});
-    const Text caption = words.has("table_name", t.id) ? words("table_name", t.id)
-                                                       : words.filled("table_name", "other", {{"name", t.id}});
+    const Text caption = t.layout                        ? layout_caption(*t.layout, words)
+                         : words.has("table_name", t.id) ? words("table_name", t.id)
+                                                         : words.filled("table_name", "other", {{"name", t.id}});
     w.text("dcc:name", heading(caption, words.languages().size()));
     w.xml.open("dcc:data");
     w.xml.open("dcc:list");
     if (t.argument) {
         argument(w, *t.argument);
+    }
+    if (t.layout) {
+        for (const certificate::PointColumn& column : t.layout->columns) {
+            point_column(w, column);
+        }
     }
     for (const CertifiedColumn& column : t.columns) {
         write_column(w, {.table = t, .column = column, .list = t.argument.has_value() || column.values.size() > 1});
