@@ -620,9 +620,8 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
 
 void BudgetInputs::read_information(std::size_t column, const json& value, const std::string& where, BudgetJob& job) {
     certificate::PointColumn& into = job.point_columns[column];
-    fill_columns(job.points.size(), job);
-    into.values.emplace_back();
-    into.printed.emplace_back();
+    into.values.resize(job.points.size() + 1);  // points before may have left it out
+    into.printed.resize(job.points.size() + 1);
     if (!has_words_[column]) {
         if (value.is_number()) {
             into.values.back() = value.get<double>();

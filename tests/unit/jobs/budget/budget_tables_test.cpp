@@ -38,9 +38,14 @@ void expect_refusal(const std::string& keys, const InputCode& code, const std::s
                     const test::BudgetFiles& files = k_points) {
     SCOPED_TRACE(part);
     const std::vector<gum::Diagnostic> found = budget_refusals(keys, files);
-    ASSERT_FALSE(found.empty());
-    EXPECT_EQ(found.front().code, code.code) << gum::message(found.front());
-    EXPECT_THAT(gum::message(found.front()), HasSubstr(part));
+    std::string all;
+    bool is_told = false;
+    for (const gum::Diagnostic& one : found) {
+        const std::string message = gum::message(one);
+        is_told = is_told || (one.code == code.code && message.find(part) != std::string::npos);
+        all += one.code + " " + message + "\n";
+    }
+    EXPECT_TRUE(is_told) << all;
 }
 
 std::vector<std::string> shown(const certificate::TableRequest& table) {
@@ -167,7 +172,7 @@ TEST(BudgetTables, RefuseAPointWithoutTheLimitsOfItsSpecification) {
                                     how + "}]}");
     };
     expect_refusal(limits(R"j({"by": "points"})j"), k_point_without_limit,
-                   "the points \"1\" and \"2\": the point states no limit");
+                   "the points \"1\", \"2\": the point states no limit");
     expect_refusal(
         limits(R"j({"by": "accuracy", "of": "V_s", "accuracy": [{"range": "10 V", "percent_of_reading": 1}]})j"),
         k_point_without_limit, "the point \"1\": the accuracy is not stated for the range \"100 mV\"");
