@@ -193,11 +193,6 @@ private:
         if (overview_.k_column() && !has("k") && any(*of, [](const auto& v) { return !v.printed_k.empty(); })) {
             add_too("k");
         }
-        if (overview_.k_column() && !has("nu_eff") && any(*of, [](const auto& v) {
-                return coverage_of(v) == Coverage::student_t && !v.printed_nu_eff.empty();
-            })) {
-            add_too("nu_eff");
-        }
         if (any(*of, [&](const auto& v) { return !overview_.note(v).empty(); })) {
             put(c, words_("certificate", "note"), "", false, *of, [this](const CertifiedValue& v) {
                 const std::string note = overview_.note(v);
