@@ -26,7 +26,7 @@ std::string pdf(Issue& issue) {
     return signing::sign_pdf(pdf, *options.signer, options.signing_time);
 }
 
-constexpr std::array<OutputForm, 5> k_forms{{
+constexpr std::array<OutputForm, 7> k_forms{{
     {.name = "html",
      .ending = ".html",
      .description = "",
@@ -45,6 +45,19 @@ constexpr std::array<OutputForm, 5> k_forms{{
      .description = "scores of a comparison",
      .render = [](Issue& issue) { return reports::comparison_csv(issue.record()); },
      .with_templates = false},
+    {.name = "report",
+     .ending = "-report.pdf",
+     .description = "internal budget report, PDF",
+     .render =
+         [](Issue& issue) {
+             return reports::render_budget_report_pdf(issue.record(), issue.options().assets, issue.options().worker);
+         },
+     .is_issued = false},
+    {.name = "report-html",
+     .ending = "-report.html",
+     .description = "the same, HTML",
+     .render = [](Issue& issue) { return reports::render_budget_report_html(issue.record(), issue.options().assets); },
+     .is_issued = false},
 }};
 
 }  // namespace

@@ -42,10 +42,11 @@ private:
 /// A form that documents are written in, in one row.
 struct OutputForm {
     std::string_view name;                ///< after --format
-    std::string_view ending;              ///< of its files: ".html"
+    std::string_view ending;              ///< of its files, behind the name of the record: ".html"
     std::string_view description;         ///< for --help, where the name alone says too little
     std::string (*render)(Issue& issue);  ///< refuses a record that has no such form (gum::InputError)
     bool with_templates = true;           ///< it is made with templates and wording
+    bool is_issued = true;                ///< it goes to customers: findings that block a certificate block it as well
 };
 
 /// The forms of the program, in the order in which messages list them.

@@ -253,6 +253,9 @@ struct CertificateData {
     std::optional<Amendment> amendment;
     std::vector<Omission> omissions;
     std::vector<Waiver> waivers;
+    /// What stands behind the certified part of documents: "none", "summary" (the budgets), "full"; "", where the
+    /// laboratory states nothing, is full.
+    std::string annexes;
 };
 
 }  // namespace gumcert::certificate

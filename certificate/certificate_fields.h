@@ -15,6 +15,7 @@ namespace gumcert::certificate {
 //   a(key, member, R)         a member; may be missing in a job
 //   a.needed(key, member, R)  a member without which the object around it means nothing
 //   a.filled(key, member)     a member that the program fills in: in records, not in jobs
+//   a.stated(key, member, R)  a member that a later release added: in records only where it is not empty
 //   a.named(key, enumerator, { words })   an enumerator by its name, in the order of the words
 //   a.if_any(key, member, R)  a member of a later release: in records only where it holds something
 //   a.group(key, function)    an object that is no struct of its own: calls function(archive of it)
@@ -368,6 +369,7 @@ void describe(Archive& a, Struct& r) {
     a("amendment", r.amendment);
     a("omissions", r.omissions);
     a.added("waivers", r.waivers);
+    a.stated("annexes", r.annexes, {"", "none", "summary", "full"});
 }
 
 // What the evaluation adds. It stands in records only.

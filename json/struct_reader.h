@@ -64,6 +64,20 @@ public:
         }
     }
 
+    /// A member that may be missing without a word, whatever else a missing one means.
+    template <class Type, class Rule = NoRule>
+    void stated(std::string_view key, Type& v, const Rule& rule = {}) {
+        if (object_.contains(key)) {
+            (*this)(key, v, rule);
+        }
+    }
+    template <class Type>
+    void stated(std::string_view key, Type& v, std::initializer_list<const char*> words) {
+        if (object_.contains(key)) {
+            (*this)(key, v, words);
+        }
+    }
+
     /// To be called when every key was asked for: what is left in the object is unknown.
     void finish() {
         std::sort(asked_.begin(), asked_.end(), std::less<>());

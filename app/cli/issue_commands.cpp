@@ -292,7 +292,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         return negative_answer;
     }
     judge_issue(record, options.languages, options.share);
-    if (withheld(record, options.draft)) {
+    if (app::output_form(format).is_issued && withheld(record, options.draft)) {
         report_findings(record, common);
         report_withheld(name, {file}, common);
         return negative_answer;

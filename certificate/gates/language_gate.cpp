@@ -38,6 +38,14 @@ public:
     void added(const char* key, const Type& member, const Rule&...) {
         look(at_ + "/" + key, member);
     }
+    template <class Type, class... Rule>
+    void stated(const char* key, const Type& member, const Rule&...) {
+        look(at_ + "/" + key, member);
+    }
+    template <class Type>
+    void stated(const char* key, const Type& member, std::initializer_list<const char*>) {
+        look(at_ + "/" + key, member);
+    }
     template <class Type>
     void filled(const char*, const Type&) {}
     template <class Type>

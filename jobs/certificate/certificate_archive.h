@@ -77,6 +77,16 @@ public:
     void added(std::string_view key, Type& v, const Rule&... rule) {
         (*this)(key, v, rule...);
     }
+    // Every key of a job may be missing.
+    template <class Type, class Rule = gumcert::json::NoRule>
+    void stated(std::string_view key, Type& v, const Rule& rule = {}) {
+        (*this)(key, v, rule);
+    }
+    template <class Type>
+    void stated(std::string_view key, Type& v, std::initializer_list<const char*> words) {
+        (*this)(key, v, words);
+    }
+
     /// The program fills it in: no key of a job.
     template <class Type>
     void filled(std::string_view, Type&) {}

@@ -18,6 +18,10 @@ namespace gumcert::reports {
 [[nodiscard]] std::string filled_template(const std::string& file, const nlohmann::json& view,
                                           const RenderAssets& assets);
 
+/// budget_report_view() in the languages of the document.
+/// \throws gum::InputError  GC-REPORT-0042 of the record of a comparison
+[[nodiscard]] nlohmann::json view_of_budget_report(const EvaluationRecord& record, const RenderAssets& assets);
+
 [[nodiscard]] std::string view_as_text(const nlohmann::json& view);
 
 /// \throws gum::StorageError if a template is missing or damaged

@@ -69,4 +69,19 @@ std::string render_html(const EvaluationRecord& record, const RenderAssets& asse
     return view_as_html(certificate_view(record, read_wording(assets, record), assets.kinds), assets);
 }
 
+nlohmann::json view_of_budget_report(const EvaluationRecord& record, const RenderAssets& assets) {
+    if (document_kind(record, assets.kinds).is_report()) {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-REPORT-0042",
+                                              .where = "record",
+                                              .what = "a comparison has no budget report",
+                                              .rule = "its own report holds the budgets that were compared",
+                                              .action = "use --format html or pdf"});
+    }
+    return budget_report_view(record, read_wording(assets, record), assets.kinds);
+}
+
+std::string render_budget_report_html(const EvaluationRecord& record, const RenderAssets& assets) {
+    return view_as_html(view_of_budget_report(record, assets), assets);
+}
+
 }  // namespace gumcert::reports

@@ -80,21 +80,28 @@ std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, 
     return pdf;
 }
 
-}  // namespace
-
-std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
-    PdfWorker worker(assets);
-    return checked_pdf(view, assets, {}, worker);
-}
-
-std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
-                       PdfWorker* worker) {
-    const nlohmann::json view = certificate_view(record, read_wording(assets, record), assets.kinds);
+/// \param worker  none: a process for this document alone
+std::string set_by(PdfWorker* worker, const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc) {
     if (worker != nullptr) {
         return checked_pdf(view, assets, dcc, *worker);
     }
     PdfWorker own(assets);
     return checked_pdf(view, assets, dcc, own);
+}
+
+}  // namespace
+
+std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
+    return set_by(nullptr, view, assets, {});
+}
+
+std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
+                       PdfWorker* worker) {
+    return set_by(worker, certificate_view(record, read_wording(assets, record), assets.kinds), assets, dcc);
+}
+
+std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets, PdfWorker* worker) {
+    return set_by(worker, view_of_budget_report(record, assets), assets, {});
 }
 
 }  // namespace gumcert::reports

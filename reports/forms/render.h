@@ -29,6 +29,11 @@ struct RenderAssets {
 /// \throws gum::StorageError if a template is missing or damaged
 [[nodiscard]] std::string render_html(const EvaluationRecord& record, const RenderAssets& assets);
 
+/// The budget report, see budget_report_view(), as HTML.
+/// \throws gum::InputError    GC-REPORT-0042 of the record of a comparison
+/// \throws gum::StorageError  if a template is missing or damaged
+[[nodiscard]] std::string render_budget_report_html(const EvaluationRecord& record, const RenderAssets& assets);
+
 /// The certificate as plain text, UTF-8, lines of at most 100 characters. Plots are left out.
 /// \throws gum::StorageError if the wording is missing or damaged
 [[nodiscard]] std::string render_text(const EvaluationRecord& record, const RenderAssets& assets);
@@ -45,5 +50,10 @@ class PdfWorker;
 /// \throws gum::NoResultError  if Typst refuses the document, e.g. for a character that its fonts do not have
 [[nodiscard]] std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets,
                                      const std::string& dcc = {}, PdfWorker* worker = nullptr);
+
+/// The budget report as PDF/A-3a.
+/// \throws as render_budget_report_html(), and render_pdf()
+[[nodiscard]] std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets,
+                                                   PdfWorker* worker = nullptr);
 
 }  // namespace gumcert::reports

@@ -127,6 +127,20 @@ public:
         }
     }
 
+    /// A key that a later release added, and that is written only where there is something to say: records without it
+    /// keep their bytes.
+    template <class Type, class... Rule>
+    void stated(const char* key, const Type& v, const Rule&... rule) {
+        if (!is_nothing(v)) {
+            (*this)(key, v, rule...);
+        }
+    }
+    void stated(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
+        if (!v.empty()) {
+            (*this)(key, v, allowed);
+        }
+    }
+
     template <class Describe>
     void group(const char* key, const Describe& describe_group) {
         Writer inner(place_.child(key));
@@ -223,6 +237,15 @@ public:
 
 private:
     Step place_;
+
+    template <class Type>
+    static bool is_nothing(const Type& v) {
+        if constexpr (requires { v.empty(); }) {
+            return v.empty();
+        } else {
+            return !v;
+        }
+    }
 
     static void insert(json& into, const std::string& name, json item, const Step& at) {
         if (!into.emplace(name, std::move(item)).second) {

@@ -345,15 +345,16 @@ void input_quantities(CertificateBuilder& builder, const Wording& words, const s
     }
     builder.section("input_quantities");
     Rows rows;
-    for (std::size_t i = 0; i < std::min(inputs.size(), k_most_inputs); ++i) {
+    const std::size_t most = builder.most(k_most_inputs);
+    for (std::size_t i = 0; i < std::min(inputs.size(), most); ++i) {
         const std::string unit = gum::unit_for_people(inputs[i].unit);
         rows.push_back({inputs[i].name, words.localised(inputs[i].description), unit.empty() ? "1" : unit});
     }
     builder.table("input-quantities", words("sentence", "input_quantities"),
                   {{words("label", "quantity"), ""}, {words("label", "description"), ""}, {words("label", "unit"), ""}},
                   rows);
-    if (inputs.size() > k_most_inputs) {
-        builder.paragraph(words.fill("more_in_record", {{"count", std::to_string(inputs.size() - k_most_inputs)}}));
+    if (inputs.size() > most) {
+        builder.paragraph(words.fill("more_in_record", {{"count", std::to_string(inputs.size() - most)}}));
     }
 }
 
@@ -472,7 +473,8 @@ void sources(CertificateBuilder& builder, const Wording& words, const std::vecto
     }
 }
 
-void budgets(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+/// \param tables_only  without figures and sources
+void budgets(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record, bool tables_only) {
     std::vector<const Result*> with_budget;
     bool parts = false;
     bool fitted = false;
@@ -502,20 +504,23 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
         builder.paragraph(words("sentence", "budget_correlation"));
     }
     const std::size_t count = with_budget.size();
-    if (count > k_most_budgets) {
-        with_budget.resize(k_most_budgets);
+    const std::size_t most = builder.most(k_most_budgets);
+    if (count > most) {
+        with_budget.resize(most);
         builder.paragraph(
-            words.fill("first_budgets", {{"shown", std::to_string(k_most_budgets)}, {"count", std::to_string(count)}}));
+            words.fill("first_budgets", {{"shown", std::to_string(most)}, {"count", std::to_string(count)}}));
     }
     for (std::size_t i = 0; i < with_budget.size(); ++i) {
         budget(builder, words, *with_budget[i], i);
-        if (i < k_most_plots && with_budget[i]->budget.size() > 1) {
+        if (!tables_only && i < k_most_plots && with_budget[i]->budget.size() > 1) {
             const BarPlot plot = share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i));
             builder.figure(plot.id, words.fill("figure_shares", {{"name", with_budget[i]->name}}), plot.description,
                            svg(plot));
         }
     }
-    sources(builder, words, with_budget);
+    if (!tables_only) {
+        sources(builder, words, with_budget);
+    }
 }
 
 void second_order(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
@@ -596,7 +601,7 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
     }
     builder.section("monte_carlo");
     builder.paragraph(words("sentence", "monte_carlo"));
-    const bool few = all.size() <= k_most_budgets;
+    const bool few = all.size() <= builder.most(k_most_budgets);
     for (std::size_t i = 0; i < (few ? all.size() : 0); ++i) {
         monte_carlo_of(builder, words, *all[i], i);
     }
@@ -709,7 +714,8 @@ void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummar
     add_with_u(f.y_name, f.y_unit, f.printed.y, f.printed.u_y);
     add(words("label", "residual_short"), difference_unit(f.y_unit), f.printed.residual);
     Rows rows;
-    for (std::size_t i = 0; i < std::min(n, k_most_data); ++i) {
+    const std::size_t most = builder.most(k_most_data);
+    for (std::size_t i = 0; i < std::min(n, most); ++i) {
         std::vector<Text> row = {std::to_string(i + 1)};
         for (const std::vector<std::string>* column : cells) {
             row.emplace_back((*column)[i]);
@@ -717,9 +723,9 @@ void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummar
         rows.push_back(std::move(row));
     }
     builder.table("fit-data-" + id, words.fill("fit_data", {{"name", f.name}}), columns, rows);
-    if (n > k_most_data) {
+    if (n > most) {
         builder.paragraph(
-            words.fill("fit_data_first", {{"shown", std::to_string(k_most_data)}, {"count", std::to_string(n)}}));
+            words.fill("fit_data_first", {{"shown", std::to_string(most)}, {"count", std::to_string(n)}}));
     }
 }
 
@@ -826,7 +832,7 @@ void readings_list(CertificateBuilder& builder, const Wording& words, const std:
         facts.emplace_back(set_name(r.input, r.component, r.point, points, words),
                            words.number(with_unit(text, gum::unit_for_people(r.unit))));
     }
-    if (count > 0 && count <= k_most_readings) {
+    if (count > 0 && count <= builder.most(k_most_readings)) {
         builder.paragraph(words("sentence", "readings_list"));
         builder.definitions(facts);
     }
@@ -928,12 +934,13 @@ void type_a(CertificateBuilder& builder, const Wording& words, const EvaluationR
         readings(builder, words, record.readings);
     }
     const std::size_t analyses = record.variance_analyses.size();
-    for (std::size_t i = 0; i < std::min(analyses, k_most_budgets); ++i) {
+    const std::size_t most = builder.most(k_most_budgets);
+    for (std::size_t i = 0; i < std::min(analyses, most); ++i) {
         variance_analysis(builder, words, record.variance_analyses[i], i, at_points(record.variance_analyses));
     }
-    if (analyses > k_most_budgets) {
-        builder.paragraph(words.fill("anova_first",
-                                     {{"shown", std::to_string(k_most_budgets)}, {"count", std::to_string(analyses)}}));
+    if (analyses > most) {
+        builder.paragraph(
+            words.fill("anova_first", {{"shown", std::to_string(most)}, {"count", std::to_string(analyses)}}));
     }
     outliers(builder, words, record.outliers);
 }
@@ -944,12 +951,16 @@ void budget_results(CertificateBuilder& builder, const Wording& words, const Eva
     results(builder, words, record);
 }
 
+void budget_tables(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    budgets(builder, words, record, true);
+}
+
 void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     input_quantities(builder, words, record.inputs);
     if (record.model) {
         model(builder, words, *record.model);
     }
-    budgets(builder, words, record);
+    budgets(builder, words, record, false);
     second_order(builder, words, record);
     monte_carlo(builder, words, record);
     joint(builder, words, record);

@@ -17,4 +17,7 @@ void budget_results(CertificateBuilder& builder, const Wording& words, const Eva
 /// variance.
 void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
 
+/// The budgets alone, as tables.
+void budget_tables(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
+
 }  // namespace gumcert::reports

@@ -52,6 +52,14 @@ public:
         annexes_ = true;
         outside_ = outside;
     }
+    /// The document is for those who look at everything: its lists go on where those of a certificate end.
+    void unabridged() { unabridged_ = true; }
+    /// How many entries a list may have.
+    /// \param on_a_certificate  the limit where a page is for the customer
+    [[nodiscard]] std::size_t most(std::size_t on_a_certificate) const {
+        constexpr std::size_t k_times = 50;  // beyond it nobody reads, and setting the pages takes minutes
+        return unabridged_ ? k_times * on_a_certificate : on_a_certificate;
+    }
     void paragraph(const Text& text);
     void formula(const Text& text);
     void definitions(const Facts& rows);
@@ -76,7 +84,7 @@ private:
     int tables_ = 0;
     int figures_ = 0;
     std::size_t absent_cells_ = 0;
-    bool annexes_ = false, outside_ = false;
+    bool annexes_ = false, outside_ = false, unabridged_ = false;
 
     void block(const char* kind, nlohmann::json content);
 };

@@ -311,6 +311,10 @@ json foot(const Certificate& certificate, const Wording& words) {
 
 }  // namespace
 
+std::string document_status(const EvaluationRecord& record) {
+    return is_draft(record) ? "draft" : is_specimen(record) ? "specimen" : "issued";
+}
+
 Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
     const auto& marked = item.stated_by_customer;
     const bool by_customer = std::find(marked.begin(), marked.end(), key) != marked.end();

@@ -25,6 +25,9 @@ namespace gumcert::reports {
 /// Head and foot of every page: {header_left, header_right, footer_left}, in the binding language.
 [[nodiscard]] nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record);
 
+/// "draft", "specimen" or "issued": the group certificate_status of the wording has words for it.
+[[nodiscard]] std::string document_status(const EvaluationRecord& record);
+
 /// A text of the certificate data, marked with † where the customer stated it.
 [[nodiscard]] Text item_text(const certificate::Item& item, const std::string& key, const Text& text);
 

@@ -512,7 +512,7 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
         if (!v.precise_enough || v.validated) {
             continue;
         }
-        if (exceptions.size() == k_most_listed) {
+        if (exceptions.size() == builder.most(k_most_listed)) {
             ++left_out;
             continue;
         }
@@ -701,9 +701,10 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
                       rows, {{words("label", "affected"), 5}, {words("label", "by_distance"), 5}});
     }
     if (!r.fixture_reliability.empty()) {
+        const std::size_t most = builder.most(k_most_listed);
         Rows rows;
         for (const FixtureReliabilityRow& row : r.fixture_reliability) {
-            if (rows.size() == k_most_listed) {
+            if (rows.size() == most) {
                 break;
             }
             rows.push_back({row.reflector, row.coordinate, rounded_with_minus(row.residual_um),
@@ -718,9 +719,9 @@ void reliability(CertificateBuilder& builder, const Wording& words, const Rotary
                        {words("label", "test_value"), "", true},
                        {words("label", "detectable"), "µm", true}},
                       rows);
-        if (r.fixture_reliability.size() > k_most_listed) {
-            builder.paragraph(words.fill("more_in_record",
-                                         {{"count", std::to_string(r.fixture_reliability.size() - k_most_listed)}}));
+        if (r.fixture_reliability.size() > most) {
+            builder.paragraph(
+                words.fill("more_in_record", {{"count", std::to_string(r.fixture_reliability.size() - most)}}));
         }
     }
 }

@@ -269,7 +269,13 @@ std::vector<std::size_t> reading_order(const Certificate& certificate) {
 }  // namespace
 
 void findings_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
-    if (!certificate.blocked || certificate.findings.empty()) {
+    if (certificate.blocked) {
+        all_findings(builder, words, certificate);
+    }
+}
+
+void all_findings(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+    if (certificate.findings.empty()) {
         return;
     }
     builder.section("findings");

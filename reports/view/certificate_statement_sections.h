@@ -12,6 +12,9 @@ namespace gumcert::reports {
 /// Findings of the three gates, where they block the issue: on a draft only.
 void findings_section(CertificateBuilder& builder, const Wording& words, const certificate::Certificate& certificate);
 
+/// The same, whether they block or not: for the laboratory.
+void all_findings(CertificateBuilder& builder, const Wording& words, const certificate::Certificate& certificate);
+
 /// Method with deviations, traceability with the table of standards, conditions (ISO/IEC 17025:2017, 7.8.2.1 f, k, n;
 /// 7.8.4.1 b, c).
 void method_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);

@@ -197,7 +197,9 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
         builder.paragraph(words("statement", "raised"));
     }
     if (const std::vector<Text> names = contributions(record, words); !names.empty()) {
-        builder.paragraph(words.filled("statement", "contributions", {{"names", listed(names, words)}}));
+        const bool annexed = record.certificate->data.annexes != "none";
+        builder.paragraph(words.filled("statement", annexed ? "contributions" : "contributions_in_record",
+                                       {{"names", listed(names, words)}}));
     }
     builder.paragraph(words.fill("validity", {}));
 }

@@ -2,6 +2,7 @@
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/printable_text.h"
+#include "reports/view/budget_report_sections.h"
 #include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_identity_sections.h"
 #include "reports/view/certificate_statement_sections.h"
@@ -97,8 +98,8 @@ void input(CertificateBuilder& builder, const Wording& words, const EvaluationRe
                   rows);
 }
 
-/// What the laboratory certifies, and the beginning of the annexes, which do not repeat it: a certified U may be the
-/// capability of the laboratory and then differs from the evaluated one.
+/// What the laboratory certifies. The annexes do not repeat it: a certified U may be the capability of the laboratory
+/// and then differs from the evaluated one.
 void certified_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
                         const DocumentKind& kind) {
     findings_section(builder, words, *record.certificate);
@@ -106,9 +107,32 @@ void certified_sections(CertificateBuilder& builder, const Wording& words, const
     result_sections(builder, words, record);
     kind.conventions(builder, words, record);
     closing_sections(builder, words, record);
+}
+
+/// How the results came about, below what the document states.
+void background(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+                const DocumentKind& kind) {
+    kind.evidence(builder, words, record);
+    if (!record.diagnostics.empty()) {
+        messages(builder, words, without_file_names(record));
+    }
+    input(builder, words, record);
+    kind.measured_values(builder, words, record);
+}
+
+/// As much of it as the laboratory gives to its customers. What ISO/IEC 17025:2017, 7.8.2 and 7.8.4 demand stands
+/// before the annexes.
+void annexes(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
+             const DocumentKind& kind) {
+    const std::string& extent = record.certificate->data.annexes;
     // What the scope covers are the certified tables: nothing else of the document claims the accreditation.
     builder.annexes(record.certificate->symbol);
-    kind.evaluation(builder, words, record);
+    if (extent == "summary") {
+        kind.summary(builder, words, record);
+    } else if (extent != "none") {
+        kind.evaluation(builder, words, record);
+        background(builder, words, record, kind);
+    }
 }
 
 /// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
@@ -143,6 +167,18 @@ json pages(const Wording& words) {
     return all;
 }
 
+/// What documents of all sorts say of themselves.
+json frame(const Wording& words, const EvaluationRecord& record) {
+    json view = {{"language", words.language()},
+                 {"running_title", shortened(printable(record.title), 80)},
+                 {"pages", pages(words)},
+                 {"created", date_of_creation(record)},
+                 {"attachment", json::array()},
+                 {"closing", json::array()}};
+    put(view, "title", record.title, words.languages());
+    return view;
+}
+
 }  // namespace
 
 nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
@@ -158,30 +194,58 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     if (is_certificate) {
         view["identity"].push_back(identity_page(builder, words, record));
         certified_sections(builder, words, record, kind);
+        annexes(builder, words, record, kind);
     } else {
         kind.specimen(builder, words, record);
+        background(builder, words, record, kind);
     }
-    kind.evidence(builder, words, record);
-    if (!record.diagnostics.empty()) {
-        messages(builder, words, without_file_names(record));
-    }
-    input(builder, words, record);
-    kind.measured_values(builder, words, record);
-
-    view["language"] = words.language();
+    view.update(frame(words, record));
     view["mark"] = kind.is_report() ? json::array() : certificate_marks(words, record);
-    view["running_title"] = shortened(printable(record.title), 80);
-    view["pages"] = pages(words);
-    view["created"] = date_of_creation(record);
-    view["attachment"] = json::array();
-    view["closing"] = json::array();
     if (!is_certificate) {  // the first page of a certificate says it
         const Text only = of_kind("only_items");
         view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});
     }
     put(view, "type", of_kind("type"), languages);
-    put(view, "title", record.title, languages);
     put(view, "end_mark", of_kind("end_mark"), languages);
+    view["sections"] = builder.take();
+    return view;
+}
+
+nlohmann::json budget_report_view(const EvaluationRecord& record, const nlohmann::json& wording,
+                                  std::span<const DocumentKind> kinds) {
+    const Wording words(wording);
+    const std::vector<std::string>& languages = words.languages();
+    const DocumentKind& kind = document_kind(record, kinds);
+    CertificateBuilder builder(words);
+    builder.unabridged();
+    report_subject(builder, words, record);
+    if (record.certificate) {
+        all_findings(builder, words, *record.certificate);
+        method_sections(builder, words, record);
+        result_sections(builder, words, record);
+        kind.conventions(builder, words, record);
+        closing_sections(builder, words, record);
+        capability_of_values(builder, words, *record.certificate);
+        kind.evaluation(builder, words, record);
+    } else {
+        kind.specimen(builder, words, record);
+    }
+    background(builder, words, record, kind);
+    files_as_read(builder, words, record);
+
+    json view = budget_report_running_texts(words, record);
+    view.update(frame(words, record));
+    const Text mark = words("document", "budget_report_mark");
+    const Text reason = words("document", "budget_report_mark_reason");
+    view["mark"] = json::array({{{"text", mark.first()},
+                                 {"also", also(mark, languages)},
+                                 {"reason", reason.first()},
+                                 {"reason_also", also(reason, languages)}}});
+    view["identity"] = json::array();
+    const Text certified = words("document", "budget_report_only_items");
+    view["closing"].push_back({{"text", certified.first()}, {"also", also(certified, languages)}});
+    put(view, "type", words("document", "budget_report_type"), languages);
+    put(view, "end_mark", words("document", "budget_report_end_mark"), languages);
     view["sections"] = builder.take();
     return view;
 }

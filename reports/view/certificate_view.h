@@ -43,4 +43,12 @@ namespace gumcert::reports {
 [[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
                                               std::span<const DocumentKind> kinds = document_kinds());
 
+/// The budget report, for the technical manager and the assessor: everything that a certificate states and everything
+/// that it is evaluated from, whatever annexes the certificate has, with longer lists and the files of readings. It is
+/// no certificate and says so on every page: `identity` is empty, `mark` is that of an internal document.
+/// \param record  with results; not of a comparison, whose own report holds its budgets
+/// \throws gum::StorageError if the wording lacks a text
+[[nodiscard]] nlohmann::json budget_report_view(const EvaluationRecord& record, const nlohmann::json& wording,
+                                                std::span<const DocumentKind> kinds = document_kinds());
+
 }  // namespace gumcert::reports

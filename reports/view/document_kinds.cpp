@@ -332,6 +332,14 @@ void rotary_evaluation(CertificateBuilder& builder, const Wording& words, const 
     uncertainty(builder, words, record);
 }
 
+void rotary_summary(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    rotary_identification(builder, words, record);
+    if (!record.rotary->budget_summary.empty()) {
+        builder.section("uncertainty");
+        budget_by_source(builder, words, *record.rotary);
+    }
+}
+
 void rotary_evidence(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const RotaryTable& r = *record.rotary;
     fixture(builder, words, r);
@@ -392,6 +400,7 @@ constexpr std::array<DocumentKind, 4> k_kinds{{
      .specimen = rotary_specimen,
      .conventions = rotary_conventions,
      .evaluation = rotary_evaluation,
+     .summary = rotary_summary,
      .evidence = rotary_evidence,
      .measured_values = rotary_values},
     {.word = k_circle_closure_kind, .evidence = circle_closure_section},
@@ -420,6 +429,15 @@ void evaluation_of_results(CertificateBuilder& builder, const Wording& words, co
         uncertainty(builder, words, record);
     } else {
         budget_sections(builder, words, record);
+    }
+}
+
+void summary_of_results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    identification(builder, words, record);
+    if (record.results.empty()) {
+        uncertainty(builder, words, record);
+    } else {
+        budget_tables(builder, words, record);
     }
 }
 

@@ -21,6 +21,7 @@ inline void no_sections(CertificateBuilder& /*builder*/, const Wording& /*words*
 // Lists of a record that holds its results with their budgets, and nothing of its own.
 void specimen_of_results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
 void evaluation_of_results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
+void summary_of_results(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record);
 
 /// What documents of the records of one kind show, in one row. What is not stated is that of a record with results.
 struct DocumentKind {
@@ -35,6 +36,7 @@ struct DocumentKind {
     Sections specimen = specimen_of_results;      ///< of a record without certificate data, or of a report
     Sections conventions = no_sections;           ///< of a certificate, below the certified tables
     Sections evaluation = evaluation_of_results;  ///< of a certificate: how its results were found, an annex
+    Sections summary = summary_of_results;        ///< of one with annexes in short, in place of that and all below
     Sections evidence = no_sections;              ///< below either
     Sections measured_values = no_sections;       ///< at the end
 

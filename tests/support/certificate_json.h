@@ -39,6 +39,13 @@ public:
     void added(const char* key, const Type& v, Rule... rule) {
         (*this)(key, v, rule...);
     }
+    void stated(const char* key, const Type& v, Rule... rule) {
+        (*this)(key, v, rule...);
+    }
+    template <class Type>
+    void stated(const char* key, const Type& v, std::initializer_list<const char*>) {
+        (*this)(key, v);
+    }
     template <class Type>
     void filled(const char*, const Type&) {}
     template <class Type>
@@ -193,6 +200,7 @@ inline certificate::CertificateData complete_certificate_data() {
                             .reason = gumcert::test::in_two_languages("Wrong serial number", "Falsche Seriennummer"),
                             .changes = {"Serial number"}};
     d.omissions = {{.clause = "7.8.2.1 k", .reason = "No sampling was needed"}};
+    d.annexes = "summary";
     return d;
 }
 

@@ -60,6 +60,14 @@ public:
         (*this)(key, v);
     }
     template <class Type, class... Rule>
+    void stated(const std::string& key, const Type& v, Rule... rule) {
+        (*this)(key, v, rule...);
+    }
+    template <class Type>
+    void stated(const std::string& key, const Type& v, std::initializer_list<const char*> words) {
+        (*this)(key, v, words);
+    }
+    template <class Type, class... Rule>
     void needed(const std::string& key, const Type& v, Rule... rule) {
         (*this)(key, v, rule...).needed = true;
     }

@@ -42,6 +42,14 @@ public:
     void added(const char* key, Type& member, const Rule&... rule) {
         key_of(key, false, [&] { value(member, rule...); });
     }
+    template <class Type, class... Rule>
+    void stated(const char* key, Type& member, const Rule&... rule) {
+        (*this)(key, member, rule...);
+    }
+    template <class Type>
+    void stated(const char* key, Type& member, std::initializer_list<const char*> words) {
+        (*this)(key, member, words);
+    }
     template <class Type>
     void filled(const char*, Type&) {}
     /// Limits of points replace those of the specification: what they give is in the verdicts.

@@ -120,6 +120,13 @@ public:
         (*this)(key, v, allowed);
         required_.erase(required_.size() - 1);
     }
+    template <class Type, class... Rule>
+    void stated(const char* key, const Type& v, const Rule&... rule) {
+        added(key, v, rule...);
+    }
+    void stated(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
+        added(key, v, allowed);
+    }
     template <class Number, class... Rule>
     void added(const char* key, const Shown<Number>& v, const Rule&... rule) {
         added(key, v.number, rule...);

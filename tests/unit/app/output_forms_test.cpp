@@ -34,10 +34,10 @@ TEST(OutputForms, HaveANameAndAnEndingOfTheirOwn) {
     for (const OutputForm& form : output_forms()) {
         EXPECT_TRUE(names.insert(form.name).second) << form.name;
         EXPECT_TRUE(endings.insert(form.ending).second) << form.name;
-        EXPECT_TRUE(form.ending.starts_with('.'));
+        EXPECT_TRUE(form.ending.starts_with('.') || form.ending.starts_with('-'));
         EXPECT_EQ(&output_form(form.name), &form);
     }
-    EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "pdf", "text"));
+    EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "pdf", "report", "report-html", "text"));
     EXPECT_THROW((void)output_form("odt"), std::invalid_argument);
 }
 
@@ -61,7 +61,9 @@ TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
     };
     EXPECT_EQ(code_of(record_of_kind("comparison"), "dcc"), "GC-REPORT-0041");
     EXPECT_EQ(code_of(record_of_kind("budget"), "csv"), "GC-REPORT-0040");
+    EXPECT_EQ(code_of(record_of_kind("comparison"), "report-html"), "GC-REPORT-0042");
     EXPECT_EQ(code_of(test::certified_budget_record(), "text"), "");
+    EXPECT_EQ(code_of(test::certified_budget_record(), "report-html"), "");
 }
 
 }  // namespace
