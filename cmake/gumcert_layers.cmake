@@ -73,7 +73,7 @@ set(GUMCERT_EDGES_reports_record_make_rotary_table   text gum/quantity gum certi
 set(GUMCERT_EDGES_reports_record_make_circle_closure text gum/quantity gum gum/monte_carlo certificate
                                                      gum/circle_closure jobs/circle_closure reports/record
                                                      reports/record/make)
-set(GUMCERT_EDGES_reports_record_make_certificate    text gum/quantity gum gum/conformity certificate certificate/gates
+set(GUMCERT_EDGES_reports_record_make_certificate    text encoding gum/quantity gum gum/conformity certificate certificate/gates
                                                      gum/budget reports/record reports/record/make
                                                      reports/record/make/budget reports/record/make/rotary_table
                                                      reports/record/make/circle_closure)
@@ -81,7 +81,7 @@ set(GUMCERT_EDGES_reports                            text gum/quantity certifica
 set(GUMCERT_EDGES_reports_plots                      text gum/quantity certificate reports/record reports)
 set(GUMCERT_EDGES_reports_view                       text gum/quantity gum certificate reports/record reports
                                                      reports/plots)
-set(GUMCERT_EDGES_reports_forms                      text gum/quantity json reports/record reports reports/view)
+set(GUMCERT_EDGES_reports_forms                      text encoding gum/quantity json reports/record reports reports/view)
 set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity json gum certificate audit reports
                                                      reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
@@ -149,8 +149,8 @@ set(GUMCERT_THIRD_PARTY_reports_record_make_certificate)
 set(GUMCERT_THIRD_PARTY_reports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_plots)
 set(GUMCERT_THIRD_PARTY_reports_view                       nlohmann)
-set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohmann poll.h qpdf spawn.h sys/wait.h
-                                                           unistd.h)
+set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohmann poll.h qpdf qrencode.h spawn.h
+                                                           sys/wait.h unistd.h)
 set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace gumcert::reports {
@@ -47,6 +48,27 @@ bool is_digit(char c) {
 }
 
 }  // namespace
+
+std::string with_power_of_ten(const std::string& text) {
+    static constexpr std::array<const char*, 10> k_raised = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::size_t first = i + 1 < text.size() && (text[i + 1] == '-' || text[i + 1] == '+') ? i + 2 : i + 1;
+        if (text[i] != 'E' || i == 0 || !is_digit(i - 1) || !is_digit(first)) {
+            out += text[i];
+            continue;
+        }
+        out += "\u00A0×\u00A010";
+        out += text[first - 1] == '-' ? "⁻" : "";
+        std::size_t end = first;
+        for (; is_digit(end); ++end) {
+            out += k_raised.at(static_cast<std::size_t>(text[end] - '0'));
+        }
+        i = end - 1;
+    }
+    return out;
+}
 
 std::string with_decimal_sign(const std::string& text, const std::string& sign) {
     std::string out;
@@ -136,7 +158,7 @@ Text Wording::filled(const std::string& group, const std::string& name, const Va
 }
 
 Text Wording::number(const std::string& printed) const {
-    const std::string text = printed.starts_with('-') ? "\u2212" + printed.substr(1) : printed;
+    const std::string text = with_power_of_ten(printed.starts_with('-') ? "\u2212" + printed.substr(1) : printed);
     std::vector<std::string> all;
     for (const std::string& sign : signs_) {
         all.push_back(with_decimal_sign(text, sign));

@@ -68,6 +68,9 @@ private:
     [[nodiscard]] Text text_of(const std::vector<std::string>& path) const;
 };
 
+/// "1.2E-6" as "1.2 × 10⁻⁶", with blanks that do not break; other texts as they are.
+[[nodiscard]] std::string with_power_of_ten(const std::string& text);
+
 /// A text with `sign` in place of every point that stands between two digits.
 [[nodiscard]] std::string with_decimal_sign(const std::string& text, const std::string& sign);
 

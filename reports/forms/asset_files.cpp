@@ -53,6 +53,29 @@ nlohmann::json read_json_asset(const std::filesystem::path& file) {
 
 namespace {
 
+/// Texts of a laboratory in place of those of the program.
+/// \param where  of `own`, for messages
+/// \throws gum::StorageError for a key that the program does not have, or a text that lacks a value
+void put_own_texts(nlohmann::json& texts, const nlohmann::json& own, const std::string& where) {
+    for (const auto& [key, text] : own.items()) {
+        const std::string at = where + "/" + key;
+        const auto found = texts.find(key);
+        if (found == texts.end() || found->type() != text.type()) {
+            throw gum::StorageError(gum::Diagnostic{
+                .code = "GC-REPORT-0007",
+                .where = at,
+                .what = found == texts.end() ? "a key that the wording of the program does not have" : text.type_name(),
+                .rule = "a file of own wording holds keys of the wording beside it, each with a text",
+                .action = "take the key as it stands there; its group is the object around it"});
+        }
+        if (text.is_object()) {
+            put_own_texts(*found, text, at);
+        } else {
+            *found = text;
+        }
+    }
+}
+
 /// \throws gum::StorageError if there is no wording of this language
 nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
     // The language becomes part of a file name: letters and hyphens only.
@@ -67,7 +90,12 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
                                                 .rule = "a document is printed in a language of templates/wording",
                                                 .action = "choose another language, e.g. en"});
     }
-    return read_json_asset(file);
+    nlohmann::json texts = read_json_asset(file);
+    const std::filesystem::path own = assets.templates / "wording" / (language + ".own.json");
+    if (std::filesystem::exists(own)) {
+        put_own_texts(texts, read_json_asset(own), own.string() + "#");
+    }
+    return texts;
 }
 
 nlohmann::json wording_of(const std::vector<std::string>& languages, const RenderAssets& assets) {

@@ -1,7 +1,9 @@
+#include "encoding/base64.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/render.h"
+#include "reports/forms/typeset_html.h"
 #include "reports/view/certificate_view.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -11,8 +13,11 @@
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace gumcert::reports {
@@ -44,6 +49,27 @@ data to_mustache(const nlohmann::json& value) {
     return data{value.get<std::string>()};
 }
 
+/// Pictures that a template of a laboratory names stand beside it; documents load nothing, so they are put into the file.
+std::string with_pictures(const std::string& html, const RenderAssets& assets) {
+    static constexpr std::string_view k_source = " src=\"";
+    std::string out;
+    std::size_t at = 0;
+    for (std::size_t found = html.find(k_source); found != std::string::npos; found = html.find(k_source, at)) {
+        const std::size_t from = found + k_source.size();
+        const std::size_t end = std::min(html.find('"', from), html.size());
+        const std::filesystem::path name = html.substr(from, end - from);
+        const std::string type = name.extension() == ".png"                                  ? "png"
+                                 : name.extension() == ".jpg" || name.extension() == ".jpeg" ? "jpeg"
+                                                                                             : "";
+        out += html.substr(at, from - at);
+        out += type.empty() || name.has_parent_path()
+                   ? name.string()
+                   : "data:image/" + type + ";base64," + encoding::base64(read_asset(assets.templates / name));
+        at = end;
+    }
+    return out + html.substr(at);
+}
+
 }  // namespace
 
 std::string filled_template(const std::string& file, const nlohmann::json& view, const RenderAssets& assets) {
@@ -62,7 +88,7 @@ std::string filled_template(const std::string& file, const nlohmann::json& view,
 
 std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
     view["style"] = read_asset(assets.templates / "certificate.css");
-    return filled_template("certificate.html.mustache", view, assets);
+    return with_pictures(typeset_html(filled_template("certificate.html.mustache", view, assets), view), assets);
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {

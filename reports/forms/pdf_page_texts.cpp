@@ -182,6 +182,106 @@ private:
     std::string text_;
 };
 
+std::string digits_of(std::string_view text) {
+    std::string digits;
+    for (const char c : text) {
+        if (c >= '0' && c <= '9') {
+            digits += c;
+        }
+    }
+    return digits;
+}
+
+/// Looks for the digits of a view in those of a document. Between digits that belong together a document draws none.
+class NumberSearch {
+public:
+    explicit NumberSearch(const std::string& drawn) : drawn_(drawn) {}
+
+    void look_at(const nlohmann::json& parts) {
+        for (const nlohmann::json& part : parts) {
+            for (const nlohmann::json& section : part.value("sections", nlohmann::json::array())) {
+                for (const nlohmann::json& block : section.at("blocks")) {
+                    look_at_block(block);
+                }
+            }
+        }
+    }
+    [[nodiscard]] std::vector<gum::Diagnostic> take() { return std::move(findings_); }
+
+private:
+    static constexpr std::size_t k_most_findings = 20;
+    const std::string& drawn_;
+    std::size_t at_ = 0;
+    std::vector<gum::Diagnostic> findings_;
+
+    void look_at_block(const nlohmann::json& block) {
+        for (const nlohmann::json& paragraph : block.at("paragraph")) {
+            look_for_text(paragraph.at("text").get<std::string>());
+        }
+        for (const nlohmann::json& definitions : block.at("definitions")) {
+            for (const nlohmann::json& row : definitions.at("rows")) {
+                look_for_text(row.at("value").get<std::string>());
+            }
+        }
+        for (const nlohmann::json& table : block.at("table")) {
+            for (const nlohmann::json& row : table.at("rows")) {
+                std::string digits;
+                std::string text;
+                for (const nlohmann::json& cell : row.at("cells")) {
+                    text += (text.empty() ? "" : " | ") + cell.at("text").get<std::string>();
+                    digits += digits_of(cell.at("text").get<std::string>());
+                    for (const nlohmann::json& also : cell.at("also")) {
+                        digits += digits_of(also.at("text").get<std::string>());
+                    }
+                }
+                if (!is_drawn(digits)) {
+                    missing(table.at("number").get<std::string>(), text);
+                }
+            }
+        }
+    }
+
+    /// A sentence may go on at the next page, behind its head: then each of its numbers is looked for.
+    void look_for_text(const std::string& text) {
+        if (is_drawn(digits_of(text))) {
+            return;
+        }
+        std::string number;
+        for (const char c : text + " ") {
+            if (c >= '0' && c <= '9') {
+                number += c;
+            } else if (c != '.' && c != ',') {
+                if (!is_drawn(std::exchange(number, {}))) {
+                    missing("text", text);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// What comes next in the view mostly comes next in the document.
+    bool is_drawn(const std::string& digits) {
+        std::size_t found = drawn_.find(digits, at_);
+        if (found == std::string::npos) {
+            found = drawn_.find(digits);
+        }
+        if (found != std::string::npos && digits.size() > 3) {
+            at_ = found;
+        }
+        return found != std::string::npos;
+    }
+
+    void missing(const std::string& where, const std::string& text) {
+        if (findings_.size() < k_most_findings) {
+            findings_.push_back({.code = "GC-REPORT-0033",
+                                 .where = "PDF, " + where,
+                                 .what = "\"" + text + "\" of the record is not in the document with these digits",
+                                 .rule = "a template places the numbers of the record and changes none",
+                                 .action = "correct the template; rows of tables keep their columns in order"});
+        }
+    }
+};
+
 }  // namespace
 
 std::vector<std::string> texts_of_pages(std::string_view bytes) {
@@ -217,6 +317,17 @@ std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector
         }
     }
     return findings;
+}
+
+std::vector<gum::Diagnostic> check_numbers(std::string_view pdf, const nlohmann::json& view) {
+    std::string all;
+    for (const std::string& page : texts_of_pages(pdf)) {
+        all += digits_of(page) + ' ';
+    }
+    NumberSearch search(all);
+    search.look_at(view.value("identity", nlohmann::json::array()));
+    search.look_at(nlohmann::json::array({{{"sections", view.value("sections", nlohmann::json::array())}}}));
+    return search.take();
 }
 
 }  // namespace gumcert::reports

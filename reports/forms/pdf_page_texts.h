@@ -2,6 +2,8 @@
 
 #include "gum/quantity/diagnostic.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,5 +19,10 @@ namespace gumcert::reports {
 /// of a laboratory can forget them; then there is no document.
 /// \param texts  compared without blanks and hyphens, because a line may break in them; empty ones are left out
 [[nodiscard]] std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts);
+
+/// Whether the numbers of a view stand in the PDF that a template made of it: the digits of every row of a table, of every
+/// value and sentence, in their order. A template that prints another digit gives no document.
+/// \param view  as of certificate_view()
+[[nodiscard]] std::vector<gum::Diagnostic> check_numbers(std::string_view pdf, const nlohmann::json& view);
 
 }  // namespace gumcert::reports

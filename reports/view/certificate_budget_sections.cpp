@@ -53,6 +53,24 @@ std::string with_unit(const std::string& number, const std::string& people) {
     return number + "\u00A0" + (reciprocal ? people.substr(2) + "⁻¹" : people);
 }
 
+/// An equation as a job writes it, with the signs of printed mathematics: "a − b·c" for "a - b*c".
+std::string equation_for_people(const std::string& equation) {
+    std::string out;
+    for (std::size_t i = 0; i < equation.size(); ++i) {
+        const bool exponent = i > 1 && (equation[i - 1] == 'e' || equation[i - 1] == 'E') && equation[i - 2] >= '0' &&
+                              equation[i - 2] <= '9';  // of a number: "1e-5"
+        if (equation[i] == '*' && i + 1 < equation.size() && equation[i + 1] == '*') {
+            out += equation[i++];  // a power, both stars as they are
+            out += equation[i];
+        } else if (equation[i] == '*') {
+            out += "·";
+        } else {
+            out += equation[i] == '-' && !exponent ? "\u2212" : std::string(1, equation[i]);
+        }
+    }
+    return out;
+}
+
 /// "K²", "(nm/K)²", "" of a unit for people.
 std::string squared(const std::string& people) {
     return people.empty() ? "" : is_simple(people) ? people + "²" : "(" + people + ")²";
@@ -325,7 +343,7 @@ void model(CertificateBuilder& builder, const Wording& words, const ModelSummary
     builder.section("model");
     builder.paragraph(words("sentence", m.equations.size() == 1 ? "model_one" : "model"));
     for (const std::string& equation : m.equations) {
-        builder.formula(equation);
+        builder.formula(equation_for_people(equation));
     }
     if (!m.unknowns.empty()) {
         std::string names;
@@ -732,7 +750,7 @@ void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummar
 void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f, std::size_t number) {
     const bool weighted = f.method != "ordinary";
     builder.paragraph(words.fill("fit", {{"name", f.name}, {"method", words("value", "fit_method", f.method)}}));
-    builder.formula(f.equation);
+    builder.formula(equation_for_people(f.equation));
     std::vector<Column> columns = {{words("label", "parameter"), ""},
                                    {words("label", "value"), "", true},
                                    {words("label", "u"), "", true},

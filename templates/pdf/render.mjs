@@ -53,7 +53,7 @@ function compilerWith(furtherFonts) {
 function copyTemplates(template) {
   const folder = path.dirname(template);
   for (const name of fs.readdirSync(folder)) {
-    if (name.endsWith('.typ')) fs.copyFileSync(path.join(folder, name), path.join(workspace, name));
+    if (/\.(typ|png|jpe?g|svg)$/.test(name)) fs.copyFileSync(path.join(folder, name), path.join(workspace, name));
   }
   if (path.basename(template) !== 'certificate.typ') fs.copyFileSync(template, main);
 }
@@ -61,7 +61,7 @@ function copyTemplates(template) {
 // The symbol comes as Base64 in the view; Typst reads files, and would be slow to decode it.
 function writeSymbols() {
   const view = JSON.parse(fs.readFileSync(path.join(workspace, 'view.json'), 'utf8'));
-  for (const page of view.identity ?? []) {
+  for (const page of [view, ...(view.identity ?? [])]) {
     for (const symbol of page.symbol ?? []) {
       if (!/^symbol\.(png|jpg)$/.test(symbol.file)) throw new Error(`not a name of a symbol file: ${symbol.file}`);
       fs.writeFileSync(path.join(workspace, symbol.file), Buffer.from(symbol.base64, 'base64'));

@@ -61,14 +61,27 @@ inline std::string squeezed(std::string text) {
     return out;
 }
 
-/// HTML without tags and styles.
+/// HTML without tags and styles. What is drawn in another style inside of a word takes no blank.
 inline std::string html_text(const std::string& html) {
     std::string out;
     bool inside = false;
-    for (const char c : html.substr(html.find("<body>"))) {
+    const std::string body = html.substr(html.find("<body>"));
+    const auto is_inside_a_word = [&](std::size_t at) {
+        for (const char* tag : {"<i>", "</i>", "<sub>", "</sub>", "<span class=\"g\">"}) {
+            if (body.compare(at, std::string(tag).size(), tag) == 0) {
+                return true;
+            }
+        }
+        return false;
+    };
+    bool in_group = false;
+    for (std::size_t at = 0; at < body.size(); ++at) {
+        const char c = body[at];
         if (c == '<') {
             inside = true;
-            out += ' ';
+            const bool ends_group = in_group && body.compare(at, 7, "</span>") == 0;
+            out += is_inside_a_word(at) || ends_group ? "" : " ";
+            in_group = body.compare(at, 16, "<span class=\"g\">") == 0 || (in_group && !ends_group);
         } else if (c == '>') {
             inside = false;
         } else if (!inside) {

@@ -75,5 +75,37 @@ TEST(PdfPageTexts, RefuseATemplateWithoutNumberOrMark) {
     fs::remove_all(folder);
 }
 
+/// What was found in an earlier release: a template printed 50 in place of 68, and nobody was told.
+TEST(PdfPageTexts, RefuseATemplateThatPrintsAnotherDigit) {
+    SKIP_WITHOUT_PDF();
+    const fs::path folder = fs::path(::testing::TempDir()) / ("gumcert-digits-" + std::to_string(getpid()));
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::CertifiedValue& value = record.certificate->tables.front().columns.front().values.front();
+    value.printed_U = "68.7";
+    RenderAssets own = assets();
+    own.languages = {"en"};
+    own.templates = folder;
+    const auto code_with = [&](const std::string& printed) -> std::string {
+        fs::remove_all(folder);
+        fs::copy(assets().templates, folder, fs::copy_options::recursive);
+        std::string text = read_asset(folder / "pdf/certificate.typ");
+        const std::string what = "box(grouped(cell.text, cell.pad))";
+        EXPECT_NE(text.find(what), std::string::npos);
+        text.replace(text.find(what), what.size(),
+                     "box(grouped(cell.text.replace(\"68.7\", \"" + printed + "\"), cell.pad))");
+        std::ofstream(folder / "pdf/certificate.typ", std::ios::binary) << text;
+        try {
+            static_cast<void>(render_pdf(record, own));
+        } catch (const gum::NoResultError& error) {
+            return error.diagnostics().front().code;
+        }
+        return "";
+    };
+    EXPECT_EQ(code_with("68.7"), "");
+    EXPECT_EQ(code_with("50.7"), "GC-REPORT-0033");
+    EXPECT_EQ(code_with(""), "GC-REPORT-0033");
+    fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace gumcert::reports

@@ -126,5 +126,33 @@ TEST(Profiles, AreComplete) {
     }
 }
 
+TEST_F(TemplateReplacement, TakesSingleTextsOfALaboratory) {
+    const EvaluationRecord record = test::certified_budget_record();
+    const auto put = [&](const std::string& text) {
+        std::ofstream(folder_ / "wording/en.own.json", std::ios::binary) << text;
+    };
+    put(R"({"certificate": {"order": "Your order"}})");
+    EXPECT_THAT(render_html(record, own_), HasSubstr("Your order"));
+    EXPECT_THAT(render_html(record, own_), Not(HasSubstr("Order number")));
+    for (const char* wrong : {R"({"certificate": {"oder": "Your order"}})", R"({"certificate": "text"})"}) {
+        put(wrong);
+        try {
+            static_cast<void>(render_html(record, own_));
+            ADD_FAILURE() << wrong;
+        } catch (const gum::StorageError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-REPORT-0007");
+        }
+    }
+}
+
+TEST_F(TemplateReplacement, TakesPicturesBesideTheTemplate) {
+    const EvaluationRecord record = test::certified_budget_record();
+    std::ofstream(folder_ / "logo.png", std::ios::binary) << "bytes";
+    replace("certificate.html.mustache", "<main>", "<main><img src=\"logo.png\" alt=\"Logo\">");
+    EXPECT_THAT(render_html(record, own_), HasSubstr("src=\"data:image/png;base64,Ynl0ZXM=\""));
+    fs::remove(folder_ / "logo.png");
+    EXPECT_THROW(static_cast<void>(render_html(record, own_)), gum::StorageError);
+}
+
 }  // namespace
 }  // namespace gumcert::reports

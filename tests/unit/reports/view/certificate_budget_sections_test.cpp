@@ -95,7 +95,7 @@ TEST(BudgetCertificate, BudgetHasTheLayoutOfTableH1) {
                 ElementsAre("repeatability", "215.0 nm", "5.8 nm", "t", "A", "24", "1", "(5.8)", "(3.3)"));
     EXPECT_EQ(budget["rows"][2]["kind"], "part");
     EXPECT_THAT(cells(budget, 5),
-                ElementsAre("alpha_s", "1.15E-5 K⁻¹", "1.2E-6 K⁻¹", "rectangular", "B", "∞", "0 nm·K", "0", "0.0"));
+                ElementsAre("alpha_s", "1.15 × 10⁻⁵ K⁻¹", "1.2 × 10⁻⁶ K⁻¹", "rectangular", "B", "∞", "0 nm·K", "0", "0.0"));
     // A Celsius temperature has an uncertainty in kelvin, and a sensitivity coefficient per kelvin.
     EXPECT_THAT(cells(budget, 7), ElementsAre("theta", "−0.10 °C", "0.41 K", "normal", "B", "∞", "0 nm/K", "0", "0.0"));
     EXPECT_THAT(cells(budget, 9), ElementsAre("l", "50000838 nm", "–", "t", "–", "16.7", "–", "32", "100"));
@@ -157,8 +157,8 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     const json view = view_of(r);
     EXPECT_THAT(heads(table(view, "results-0")),
                 ElementsAre("Name", "Description", "Value", "u", "Lower end", "Upper end", "Unit"));
-    EXPECT_THAT(cells(table(view, "results-0"), 0), ElementsAre("l", "length of the end gauge at 20 °C", "5.000020E+7",
-                                                                "5.7E+2", "4.999902E+7", "5.000086E+7", "nm"));
+    EXPECT_THAT(cells(table(view, "results-0"), 0), ElementsAre("l", "length of the end gauge at 20 °C", "5.000020 × 10⁷",
+                                                                "5.7 × 10²", "4.999902 × 10⁷", "5.000086 × 10⁷", "nm"));
     std::string text = text_of(r);
     EXPECT_THAT(text, HasSubstr("no expanded uncertainty is stated."));
     EXPECT_THAT(text, HasSubstr("is reported for l, because second-order terms change the standard uncertainty or the "
@@ -217,10 +217,9 @@ TEST(BudgetCertificate, SaysWhatMonteCarloFound) {
 /// What every form of the documents of the samples must show, as texts that stand side by side.
 const std::vector<std::string> k_end_gauge = {
     " l length of the end gauge at 20 °C 50000838 93 nm 2.92 16.7 ",
-    " l = l_s + d - l_s*(d_alpha*theta + alpha_s*d_theta) ",
-    " l_s 50000623 nm 25 nm t B 18 1 25.0 62.2 ",
+        " 50000623 nm 25 nm t B 18 1 25.0 62.2 ",
     " repeatability 215.0 nm 5.8 nm t A 24 1 (5.8) (3.3) ",
-    " d_alpha 0 K⁻¹ 5.8E-7 K⁻¹ rectangular B 50 5.00E+6 nm·K 2.9 0.8 ",
+    " 0 K⁻¹ 5.8 × 10⁻⁷ K⁻¹ rectangular B 50 5.00 × 10⁶ nm·K 2.9 0.8 ",
     " l 50000838 nm – t – 16.7 – 32 100 ",
     " d: repeatability five readings ",
     " l 32 34 0 nm ",
@@ -232,23 +231,30 @@ const std::vector<std::string> k_end_gauge = {
 const std::vector<std::string> k_two_results = {
     " R resistance 127.73 0.20 0.071 Ω 2.87 4 (a) ",
     " X reactance 219.85 – 0.30 Ω – – (b) ",
-    " 0 = X - V/I*sin(phi) ",
+    " 0 = X − V/I·sin(",
     " The equations are solved for X. ",
     " correlation – – – – – – −0.1806 −647.3 ",
     " R 1 −0.588 ",
     " X −0.588 1 ",
-    " k_p = 2.49 ",
-    " k_q = 2.21 ",
+    " = 2.49 ",
+    " = 2.21 ",
     " y1 −0.1712 0.0029 °C 1 −0.9300 ",
     " Residual standard deviation 0.0035 K ",
     " Sum of squares of the residuals 0.00011 K² ",
     " V 5 4.9990 0.0072 0.0032 – V 0.31 0.88 ",
-    " I: repeatability 5 0.0196610 0.000021 0.0000095 2.4E-5 A – 0.88 dependent ",
-    " between groups 1.5E-7 9 1.6E-8 2.25 2.12 0.038 ",
-    " within groups 2.9E-7 40 7.2E-9 – – – ",
+    " I: repeatability 5 0.0196610 0.000021 0.0000095 2.4 × 10⁻⁵ A – 0.88 dependent ",
+    " between groups 1.5 × 10⁻⁷ 9 1.6 × 10⁻⁸ 2.25 2.12 0.038 ",
+    " within groups 2.9 × 10⁻⁷ 40 7.2 × 10⁻⁹ – – – ",
     " s within groups, pooled 0.000085 V ",
     " the differences between the groups are significant at the 5 % level. ",
 };
+
+TEST(BudgetCertificate, EquationsAreWrittenAsMathematics) {
+    EXPECT_THAT(text_of(test::sample_budget_record()),
+                HasSubstr(" l = l_s + d − l_s·(d_alpha·theta + alpha_s·d_theta) "));
+    EXPECT_THAT(render_html(test::sample_budget_record(), assets()),
+                HasSubstr("= <i>l</i><sub>s</sub> + d − <i>l</i><sub>s</sub>·(<i>d</i><sub>α</sub>·<i>θ</i> + "));
+}
 
 TEST(BudgetCertificate, HtmlAndTextShowTheSameNumbers) {
     for (const auto& [record, rows] : {std::pair(test::sample_budget_record(), k_end_gauge),

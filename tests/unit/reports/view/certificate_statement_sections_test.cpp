@@ -149,7 +149,7 @@ TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
     v.printed_value = "1.0E+2";  // what no other part of the record holds
     v.printed_U = "9.9E+1";
     const std::string text = results(record);
-    EXPECT_THAT(text, HasSubstr("\n0|1.0E+2|9.9E+1|4.17|"));
+    EXPECT_THAT(text, HasSubstr("\n0|1.0\u00A0×\u00A010²|9.9\u00A0×\u00A010¹|4.17|"));
     EXPECT_THAT(text, HasSubstr("\nEXA|2.99|0.59|*|µm|"));
     EXPECT_THAT(text, HasSubstr("* Outside of the accreditation of the laboratory."));
     EXPECT_THAT(text, HasSubstr("The item was not adjusted"));

@@ -287,7 +287,9 @@ TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
     const Wording words(wording);
     EXPECT_EQ(words.number("-12.340").in(0), "\u221212,340");
     EXPECT_EQ(words.number("-12.340").in(1), "\u221212.340");
-    EXPECT_EQ(words.number("1.2E+3").in(0), "1,2E+3");
+    EXPECT_EQ(words.number("1.2E+3").in(0), "1,2\u00A0×\u00A010³");
+    EXPECT_EQ(with_power_of_ten("-1.50E-12 nm"), "-1.50\u00A0×\u00A010⁻¹² nm");
+    EXPECT_EQ(with_power_of_ten("EXA 5E, 2E+, E5"), "EXA 5E, 2E+, E5") << "names are no numbers";
     EXPECT_EQ(words.number(">99.99").in(0), ">99,99");
     EXPECT_EQ(words.number("0.41\u00A0K").in(0), "0,41\u00A0K");
     EXPECT_EQ(words.number("12. ").in(0), "12. ");

@@ -1,0 +1,102 @@
+#include "reports/view/symbols.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 34> k_greek{{
+    {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"},   {"delta", "δ"},  {"epsilon", "ε"}, {"zeta", "ζ"},   {"eta", "η"},
+    {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"},   {"lambda", "λ"}, {"mu", "μ"},      {"nu", "ν"},     {"xi", "ξ"},
+    {"pi", "π"},    {"rho", "ρ"},   {"sigma", "σ"},   {"tau", "τ"},    {"upsilon", "υ"}, {"phi", "φ"},    {"chi", "χ"},
+    {"psi", "ψ"},   {"omega", "ω"}, {"Gamma", "Γ"},   {"Delta", "Δ"},  {"Theta", "Θ"},   {"Lambda", "Λ"}, {"Xi", "Ξ"},
+    {"Pi", "Π"},    {"Sigma", "Σ"}, {"Upsilon", "Υ"}, {"Phi", "Φ"},    {"Psi", "Ψ"},     {"Omega", "Ω"},
+}};
+
+// Of the sentences of the program. Those of a quantity come from the record.
+constexpr std::array<std::string_view, 20> k_of_the_program = {"T_L", "T_U", "A_L", "A_U", "p_c", "ν_eff", "ν_i",
+                                                               "X_i", "x_i", "c_i", "c_j", "u_i", "x_j",   "r_ij",
+                                                               "y_j", "k_p", "k_q", "u_c", "y_i", "η_j"};
+
+std::string_view as_letter(std::string_view word) {
+    const auto found = std::find_if(k_greek.begin(), k_greek.end(), [&](const auto& g) { return g.first == word; });
+    return found == k_greek.end() ? word : found->second;
+}
+
+bool is_one_letter(std::string_view text) {
+    return (text.size() == 1 && (std::isalpha(static_cast<unsigned char>(text[0])) != 0)) ||
+           (text.size() == 2 && static_cast<unsigned char>(text[0]) >= 0xC2U);
+}
+
+bool is_name(std::string_view text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        return c == '_' || static_cast<unsigned char>(c) >= 0x80U || std::isalnum(static_cast<unsigned char>(c)) != 0;
+    });
+}
+
+}  // namespace
+
+Symbol symbol_of(const std::string& name) {
+    if (!is_name(name)) {
+        return {};
+    }
+    const std::size_t first = std::min(name.find('_'), name.size());
+    const std::string base(as_letter(name.substr(0, first)));
+    const bool is_difference = base.size() == 2 && base[0] == 'd' && is_one_letter(base.substr(1));  // "dV_x"
+    if (!is_one_letter(base) && !is_difference) {
+        return {};
+    }
+    Symbol symbol{.base = base, .index = {}};
+    for (std::size_t at = first; at < name.size();) {
+        const std::size_t end = std::min(name.find('_', at + 1), name.size());
+        const std::string part = name.substr(at + 1, end - at - 1);
+        if (!part.empty()) {
+            symbol.index += (symbol.index.empty() ? "" : ",") + std::string(as_letter(part));
+        }
+        at = end;
+    }
+    return symbol;
+}
+
+nlohmann::json symbols_in(const EvaluationRecord& record) {
+    std::set<std::string> names(k_of_the_program.begin(), k_of_the_program.end());
+    for (const InputQuantity& input : record.inputs) {
+        names.insert(input.name);
+    }
+    for (const Result& result : record.results) {
+        names.insert(result.quantity.empty() ? result.name : result.quantity);
+        for (const BudgetRow& row : result.budget) {
+            names.insert(row.input);
+        }
+    }
+    for (const FitSummary& fit : record.fits) {
+        names.insert(fit.x_name);
+        names.insert(fit.y_name);
+        for (const FitSummary::Parameter& parameter : fit.parameters) {
+            names.insert(parameter.name);
+        }
+    }
+    nlohmann::json symbols = nlohmann::json::array();
+    nlohmann::json letters = nlohmann::json::array();
+    for (const std::string& name : names) {
+        const Symbol symbol = symbol_of(name);
+        if (symbol.base == name) {
+            letters.push_back({{"text", name}});
+        } else if (!symbol.base.empty()) {
+            symbols.push_back({{"text", name}, {"base", symbol.base}, {"index", symbol.index}});
+        }
+    }
+    return {{"symbols", std::move(symbols)}, {"letters", std::move(letters)}};
+}
+
+}  // namespace gumcert::reports

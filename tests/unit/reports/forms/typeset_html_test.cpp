@@ -1,0 +1,44 @@
+#include "reports/forms/typeset_html.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace gumcert::reports {
+namespace {
+
+std::string typeset(const std::string& body) {
+    const nlohmann::json view = {
+        {"symbols",
+         {{{"text", "T_L"}, {"base", "T"}, {"index", "L"}}, {{"text", "ν_eff"}, {"base", "ν"}, {"index", "eff"}}}},
+        {"letters", {{{"text", "l"}}}}};
+    return typeset_html("<head>T_L</head><body>" + body, view).substr(std::string("<head>T_L</head><body>").size());
+}
+
+TEST(TypesetHtml, DrawsSymbolsWhereverTheyStand) {
+    EXPECT_EQ(typeset("<p>T_L = 5, T_LX, XT_L, 以T_L表</p>"),
+              "<p><i>T</i><sub>L</sub> = 5, T_LX, XT_L, 以<i>T</i><sub>L</sub>表</p>");
+    EXPECT_EQ(typeset("<p>ν_eff, ν_effective</p>"), "<p><i>ν</i><sub>eff</sub>, ν_effective</p>");
+    EXPECT_EQ(typeset("<td class=\"left\">l</td><p>l</p>"), "<td class=\"left\"><i>l</i></td><p>l</p>");
+    EXPECT_EQ(typeset("<img alt=\"T_L\"><svg><text>T_L</text></svg>"), "<img alt=\"T_L\"><svg><text>T_L</text></svg>");
+}
+
+TEST(TypesetHtml, GroupsDigitsOfCellsOnly) {
+    EXPECT_EQ(typeset("<td class=\"number\">−50000838</td><p>50000838</p>"),
+              "<td class=\"number\">−50<span class=\"g\">0</span>00<span class=\"g\">8</span>38</td><p>50000838</p>");
+    EXPECT_EQ(typeset("<td class=\"number\">1234,5678</td>"), "<td class=\"number\">1234,5678</td>");
+    EXPECT_EQ(typeset("<td class=\"number\">0.1234567</td>"),
+              "<td class=\"number\">0.123<span class=\"g\">4</span>56<span class=\"g\">7</span></td>");
+    EXPECT_EQ(typeset("<td class=\"number\">12345 nm</td>"), "<td class=\"number\">12345 nm</td>");
+    EXPECT_EQ(typeset("<p>l = 50838\u00A0nm, SN-50838\u00A0x</p>"),
+              "<p>l = 50<span class=\"g\">8</span>38\u00A0nm, SN-50838\u00A0x</p>");
+}
+
+TEST(TypesetHtml, CountsTheInvisibleDigitsOfAColumn) {
+    EXPECT_EQ(typeset("<td class=\"number\">0.12<span class=\"pad\" data-pad=\"000\"></span></td>"),
+              "<td class=\"number\">0.12<span class=\"g\"></span><span class=\"pad\" data-pad=\"000\"></span></td>");
+}
+
+}  // namespace
+}  // namespace gumcert::reports

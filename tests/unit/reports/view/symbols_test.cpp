@@ -1,0 +1,44 @@
+#include "reports/view/symbols.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/sample_budget_record.h"
+
+namespace gumcert::reports {
+namespace {
+
+std::string drawing_of(const std::string& name) {
+    const Symbol symbol = symbol_of(name);
+    return symbol.base + "|" + symbol.index;
+}
+
+TEST(Symbols, AreLettersWithIndices) {
+    EXPECT_EQ(drawing_of("l_s"), "l|s");
+    EXPECT_EQ(drawing_of("alpha_s"), "α|s");
+    EXPECT_EQ(drawing_of("d_theta"), "d|θ");
+    EXPECT_EQ(drawing_of("ν_eff"), "ν|eff");
+    EXPECT_EQ(drawing_of("dV_x"), "dV|x");
+    EXPECT_EQ(drawing_of("T_1_ref"), "T|1,ref");
+    EXPECT_EQ(drawing_of("theta"), "θ|");
+    EXPECT_EQ(drawing_of("l"), "l|");
+}
+
+TEST(Symbols, WordsAreNone) {
+    for (const char* name : {"offset_2", "fit", "E, 1 V", "EXA", "", "_x", "50"}) {
+        EXPECT_EQ(drawing_of(name), "|") << name;
+    }
+}
+
+TEST(Symbols, OfARecordAreThoseOfItsQuantities) {
+    EvaluationRecord record = test::sample_budget_record();
+    record.inputs.front().name = "q_own";
+    const std::string all = symbols_in(record).dump();
+    EXPECT_NE(all.find("{\"base\":\"q\",\"index\":\"own\",\"text\":\"q_own\"}"), std::string::npos) << all;
+    EXPECT_NE(all.find("\"T_L\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gumcert::reports
