@@ -14,6 +14,12 @@ namespace gumcert::app {
 /// \throws gum::InputError  GC-SIGN-0001
 void require_signable(const reports::EvaluationRecord& record, std::span<const Kind> kinds = program_kinds());
 
+/// Says of a certificate that a later one amends or replaces it: its documents are marked, and not signed.
+/// \param where, where_later  names of the records for messages
+/// \throws gum::InputError  GC-CERT-0309 where one of them is no certificate, or the later one names another number
+void supersede(reports::EvaluationRecord& record, const reports::EvaluationRecord& later, const std::string& where,
+               const std::string& where_later);
+
 /// One form of the document. The digital certificate is signed first and stands in the PDF as it was signed; then the
 /// PDF is signed. Other forms carry no signature. The report of a comparison has no digital certificate.
 /// \param form  name of a row of output_forms()

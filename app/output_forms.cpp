@@ -7,6 +7,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/comparison_csv.h"
+#include "reports/forms/label.h"
 
 namespace gumcert::app {
 
@@ -26,7 +27,7 @@ std::string pdf(Issue& issue) {
     return signing::sign_pdf(pdf, *options.signer, options.signing_time);
 }
 
-constexpr std::array<OutputForm, 7> k_forms{{
+constexpr std::array<OutputForm, 9> k_forms{{
     {.name = "html",
      .ending = ".html",
      .description = "",
@@ -58,6 +59,17 @@ constexpr std::array<OutputForm, 7> k_forms{{
      .description = "the same, HTML",
      .render = [](Issue& issue) { return reports::render_budget_report_html(issue.record(), issue.options().assets); },
      .is_issued = false},
+    {.name = "label",
+     .ending = "-label.pdf",
+     .description = "label for the item, PDF",
+     .render =
+         [](Issue& issue) {
+             return reports::render_label_pdf(issue.record(), issue.options().assets, issue.options().worker);
+         }},
+    {.name = "label-svg",
+     .ending = "-label.svg",
+     .description = "the same, SVG",
+     .render = [](Issue& issue) { return reports::render_label_svg(issue.record(), issue.options().assets); }},
 }};
 
 }  // namespace

@@ -289,6 +289,7 @@ void describe(Archive& a, Struct& r) {
     a("sha256", r.sha256, TextForm::sha256);
     a("reason", r.reason);
     a("changes", r.changes);
+    a.stated("record", r.record, TextForm::file);
 }
 
 template <class Archive, Described<Omission> Struct>
@@ -530,6 +531,14 @@ void describe(Archive& a, Struct& r) {
     a("action", r.action);
 }
 
+template <class Archive, Described<Change> Struct>
+void describe(Archive& a, Struct& r) {
+    a("kind", r.kind, {"value", "U", "k", "interval", "verdict", "text"});
+    a("where", r.where);
+    a("before", r.before);
+    a("after", r.after);
+}
+
 template <class Archive, Described<Certificate> Struct>
 void describe(Archive& a, Struct& r) {
     a("data", r.data);
@@ -538,6 +547,8 @@ void describe(Archive& a, Struct& r) {
     a("findings", r.findings);
     a("blocked", r.blocked);
     a("symbol", r.symbol);
+    a.stated("changes", r.changes);
+    a.stated("amended_record_sha256", r.amended_record_sha256);
 }
 
 }  // namespace gumcert::certificate

@@ -91,14 +91,26 @@ struct Finding {
     std::string what, action;
 };
 
+/// Something that an amendment states otherwise than the certificate that it amends or replaces, as both print it.
+struct Change {
+    std::string kind;   ///< "value", "U", "k", "interval", "verdict" of a result; "text" of the certificate data
+    std::string where;  ///< name of the result with its point; JSON pointer in the certificate data
+    std::string before, after;  ///< "" where one of the two states nothing; of a verdict its code
+};
+
 /// The part of a record that makes it a certificate.
 struct Certificate {
     CertificateData data;
     Profile profile;  ///< as used
     std::vector<CertifiedTable> tables;
     std::vector<Finding> findings;
-    bool blocked = false;  ///< a critical finding: documents are printed as drafts only
-    bool symbol = false;   ///< the accreditation symbol may stand on it
+    bool blocked = false;               ///< a critical finding: documents are printed as drafts only
+    bool symbol = false;                ///< the accreditation symbol may stand on it
+    std::vector<Change> changes;        ///< against the record that the amendment names
+    std::string amended_record_sha256;  ///< of the bytes of that record
+    /// Number of the certificate that replaces or amends this one. Told when a document is printed again; in no record,
+    /// because a record that was written does not change.
+    std::string superseded_by = {};
 };
 
 }  // namespace gumcert::certificate

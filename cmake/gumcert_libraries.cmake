@@ -1,7 +1,7 @@
 # Libraries that bring no package file of their own that CMake reads: targets for the build and for whoever links the
 # installed libraries.
 find_package(PkgConfig REQUIRED)
-foreach(pair qpdf=libqpdf xmlsec=xmlsec1-openssl zip=libzip)
+foreach(pair qpdf=libqpdf qrencode=libqrencode xmlsec=xmlsec1-openssl zip=libzip)
     string(REPLACE "=" ";" pair ${pair})
     list(GET pair 0 name)
     list(GET pair 1 module)

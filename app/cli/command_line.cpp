@@ -177,8 +177,12 @@ void add_render(CLI::App& program, Arguments& a) {
     add_file(command, "-o,--output", a.documents.output,
              "File, or - for standard output; with several records a folder. Default: beside the record");
     add_document_options(command, a.documents);
+    add_file(command, "--superseded-by", a.documents.superseded_by,
+             "Record of the certificate that amends or replaces this one: every page is marked as superseded");
     command.footer(
         "Example: gumcert render record.json --format pdf -o certificate.pdf\n"
+        "         gumcert render record.json --format report   the internal budget report; no certificate\n"
+        "         gumcert render record.json --format label    a label with a QR code\n"
         "         gumcert render record.json --format pdf --language de,en\n"
         "The job in the record is evaluated again first: a record that says anything else than its job gives, by one\n"
         "digit or one word, is refused. docs/adr/0027-records-are-evaluated-again.md");

@@ -43,6 +43,9 @@ public:
     /// What this command reads beside its jobs or records; no output may take the place of it.
     [[nodiscard]] std::vector<fs::path> inputs() const {
         std::vector<fs::path> files = signer_.files;
+        if (!asked_.superseded_by.empty()) {
+            files.emplace_back(asked_.superseded_by);
+        }
         add_program_files(files, asked_.share);
         return files;
     }
@@ -290,6 +293,10 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     progress.clear();
     if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
         return negative_answer;
+    }
+    if (!options.superseded_by.empty()) {
+        app::supersede(record, reports::record_from_json(app::read_file(options.superseded_by), options.superseded_by),
+                       name, options.superseded_by);
     }
     judge_issue(record, options.languages, options.share);
     if (app::output_form(format).is_issued && withheld(record, options.draft)) {

@@ -267,9 +267,9 @@ void amendment(FindingList& found, const CertificateData& data) {
                        "the certificate has the number of the one that it amends or replaces",
                        "Give it a number of its own.");
     }
-    if (!any_stated(a.changes)) {
+    if (!any_stated(a.changes) && a.record.empty()) {
         found.critical("R12", iso_17025("7.8.8.1"), "/amendment/changes", "the changed information is not identified",
-                       "List the changes.");
+                       "List the changes, or name the record of the earlier certificate.");
     }
     if (!is_stated(a.reason)) {
         found.major("R12", iso_17025("7.8.8.1"), "/amendment/reason", "the reason of the change is missing",

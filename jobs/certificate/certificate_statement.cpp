@@ -69,6 +69,9 @@ std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace
     if (data.accreditation && data.accreditation->symbol_file && !data.accreditation->symbol_file->empty()) {
         read_symbol(files, *data.accreditation);
     }
+    if (data.amendment && !data.amendment->record.empty()) {
+        (void)files.open(data.amendment->record);  // it is read as a record where the certificate is made
+    }
     if (data.profile.ends_with(".json")) {
         if (const std::optional<JobFiles::File> file = files.open(data.profile)) {
             data.own_profile = read_profile(file->bytes, *file->problems);

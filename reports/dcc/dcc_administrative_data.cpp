@@ -4,6 +4,7 @@
 
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/view/certificate_identity_sections.h"
 
 namespace gumcert::reports {
 
@@ -311,6 +312,10 @@ void amendment_statement(DccWriter& w) {
     append_line(text, words.localised(a->reason));
     for (const LocalisedText& change : a->changes) {
         append_line(text, words.localised(change));
+    }
+    for (const certificate::Change& change : w.record().certificate->changes) {
+        append_line(text, place_of_change(change, words) + ": " + side_of_change(change, change.before, words) + " → " +
+                              side_of_change(change, change.after, words));
     }
     w.statement("amendment", text);
 }

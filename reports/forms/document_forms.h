@@ -27,6 +27,11 @@ namespace gumcert::reports {
 /// \throws gum::StorageError if a template is missing or damaged
 [[nodiscard]] std::string view_as_html(nlohmann::json view, const RenderAssets& assets);
 
+/// \param view    label_view() with the drawing of its code
+/// \param worker  none: a process for this label alone
+/// \throws gum::StorageError, gum::NoResultError  as render_pdf() of a record
+[[nodiscard]] std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets, PdfWorker* worker);
+
 /// \throws gum::StorageError, gum::NoResultError  as render_pdf() of a record
 [[nodiscard]] std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets);
 

@@ -67,12 +67,15 @@ std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
 }
 
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
-                        PdfWorker& worker) {
+                        PdfWorker& worker, const std::string& main) {
     const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
-    std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts);
+    std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts, main);
     std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
     if (findings.empty()) {
         findings = check_pages(pdf, texts_of_every_page(view));
+    }
+    if (findings.empty()) {
+        findings = check_numbers(pdf, view);
     }
     if (!findings.empty()) {
         throw gum::NoResultError(std::move(findings));
@@ -81,18 +84,23 @@ std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, 
 }
 
 /// \param worker  none: a process for this document alone
-std::string set_by(PdfWorker* worker, const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc) {
+std::string set_by(PdfWorker* worker, const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
+                   const std::string& main = PdfWorker::k_certificate) {
     if (worker != nullptr) {
-        return checked_pdf(view, assets, dcc, *worker);
+        return checked_pdf(view, assets, dcc, *worker, main);
     }
     PdfWorker own(assets);
-    return checked_pdf(view, assets, dcc, own);
+    return checked_pdf(view, assets, dcc, own, main);
 }
 
 }  // namespace
 
 std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
     return set_by(nullptr, view, assets, {});
+}
+
+std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets, PdfWorker* worker) {
+    return set_by(worker, view, assets, {}, "label.typ");
 }
 
 std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,

@@ -210,16 +210,16 @@ public:
         return documents_ < k_documents_per_process && memory_ < k_memory_per_process && !wait_for_end(WNOHANG);
     }
 
-    std::string set(const std::string& view, const std::string& attachment, bool further_fonts) {
+    std::string set(const std::string& view, const std::string& attachment, bool further_fonts,
+                    const std::string& main) {
         const fs::path workspace = folder_.path() / "document";
         const DocumentFolder files(workspace);
         write_file(workspace / "view.json", view);
         if (!attachment.empty()) {
             write_file(workspace / "certificate.xml", attachment);
         }
-        const nlohmann::json request = {
-            {"template", fs::absolute(assets_.templates / "pdf" / "certificate.typ").string()},
-            {"further_fonts", further_fonts}};
+        const nlohmann::json request = {{"template", fs::absolute(assets_.templates / "pdf" / main).string()},
+                                        {"further_fonts", further_fonts}};
         const Clock::time_point deadline = Clock::now() + assets_.pdf_time_limit;
         send(request.dump() + '\n', deadline);
         const nlohmann::json answer = nlohmann::json::parse(receive_line(deadline), nullptr, false);
@@ -230,7 +230,7 @@ public:
                 .code = "GC-REPORT-0012",
                 .where = "PDF",
                 .what = messages(answer),
-                .rule = "the template templates/pdf/certificate.typ is set by Typst with the texts of the record",
+                .rule = "the template templates/pdf/" + main + " is set by Typst with the texts of the record",
                 .action = "correct the template at the place that is named, or use the one that comes "
                           "with the program (docs/templates.md)"});
         }
@@ -435,7 +435,8 @@ private:
 PdfWorker::PdfWorker(RenderAssets assets) : assets_(std::move(assets)) {}
 PdfWorker::~PdfWorker() = default;
 
-std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts) {
+std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts,
+                           const std::string& main) {
     if (process_ != nullptr && !process_->is_fit()) {
         process_.reset();
     }
@@ -444,7 +445,7 @@ std::string PdfWorker::set(const std::string& view, const std::string& attachmen
         process_ = std::make_unique<Process>(assets_);
     }
     try {
-        return process_->set(view, attachment, further_fonts);
+        return process_->set(view, attachment, further_fonts, main);
     } catch (const gum::NoResultError&) {
         throw;  // the document is at fault, not the process
     } catch (...) {

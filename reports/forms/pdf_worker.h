@@ -15,6 +15,8 @@ namespace gumcert::reports {
 /// and those of RenderAssets::fonts; never the fonts of the machine. So the bytes depend on the document alone.
 class PdfWorker {
 public:
+    static constexpr const char* k_certificate = "certificate.typ";
+
     explicit PdfWorker(RenderAssets assets);
     ~PdfWorker();
     PdfWorker(const PdfWorker&) = delete;
@@ -23,9 +25,11 @@ public:
     /// \param view           what the template reads as view.json, JSON text
     /// \param attachment     the DCC, read by the template as certificate.xml; "" without
     /// \param further_fonts  whether the document needs RenderAssets::fonts, which take time to open
+    /// \param main           name of the template in templates/pdf
     /// \return the PDF, unchecked
     /// \throws gum::StorageError, gum::NoResultError  as render_pdf()
-    [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false);
+    [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false,
+                                  const std::string& main = k_certificate);
 
 private:
     class Process;

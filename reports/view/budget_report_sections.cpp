@@ -96,13 +96,9 @@ void capability_of_values(CertificateBuilder& builder, const Wording& words, con
                 const certificate::CertifiedValue& value = column.values[i];
                 const bool at_points = table.argument && i < table.argument->printed.size();
                 rows.push_back({name_of_result(table.id, column.result, words),
-                                at_points ? table.argument->printed[i] : "",
-                                value.printed_value,
-                                value.printed_U + (value.raised ? " #" : ""),
-                                value.printed_capability,
-                                column.printed_unit,
-                                value.scope_entry,
-                                words.sentence(value.outside_because)});
+                                at_points ? table.argument->printed[i] : "", value.printed_value,
+                                value.printed_U + (value.raised ? " #" : ""), value.printed_capability,
+                                column.printed_unit, value.scope_entry, words.sentence(value.outside_because)});
             }
         }
     }
@@ -136,9 +132,9 @@ void files_as_read(CertificateBuilder& builder, const Wording& words, const Eval
         builder.table("file-" + std::to_string(++number), words.fill("file_as_read", {{"name", file.name}}),
                       {{words("label", "line_number"), "", true}, {words("label", "line_as_read"), ""}}, rows);
         if (lines.size() > most) {
-            builder.paragraph(words.fill("file_lines_first", {{"shown", std::to_string(most)},
-                                                              {"count", std::to_string(lines.size())},
-                                                              {"name", file.name}}));
+            builder.paragraph(words.fill(
+                "file_lines_first",
+                {{"shown", std::to_string(most)}, {"count", std::to_string(lines.size())}, {"name", file.name}}));
         }
     }
 }
@@ -151,15 +147,14 @@ nlohmann::json budget_report_running_texts(const Wording& words, const Evaluatio
     std::string head = words("document", "budget_report_type").first();
     if (record.certificate && !record.certificate->data.number.empty()) {
         head = words
-                   .filled("certificate", "certificate_of_head",
-                           {{"type", words("document", "budget_report_type")},
-                            {"number", record.certificate->data.number}})
+                   .filled(
+                       "certificate", "certificate_of_head",
+                       {{"type", words("document", "budget_report_type")}, {"number", record.certificate->data.number}})
                    .first();
     }
     return {{"header_left", laboratory.empty() ? title : shortened(laboratory, 80)},
             {"header_right", printable(head) + " · " + words("document", "budget_report_mark").first()},
-            {"footer_left",
-             std::string(k_report_form) + " · " + record.software.name + " " + record.software.version}};
+            {"footer_left", std::string(k_report_form) + " · " + record.software.name + " " + record.software.version}};
 }
 
 }  // namespace gumcert::reports

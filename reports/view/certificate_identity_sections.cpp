@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -35,6 +36,22 @@ bool is_draft(const EvaluationRecord& record) {
 
 bool is_specimen(const EvaluationRecord& record) {
     return !record.certificate || record.certificate->data.status == "specimen";
+}
+
+bool is_superseded(const EvaluationRecord& record) {
+    return record.certificate && !record.certificate->superseded_by.empty();
+}
+
+/// Of a position.
+std::size_t number_of(const std::string& token) {
+    std::size_t number = 0;
+    std::from_chars(token.data(), token.data() + token.size(), number);
+    return number;
+}
+
+/// Whether a part of a JSON pointer is one in a list.
+bool is_position(const std::string& token) {
+    return !token.empty() && token.size() < 9 && token.find_first_not_of("0123456789") == std::string::npos;
 }
 
 /// Lines of an address with the country, joined by commas.
@@ -85,7 +102,9 @@ json accreditation_lines(const Certificate& certificate, const Wording& words) {
     return lines;
 }
 
-json symbol(const Certificate& certificate, const Wording& words) {
+}  // namespace
+
+json accreditation_symbol(const Certificate& certificate, const Wording& words) {
     if (!certificate.symbol || !certificate.data.accreditation ||
         certificate.data.accreditation->symbol_base64.empty()) {
         return json::array();
@@ -99,6 +118,8 @@ json symbol(const Certificate& certificate, const Wording& words) {
           {"file", png ? "symbol.png" : "symbol.jpg"},
           {"alt", printable(alt.first())}}});
 }
+
+namespace {
 
 /// Facts that an assessor looks for stand there even when nothing was stated: "–".
 void item_section(CertificateBuilder& builder, const Wording& words, const certificate::Item& item) {
@@ -250,6 +271,10 @@ Text decided_names(const std::vector<Text>& all) {
     return names.size() > k_most ? text + ", …" : text;
 }
 
+Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
+    return words.filled("document", "superseded", {{"number", record.certificate->superseded_by}});
+}
+
 void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     builder.section("summary");
@@ -312,7 +337,61 @@ json foot(const Certificate& certificate, const Wording& words) {
 }  // namespace
 
 std::string document_status(const EvaluationRecord& record) {
-    return is_draft(record) ? "draft" : is_specimen(record) ? "specimen" : "issued";
+    return is_draft(record)        ? "draft"
+           : is_specimen(record)   ? "specimen"
+           : is_superseded(record) ? "superseded"
+                                   : "issued";
+}
+
+Text document_type(const EvaluationRecord& record, const Wording& words) {
+    const auto& amendment = record.certificate->data.amendment;
+    return amendment ? words.filled("document", amendment->kind == "replaced" ? "type_replaced" : "type_amended",
+                                    {{"number", amendment->number}})
+                     : words("document", "type");
+}
+
+nlohmann::json issued_status(const Wording& words, const EvaluationRecord& record) {
+    if (document_status(record) != "issued") {
+        return json::array();
+    }
+    const std::string& date = record.certificate->data.dates.issued;
+    const Text text = date.empty() ? words("certificate_status", "issued")
+                                   : words.filled("certificate_status", "issued_on", {{"date", date}});
+    return json::array({{{"text", printable(text.first())}}});
+}
+
+Text place_of_change(const certificate::Change& change, const Wording& words) {
+    if (change.kind != "text") {
+        return change.kind == "value" ? Text(change.where)
+                                      : change.where + ": " +
+                                            (change.kind == "verdict"    ? words("certificate", "verdict")
+                                             : change.kind == "interval" ? words("label", "symmetric")
+                                                                         : Text(change.kind));
+    }
+    Text text;
+    std::string rest = change.where;
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('/', 1), rest.size());
+        const std::string token = rest.substr(1, end - 1);
+        rest = rest.substr(end);
+        const std::string heading = token == "standards"        ? "traceability"
+                                    : token == "method"         ? "method_used"
+                                    : token == "specifications" ? "conformity"
+                                                                : token;
+        const Text word = text.empty() && words.has("heading", heading)      ? words("heading", heading)
+                          : !text.empty() && words.has("certificate", token) ? words("certificate", token)
+                          : !text.empty() && is_position(token) ? Text(std::to_string(number_of(token) + 1))
+                                                                : Text(token);
+        text = text.empty() ? word : text + (is_position(token) ? " " : ": ") + word;
+    }
+    return text;
+}
+
+Text side_of_change(const certificate::Change& change, const std::string& side, const Wording& words) {
+    if (change.kind == "verdict" && words.has("verdict_name", side)) {
+        return words("verdict_name", side);
+    }
+    return change.kind == "text" ? Text(side) : words.number(side);
 }
 
 Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
@@ -344,7 +423,7 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
             {"laboratory_also", also(name, words.languages())},
             {"address", address_lines(data.laboratory, words)},
             {"accreditation", accreditation_lines(certificate, words)},
-            {"symbol", symbol(certificate, words)},
+            {"symbol", accreditation_symbol(certificate, words)},
             {"number_label", number.first()},
             {"number_label_also", also(number, words.languages())},
             {"number", printable(data.number)},
@@ -355,7 +434,7 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
 nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& record) {
     json marks = json::array();
     const auto mark = [&](const Text& text, const Text& reason) {
-        marks.push_back({{"text", text.first()},
+        marks.push_back({{"text", printable(text.first())},
                          {"also", also(text, words.languages())},
                          {"reason", reason.first()},
                          {"reason_also", also(reason, words.languages())}});
@@ -365,6 +444,9 @@ nlohmann::json certificate_marks(const Wording& words, const EvaluationRecord& r
     }
     if (is_specimen(record)) {
         mark(words("document", "mark"), words("document", record.certificate ? "specimen_reason" : "mark_reason"));
+    }
+    if (is_superseded(record)) {
+        mark(superseded_mark(record, words), words("document", "superseded_reason"));
     }
     return marks;
 }
@@ -385,6 +467,9 @@ nlohmann::json running_texts(const Wording& words, const EvaluationRecord& recor
     }
     if (is_specimen(record)) {
         head += " · " + words("document", "mark").first();
+    }
+    if (is_superseded(record)) {
+        head += " · " + printable(superseded_mark(record, words).first());
     }
     return {{"header_left", shortened(printable(words.localised(data.laboratory.name).first()), 80)},
             {"header_right", head},

@@ -25,8 +25,25 @@ namespace gumcert::reports {
 /// Head and foot of every page: {header_left, header_right, footer_left}, in the binding language.
 [[nodiscard]] nlohmann::json running_texts(const Wording& words, const EvaluationRecord& record);
 
-/// "draft", "specimen" or "issued": the group certificate_status of the wording has words for it.
+/// "draft", "specimen", "superseded" or "issued": the group certificate_status of the wording has words for it.
 [[nodiscard]] std::string document_status(const EvaluationRecord& record);
+
+/// What a certificate that is issued says of that on every page: an array of one {text}; none for others, whose marks
+/// say what they are.
+[[nodiscard]] nlohmann::json issued_status(const Wording& words, const EvaluationRecord& record);
+
+/// The title: "Calibration certificate", or which certificate it amends or replaces (ISO/IEC 17025:2017, 7.8.8.2).
+/// \param record  with certificate data
+[[nodiscard]] Text document_type(const EvaluationRecord& record, const Wording& words);
+
+/// The symbol of the accreditation, only where it may stand: an array of none or one {data_uri, base64, file, alt}.
+[[nodiscard]] nlohmann::json accreditation_symbol(const certificate::Certificate& certificate, const Wording& words);
+
+/// What of a certificate an amendment changed, for people: "Item calibrated: Serial number", "l: U".
+[[nodiscard]] Text place_of_change(const certificate::Change& change, const Wording& words);
+/// What stood or stands there.
+/// \param side  Change::before or after
+[[nodiscard]] Text side_of_change(const certificate::Change& change, const std::string& side, const Wording& words);
 
 /// A text of the certificate data, marked with † where the customer stated it.
 [[nodiscard]] Text item_text(const certificate::Item& item, const std::string& key, const Text& text);

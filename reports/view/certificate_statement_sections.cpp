@@ -141,11 +141,25 @@ void external_section(CertificateBuilder& builder, const Wording& words, const C
     }
 }
 
-void amendment_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
-    if (!data.amendment) {
+void changes_table(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+    Rows rows;
+    for (const certificate::Change& change : certificate.changes) {
+        rows.push_back({place_of_change(change, words), side_of_change(change, change.before, words),
+                        side_of_change(change, change.after, words)});
+    }
+    builder.table("changes",
+                  words.filled("statement", "changes_table", {{"number", certificate.data.amendment->number}}),
+                  {{words("certificate", "change"), ""},
+                   {words("certificate", "before"), ""},
+                   {words("certificate", "after"), ""}},
+                  rows);
+}
+
+void amendment_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+    if (!certificate.data.amendment) {
         return;
     }
-    const certificate::Amendment& a = *data.amendment;
+    const certificate::Amendment& a = *certificate.data.amendment;
     builder.section("amendment");
     builder.paragraph(amendment_sentence(a, words));
     Facts rows;
@@ -154,8 +168,12 @@ void amendment_section(CertificateBuilder& builder, const Wording& words, const 
         rows.emplace_back(words("certificate", "changes"), words.localised(change));
     }
     add_fact(rows, words("certificate", "earlier_digest"), a.sha256);
+    add_fact(rows, words("certificate", "amended_record"), certificate.amended_record_sha256);
     if (!rows.empty()) {
         builder.definitions(rows);
+    }
+    if (!certificate.changes.empty()) {
+        changes_table(builder, words, certificate);
     }
 }
 
@@ -352,7 +370,7 @@ void closing_sections(CertificateBuilder& builder, const Wording& words, const E
     opinions_section(builder, words, certificate);
     outside_section(builder, words, certificate, overview);
     external_section(builder, words, certificate.data);
-    amendment_section(builder, words, certificate.data);
+    amendment_section(builder, words, certificate);
 }
 
 }  // namespace gumcert::reports

@@ -7,6 +7,7 @@
 #include "reports/view/certificate_identity_sections.h"
 #include "reports/view/certificate_statement_sections.h"
 #include "reports/view/document_kinds.h"
+#include "reports/view/symbols.h"
 #include "reports/wording.h"
 
 #include <nlohmann/json.hpp>
@@ -169,12 +170,11 @@ json pages(const Wording& words) {
 
 /// What documents of all sorts say of themselves.
 json frame(const Wording& words, const EvaluationRecord& record) {
-    json view = {{"language", words.language()},
-                 {"running_title", shortened(printable(record.title), 80)},
-                 {"pages", pages(words)},
-                 {"created", date_of_creation(record)},
-                 {"attachment", json::array()},
+    json view = {{"language", words.language()}, {"running_title", shortened(printable(record.title), 80)},
+                 {"pages", pages(words)},        {"created", date_of_creation(record)},
+                 {"attachment", json::array()},  {"status", json::array()},
                  {"closing", json::array()}};
+    view.update(symbols_in(record));
     put(view, "title", record.title, words.languages());
     return view;
 }
@@ -205,7 +205,10 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
         const Text only = of_kind("only_items");
         view["closing"].push_back({{"text", only.first()}, {"also", also(only, languages)}});
     }
-    put(view, "type", of_kind("type"), languages);
+    if (is_certificate) {
+        view["status"] = issued_status(words, record);
+    }
+    put(view, "type", is_certificate ? document_type(record, words) : of_kind("type"), languages);
     put(view, "end_mark", of_kind("end_mark"), languages);
     view["sections"] = builder.take();
     return view;

@@ -21,7 +21,8 @@ namespace gumcert::reports {
 ///     header_left, header_right, footer_left      running texts of every page
 ///     pages[]     {page, of, end}, one a language: "page" n "of" N "end"
 ///     created     {year, month, day} of issue
-///     mark[]      {text, also[], reason, reason_also[]}: draft, specimen; none on a certificate that is issued
+///     mark[]      {text, also[], reason, reason_also[]}: draft, specimen, superseded; none on one that is issued
+///     status[]    {text}: that a certificate is issued, and when; none on others
 ///     identity[]  the first page of a certificate, none without certificate data: laboratory, number, address[] …,
 ///                 see identity_page()
 ///     sections[]  id, heading, heading_also[], kind ("" or "annex"), blocks[]
@@ -34,6 +35,7 @@ namespace gumcert::reports {
 ///                 decimal signs of a column stand below each other
 ///     closing[]   {text, also[]}: sentences before the end mark
 ///     attachment[] {name, description}: of a PDF
+///     symbols[], letters[]  see symbols_in(): texts that are drawn as symbols
 ///
 /// Numbers are the texts of `printed` in the record with the decimal sign of the language, otherwise untouched; what
 /// has no such text is rounded here, once for all forms. Control and direction characters of texts become U+FFFD.

@@ -178,6 +178,8 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<certificate::Verdict>{"certificate_verdict",
                                        "Decision on conformity, with everything needed to check it by hand."},
     DefinitionOf<certificate::Finding>{"certificate_finding",
-                                       "Something that an assessor would remark; critical ones block the issue."}};
+                                       "Something that an assessor would remark; critical ones block the issue."},
+    DefinitionOf<certificate::Change>{"certificate_change",
+                                      "What an amendment states otherwise than the certificate that it amends."}};
 
 }  // namespace gumcert::reports

@@ -37,7 +37,8 @@ TEST(OutputForms, HaveANameAndAnEndingOfTheirOwn) {
         EXPECT_TRUE(form.ending.starts_with('.') || form.ending.starts_with('-'));
         EXPECT_EQ(&output_form(form.name), &form);
     }
-    EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "pdf", "report", "report-html", "text"));
+    EXPECT_THAT(names, testing::ElementsAre("csv", "dcc", "html", "label", "label-svg", "pdf", "report", "report-html",
+                                            "text"));
     EXPECT_THROW((void)output_form("odt"), std::invalid_argument);
 }
 
@@ -62,6 +63,8 @@ TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
     EXPECT_EQ(code_of(record_of_kind("comparison"), "dcc"), "GC-REPORT-0041");
     EXPECT_EQ(code_of(record_of_kind("budget"), "csv"), "GC-REPORT-0040");
     EXPECT_EQ(code_of(record_of_kind("comparison"), "report-html"), "GC-REPORT-0042");
+    EXPECT_EQ(code_of(record_of_kind("comparison"), "label-svg"), "GC-REPORT-0043");
+    EXPECT_EQ(code_of(test::certified_budget_record(), "label-svg"), "");
     EXPECT_EQ(code_of(test::certified_budget_record(), "text"), "");
     EXPECT_EQ(code_of(test::certified_budget_record(), "report-html"), "");
 }

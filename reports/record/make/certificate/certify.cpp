@@ -15,6 +15,7 @@
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
 #include "reports/record/make/budget/budget_findings.h"
+#include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/make/certificate/certified_conformity.h"
 #include "reports/record/make/certificate/certified_scope.h"
 #include "reports/record/make/certificate/certified_traceability.h"
@@ -406,6 +407,7 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile,
     audit.insert(audit.end(), environment.begin(), environment.end());
     const std::vector<Finding> traceability = traceability_findings(record);
     audit.insert(audit.end(), traceability.begin(), traceability.end());
+    state_changes(record);
     certificate::pass_gates(*record.certificate, audit);
 }
 

@@ -212,5 +212,60 @@ TEST(CertificateIdentity, HasNumberAndPageOnEveryPageOfThePdf) {
     EXPECT_LT(text.find("page 1 of "), text.find("Results of the calibration")) << "results start on page 2";
 }
 
+TEST(CertificateIdentity, TellsInTheTitleWhatIsAmendedOrReplaced) {
+    EvaluationRecord record = test::certified_budget_record();
+    const auto title = [&](const char* language) {
+        RenderAssets of_language = assets();
+        of_language.languages = {language};
+        return certificate_view(record, read_wording(of_language)).at("type").get<std::string>();
+    };
+    EXPECT_EQ(title("en"), "Calibration certificate");
+    record.certificate->data.amendment.emplace();
+    record.certificate->data.amendment->kind = "amended";
+    record.certificate->data.amendment->number = "EX-1";
+    EXPECT_EQ(title("en"), "Amendment to calibration certificate EX-1");
+    EXPECT_EQ(title("de"), "Änderung zum Kalibrierschein EX-1");
+    EXPECT_EQ(title("es"), "Modificación del certificado de calibración EX-1");
+    EXPECT_EQ(title("zh-Hant"), "校正證書 EX-1 之修正");
+    record.certificate->data.amendment->kind = "replaced";
+    EXPECT_EQ(title("en"), "Calibration certificate, replacing EX-1");
+}
+
+TEST(CertificateIdentity, SaysOnEveryPageWhatTheDocumentIs) {
+    EvaluationRecord record = test::certified_budget_record();
+    EXPECT_EQ(document_status(record), "issued");
+    const json issued = certificate_view(record, english());
+    EXPECT_EQ(texts_of(issued.at("status")), "issued 2026-11-21\n");
+    EXPECT_THAT(issued.at("mark"), IsEmpty());
+    record.certificate->superseded_by = "EX-2";
+    const json superseded = certificate_view(record, english());
+    EXPECT_EQ(document_status(record), "superseded");
+    EXPECT_THAT(superseded.at("status"), IsEmpty());
+    EXPECT_EQ(superseded.at("mark").at(0).at("text"), "SUPERSEDED by EX-2");
+    EXPECT_THAT(superseded.at("header_right").get<std::string>(), HasSubstr("SUPERSEDED by EX-2"));
+    EXPECT_EQ(document_status(test::drafted(record)), "draft");
+    record.certificate->data.status = "specimen";
+    EXPECT_EQ(document_status(record), "specimen");
+}
+
+TEST(CertificateIdentity, NamesWhatAnAmendmentChanged) {
+    const json texts = english();
+    const Wording words(texts);
+    const auto place = [&](const char* kind, const char* where) {
+        return place_of_change({.kind = kind, .where = where, .before = "", .after = ""}, words).first();
+    };
+    EXPECT_EQ(place("text", "/item/serial_number"), "Item calibrated: Serial number");
+    EXPECT_EQ(place("text", "/standards/1/certificate"), "Metrological traceability 2: certificate");
+    EXPECT_EQ(place("text", "/remarks/0"), "Remarks 1");
+    EXPECT_EQ(place("value", "E [10 V]"), "E [10 V]");
+    EXPECT_EQ(place("U", "l"), "l: U");
+    EXPECT_EQ(place("verdict", "l"), "l: Verdict");
+    const certificate::Change verdict = {.kind = "verdict", .where = "l", .before = "pass", .after = "fail"};
+    EXPECT_EQ(side_of_change(verdict, verdict.after, words).first(), "fail");
+    const certificate::Change value = {.kind = "value", .where = "l", .before = "-1.5 nm", .after = ""};
+    EXPECT_EQ(side_of_change(value, value.before, words).first(), "\u22121.5 nm");
+    EXPECT_TRUE(side_of_change(value, value.after, words).empty());
+}
+
 }  // namespace
 }  // namespace gumcert::reports
