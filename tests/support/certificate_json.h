@@ -198,7 +198,8 @@ inline certificate::CertificateData complete_certificate_data() {
                             .number = "EX-2026-0040",
                             .sha256 = std::string(64, 'c'),
                             .reason = gumcert::test::in_two_languages("Wrong serial number", "Falsche Seriennummer"),
-                            .changes = {"Serial number"}};
+                            .changes = {"Serial number"},
+                            .record = "earlier.json"};
     d.omissions = {{.clause = "7.8.2.1 k", .reason = "No sampling was needed"}};
     d.annexes = "summary";
     return d;

@@ -64,6 +64,7 @@ const std::string k_length =
 CertificateData read(const std::string& data, Files files = {}) {
     files["job.json"] = test::budget_text(k_length + R"(, "certificate": "certificate.json")");
     files.emplace("symbol.png", sample_png());
+    files.emplace("earlier.json", "{}");
     files["certificate.json"] = data;
     return read_budget_job(MemoryFileSource(files), "job.json").certificate.value();
 }
@@ -99,10 +100,11 @@ TEST(CertificateStatement, ReadsEverything) {
 
 TEST(CertificateStatement, ReadsTheObjectInAJob) {
     const BudgetJob job =
-        test::read_budget(k_length + R"(, "certificate": )" + complete().dump(), {{"symbol.png", sample_png()}});
+        test::read_budget(k_length + R"(, "certificate": )" + complete().dump(),
+                          {{"symbol.png", sample_png()}, {"earlier.json", "{}"}});
     ASSERT_TRUE(job.certificate);
     EXPECT_EQ(CertificateJsonWriter::structure(*job.certificate), complete());
-    EXPECT_THAT(job.files, ElementsAre("job.json", "symbol.png"));
+    EXPECT_THAT(job.files, ElementsAre("job.json", "symbol.png", "earlier.json"));
     EXPECT_FALSE(test::read_budget(R"("inputs": {"l": {"value": 1, "u": 0.1}})").certificate);
 }
 
