@@ -6,7 +6,7 @@
 
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
 set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
-                          gum/comparison certificate certificate/gates engine engine/rotary_table
+                          gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
                           gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
@@ -28,6 +28,7 @@ set(GUMCERT_EDGES_gum_conformity                     text gum/quantity gum)
 set(GUMCERT_EDGES_gum_comparison                     text gum/quantity gum gum/monte_carlo)
 set(GUMCERT_EDGES_certificate                        text gum/quantity gum/expression gum gum/monte_carlo)
 set(GUMCERT_EDGES_certificate_gates                  text gum/quantity gum certificate)
+set(GUMCERT_EDGES_laboratory                         text gum/quantity gum certificate)
 set(GUMCERT_EDGES_engine                             text gum/quantity)
 set(GUMCERT_EDGES_engine_rotary_table                text gum/quantity engine)
 set(GUMCERT_EDGES_engine_rotary_table_trials         gum/quantity engine/rotary_table)
@@ -119,6 +120,7 @@ set(GUMCERT_THIRD_PARTY_gum_conformity                     boost)
 set(GUMCERT_THIRD_PARTY_gum_comparison                     Eigen boost)
 set(GUMCERT_THIRD_PARTY_certificate)
 set(GUMCERT_THIRD_PARTY_certificate_gates)
+set(GUMCERT_THIRD_PARTY_laboratory)
 set(GUMCERT_THIRD_PARTY_engine                             Eigen ceres glog)
 set(GUMCERT_THIRD_PARTY_engine_rotary_table                Eigen)
 set(GUMCERT_THIRD_PARTY_engine_rotary_table_trials         Eigen)

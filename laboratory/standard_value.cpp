@@ -1,0 +1,243 @@
+#include "laboratory/standard_value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "certificate/dates.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "text/numbers.h"
+
+namespace gumcert::laboratory {
+
+namespace {
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse_use(const char* code, const StandardRecord& record, std::string what, std::string rule,
+                             std::string action) {
+    throw gum::InputError(gum::Diagnostic{.code = code,
+                                          .where = "standard \"" + record.id + "\"",
+                                          .what = std::move(what),
+                                          .rule = std::move(rule),
+                                          .action = std::move(action)});
+}
+
+bool is_same_nominal(const CalibrationResult& a, const CalibrationResult& b) {
+    return a.nominal.has_value() == b.nominal.has_value() && (!a.nominal || is_same_value(*a.nominal, *b.nominal));
+}
+
+const CalibrationResult* same_line(const Calibration& calibration, const CalibrationResult& line) {
+    for (const CalibrationResult& result : calibration.results) {
+        if (result.quantity == line.quantity && result.range == line.range && result.mode == line.mode &&
+            is_same_nominal(result, line)) {
+            return &result;
+        }
+    }
+    return nullptr;
+}
+
+/// A line less its nominal value, where the two are in one unit.
+double correction(const CalibrationResult& line) {
+    const bool one_unit = line.nominal_unit.empty() || line.nominal_unit == line.unit;
+    return one_unit ? line.value - *line.nominal : line.value;
+}
+
+/// What is added to a correction at a value.
+double base_at(const CalibrationResult& line, double at) {
+    return line.nominal_unit.empty() || line.nominal_unit == line.unit ? at : 0.0;
+}
+
+double second_divided_difference(const CalibrationResult& a, const CalibrationResult& b, const CalibrationResult& c) {
+    const double ab = (correction(b) - correction(a)) / (*b.nominal - *a.nominal);
+    const double bc = (correction(c) - correction(b)) / (*c.nominal - *b.nominal);
+    return (bc - ab) / (*c.nominal - *a.nominal);
+}
+
+StandardValue of_line(const StandardRecord& record, const Calibration& calibration, const CalibrationResult& line,
+                      double days) {
+    StandardValue out;
+    out.calibration = &calibration;
+    out.result = &line;
+    out.unit = line.unit;
+    out.value = line.value;
+    out.U = line.U;
+    out.k = line.k;
+    out.p = line.p;
+    out.nu = line.nu;
+    out.drift = drift_of(record, calibration, line, days);
+    out.days = days;
+    return out;
+}
+
+/// Lines with nominal values, rising.
+std::vector<const CalibrationResult*> by_nominal(std::vector<const CalibrationResult*> lines) {
+    std::erase_if(lines, [](const CalibrationResult* line) { return !line->nominal; });
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const CalibrationResult* a, const CalibrationResult* b) { return *a->nominal < *b->nominal; });
+    return lines;
+}
+
+/// \param upper  position of the line above `at`
+StandardValue nearest(const StandardRecord& record, const Calibration& calibration,
+                      const std::vector<const CalibrationResult*>& lines, std::size_t upper, double at, double days) {
+    const CalibrationResult& below = *lines[upper - 1];
+    const CalibrationResult& above = *lines[upper];
+    const CalibrationResult& near = at - *below.nominal <= *above.nominal - at ? below : above;
+    StandardValue out = of_line(record, calibration, near, days);
+    out.value = base_at(near, at) + correction(near);
+    out.interpolation_half_width = std::abs(correction(above) - correction(below)) * std::abs(at - *near.nominal) /
+                                   (*above.nominal - *below.nominal);
+    return out;
+}
+
+StandardValue linear(const StandardRecord& record, const Calibration& calibration,
+                     const std::vector<const CalibrationResult*>& lines, std::size_t upper, double at, double days) {
+    if (lines.size() < 3) {
+        refuse_use("GC-LAB-0015", record, "two calibrated values",
+                   "how far a curve is from its chord is seen with a third one",
+                   "state \"interpolation\": \"nearest\", or have more values calibrated");
+    }
+    const CalibrationResult& below = *lines[upper - 1];
+    const CalibrationResult& above = *lines[upper];
+    const double l = (at - *below.nominal) / (*above.nominal - *below.nominal);
+    const StandardValue low = of_line(record, calibration, below, days);
+    const StandardValue high = of_line(record, calibration, above, days);
+    double bend = 0.0;
+    if (upper >= 2) {
+        bend = std::abs(second_divided_difference(*lines[upper - 2], below, above));
+    }
+    if (upper + 1 < lines.size()) {
+        bend = std::max(bend, std::abs(second_divided_difference(below, above, *lines[upper + 1])));
+    }
+    StandardValue out = l <= 0.5 ? low : high;
+    out.value = base_at(below, at) + (1.0 - l) * correction(below) + l * correction(above);
+    out.U = (1.0 - l) * standard_uncertainty(below) + l * standard_uncertainty(above);
+    out.k = 1.0;
+    out.p.reset();
+    const double nu = std::min(below.nu.value_or(k_infinity), above.nu.value_or(k_infinity));
+    out.nu = std::isinf(nu) ? std::nullopt : std::optional(nu);
+    out.interpolation_half_width = std::abs((at - *below.nominal) * (at - *above.nominal)) * bend;
+    out.drift.value = (1.0 - l) * low.drift.value + l * high.drift.value;
+    out.drift.u = (1.0 - l) * low.drift.u + l * high.drift.u;
+    out.drift.half_width = (1.0 - l) * low.drift.half_width + l * high.drift.half_width;
+    out.drift.nu = std::min(low.drift.nu, high.drift.nu);
+    return out;
+}
+
+}  // namespace
+
+std::vector<SeriesPoint> history_of(const StandardRecord& record, const Calibration& last,
+                                    const CalibrationResult& result) {
+    const gum::Unit unit = gum::Unit::parse(result.unit);
+    std::vector<SeriesPoint> series;
+    for (const Calibration& calibration : record.calibrations) {
+        const long days = certificate::days_between(last.calibrated, calibration.calibrated).value_or(0);
+        const CalibrationResult* line = same_line(calibration, result);
+        if (days > 0 || line == nullptr) {
+            continue;
+        }
+        SeriesPoint point{static_cast<double>(days), line->value, standard_uncertainty(*line)};
+        if (line->unit != result.unit) {
+            const gum::Unit other = gum::Unit::parse(line->unit);
+            if (!(other.dimension() == unit.dimension()) ||
+                other.is_celsius_temperature() != unit.is_celsius_temperature()) {
+                refuse_use("GC-LAB-0013", record,
+                           "a value in \"" + line->unit + "\" on " + calibration.calibrated + ", and in \"" +
+                               result.unit + "\" on " + last.calibrated,
+                           "the values of a history are of one quantity", "correct the unit");
+            }
+            point.value = unit.from_si(other.to_si(line->value));
+            point.u = unit.difference_from_si(other.difference_to_si(point.u));
+        }
+        series.push_back(point);
+    }
+    return series;
+}
+
+Drift drift_of(const StandardRecord& record, const Calibration& last, const CalibrationResult& result, double days) {
+    const DriftModel& model = record.drift;
+    switch (model.kind) {
+        case DriftKind::none:
+            return {};
+        case DriftKind::limit_per_year: {
+            double limit = model.limit;
+            if (model.unit != result.unit) {
+                const gum::Unit stated = gum::Unit::parse(model.unit);
+                const gum::Unit unit = gum::Unit::parse(result.unit);
+                if (!(stated.dimension() == unit.dimension())) {
+                    refuse_use("GC-LAB-0013", record,
+                               "a drift in \"" + model.unit + "\" of a value in \"" + result.unit + "\"",
+                               "a drift is a difference of values", "correct the unit");
+                }
+                limit = unit.difference_from_si(stated.difference_to_si(limit));
+            }
+            return drift_within_limit(limit, days);
+        }
+        case DriftKind::linear:
+            return linear_drift(history_of(record, last, result), model.weighted, days);
+        case DriftKind::last_difference:
+            return drift_as_last_difference(history_of(record, last, result), days);
+    }
+    return {};
+}
+
+StandardValue value_of_standard(const StandardRecord& record, const StandardUse& use) {
+    const Candidates found = candidates_for(record, use);
+    if (found.calibration == nullptr || found.results.empty()) {
+        refuse_use("GC-LAB-0014", record, found.verdict.because,
+                   "an input takes the value of one line of a certificate",
+                   "name another standard, or correct the use");
+    }
+    if (!found.is_narrowed) {
+        refuse_use("GC-LAB-0014", record, found.verdict.because,
+                   "an input takes the value of one line of a certificate",
+                   "state \"quantity\", \"range\" or \"mode\"");
+    }
+    const Calibration& calibration = *found.calibration;
+    const double days = static_cast<double>(certificate::days_between(calibration.calibrated, use.date).value_or(0));
+    if (!use.at) {
+        if (found.results.size() > 1) {
+            refuse_use("GC-LAB-0014", record, std::to_string(found.results.size()) + " lines of its certificate fit",
+                       "an input takes the value of one line of a certificate",
+                       "state \"quantity\", \"range\", \"mode\" or \"at\"");
+        }
+        return of_line(record, calibration, *found.results.front(), days);
+    }
+    const double at = *use.at;
+    for (const CalibrationResult* line : found.results) {
+        if (line->nominal && is_same_value(*line->nominal, at)) {
+            return of_line(record, calibration, *line, days);
+        }
+    }
+    for (const CalibrationResult* line : found.results) {
+        if (line->low && line->high && *line->low <= at && at <= *line->high) {
+            return of_line(record, calibration, *line, days);
+        }
+    }
+    const std::vector<const CalibrationResult*> lines = by_nominal(found.results);
+    const auto above =
+        std::find_if(lines.begin(), lines.end(), [&](const CalibrationResult* line) { return *line->nominal > at; });
+    const bool is_between = above != lines.begin() && above != lines.end();
+    if (!is_between || record.interpolation == Interpolation::none) {
+        refuse_use(
+            "GC-LAB-0014", record,
+            "no calibrated value at " + text::shortest_plain(at) + (is_between ? "" : ", and none beyond it"),
+            is_between ? "between calibrated values the register says how to interpolate" : "nothing is extrapolated",
+            is_between ? "state \"interpolation\" in the register, or use a calibrated value"
+                       : "use the standard at its calibrated values");
+    }
+    const auto upper = static_cast<std::size_t>(above - lines.begin());
+    for (const CalibrationResult* line : lines) {
+        if (line->unit != lines[upper]->unit || line->nominal_unit != lines[upper]->nominal_unit) {
+            refuse_use("GC-LAB-0013", record, "values in \"" + line->unit + "\" and in \"" + lines[upper]->unit + "\"",
+                       "values between which is interpolated stand in one unit",
+                       "write them in one unit in the register");
+        }
+    }
+    return record.interpolation == Interpolation::nearest ? nearest(record, calibration, lines, upper, at, days)
+                                                          : linear(record, calibration, lines, upper, at, days);
+}
+
+}  // namespace gumcert::laboratory

@@ -1,0 +1,93 @@
+#include "laboratory/recalibration.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/sample_standard.h"
+
+namespace gumcert::laboratory {
+namespace {
+
+IntervalPlan staircase() {
+    IntervalPlan plan;
+    plan.limit = 1.0;
+    plan.unit = "V";
+    plan.present_days = 365;
+    plan.extend_by = 1.5;
+    plan.reduce_by = 0.7;
+    plan.least_days = 100;
+    plan.most_days = 500;
+    return plan;
+}
+
+TEST(RecalibrationTest, StaircaseStepsAtEightyPercentAndAtTheLimit) {
+    IntervalPlan plan = staircase();
+    plan.most_days = 1000;
+    EXPECT_EQ(staircase_interval(plan, 0.8), 547);  // 365·1.5 = 547.5
+    EXPECT_EQ(staircase_interval(plan, -0.81), 365);
+    EXPECT_EQ(staircase_interval(plan, 1.0), 365);
+    EXPECT_EQ(staircase_interval(plan, -1.01), 255);
+    plan.most_days = 500;
+    EXPECT_EQ(staircase_interval(plan, 0.0), 500);
+    plan.least_days = 300;
+    EXPECT_EQ(staircase_interval(plan, 2.0), 300);
+}
+
+TEST(RecalibrationTest, ControlChartEndsOnTheLastDayWithinTheLimit) {
+    const std::vector<SeriesPoint> series{{-200.0, 8.0, 0.1}, {-100.0, 9.05, 0.1}, {0.0, 10.0, 0.1}};
+    const long days = control_chart_interval(series, false, 3.0, 2.0, 3653);
+    const auto bound = [&](long day) {
+        const Drift drift = linear_drift(series, false, static_cast<double>(day));
+        return std::abs(drift.value) + 2.0 * drift.u;
+    };
+    EXPECT_GT(days, 0);
+    EXPECT_LE(bound(days), 3.0);
+    EXPECT_GT(bound(days + 1), 3.0);
+    EXPECT_EQ(control_chart_interval(series, false, 3.0, 2.0, 30), 30);
+    EXPECT_EQ(control_chart_interval(series, false, 1e-6, 2.0, 3653), 0);
+}
+
+TEST(RecalibrationTest, HoursAreCountedInPlaceOfDays) {
+    IntervalPlan plan;
+    plan.hours = 500.0;
+    plan.hours_at_calibration = 100.0;
+    const TimeInUse time = time_in_use(plan, 300.0, 100.0);
+    EXPECT_EQ(time.used, 200.0);
+    EXPECT_EQ(time.left, 300.0);
+    EXPECT_EQ(time.days_left, 150);
+    EXPECT_EQ(time_in_use(plan, 700.0, 100.0).left, -100.0);
+    EXPECT_FALSE(time_in_use(plan, 100.0, 100.0).days_left);
+}
+
+TEST(RecalibrationTest, TheRecordProposesADay) {
+    StandardRecord record = test::three_calibrations();
+    const CalibrationResult& line = record.calibrations.back().results.front();
+    EXPECT_FALSE(next_calibration(record, line));
+    record.interval = staircase();  // found 2 V from the value before, outside of 1 V: 365·0.7 = 255 days
+    EXPECT_EQ(next_calibration(record, line)->days, 255);
+    EXPECT_EQ(next_calibration(record, line)->due, "2026-09-13");
+    record.interval->limit = 2100.0;
+    record.interval->unit = "mV";
+    EXPECT_EQ(next_calibration(record, line)->days, 365);  // between 80 % and all of it
+    record.interval->limit = 1.0;
+    record.interval->unit = "V";
+    record.interval->method = IntervalMethod::control_chart;
+    EXPECT_EQ(next_calibration(record, line)->days, 100);  // the limit is not kept on the first day: least_days
+    record.interval->method = IntervalMethod::in_use_time;
+    record.interval->hours = 500.0;
+    record.interval->readings = {{"2026-04-11", 250.0}};
+    EXPECT_EQ(next_calibration(record, line)->due, "2026-07-20");  // 250 h in 100 days, 250 h more
+    record.interval->readings.clear();
+    EXPECT_EQ(next_calibration(record, line)->due, "");
+}
+
+TEST(RecalibrationTest, DaysAreThoseOfTheCalendar) {
+    EXPECT_EQ(days_after("2024-02-28", 1), "2024-02-29");
+    EXPECT_EQ(days_after("2026-12-31", 1), "2027-01-01");
+    EXPECT_EQ(days_after("2026-03-01", -1), "2026-02-28");
+    EXPECT_EQ(days_after("", 1), "");
+}
+
+}  // namespace
+}  // namespace gumcert::laboratory
