@@ -8,7 +8,8 @@
 set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
                           gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
-                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate jobs/budget
+                          gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate
+                          jobs/laboratory jobs/budget
                           jobs/circle_closure jobs/rotary_table jobs/comparison jobs/schema reports/record
                           reports/record/schema reports/record/make reports/record/make/budget
                           reports/record/make/comparison
@@ -46,16 +47,17 @@ set(GUMCERT_EDGES_audit_rules                        text gum/quantity gum/expre
                                                      gum/comparison certificate workbook audit)
 set(GUMCERT_EDGES_jobs                               text encoding gum/quantity json gum gum/monte_carlo)
 set(GUMCERT_EDGES_jobs_certificate                   text encoding gum/quantity json gum/conformity certificate jobs)
+set(GUMCERT_EDGES_jobs_laboratory                    text gum/quantity certificate laboratory jobs jobs/certificate)
 set(GUMCERT_EDGES_jobs_budget                        text gum/quantity gum/expression gum certificate gum/budget jobs
-                                                     jobs/certificate)
+                                                     jobs/certificate jobs/laboratory)
 set(GUMCERT_EDGES_jobs_circle_closure                text gum/quantity gum certificate engine gum/circle_closure jobs
-                                                     jobs/certificate jobs/budget)
+                                                     jobs/certificate jobs/laboratory jobs/budget)
 set(GUMCERT_EDGES_jobs_rotary_table                  text gum/quantity gum certificate engine/rotary_table
-                                                     gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
+                                                     gum/rotary_table gum/rotary_table/studies jobs jobs/certificate jobs/laboratory
                                                      jobs/budget)
 set(GUMCERT_EDGES_jobs_comparison                    text gum/quantity gum gum/comparison certificate jobs
-                                                     jobs/certificate jobs/budget jobs/circle_closure jobs/rotary_table)
-set(GUMCERT_EDGES_jobs_schema                        json jobs jobs/budget jobs/circle_closure jobs/rotary_table
+                                                     jobs/certificate jobs/laboratory jobs/budget jobs/circle_closure jobs/rotary_table)
+set(GUMCERT_EDGES_jobs_schema                        json jobs jobs/laboratory jobs/budget jobs/circle_closure jobs/rotary_table
                                                      jobs/comparison)
 set(GUMCERT_EDGES_reports_record                     text encoding gum/quantity json gum certificate)
 set(GUMCERT_EDGES_reports_record_schema              json reports/record)
@@ -97,7 +99,7 @@ set(GUMCERT_EDGES_imports                            gum/quantity json gum/expre
 set(GUMCERT_EDGES_app                                text encoding gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
-                                                     jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
+                                                     jobs/laboratory jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
@@ -105,7 +107,7 @@ set(GUMCERT_EDGES_app                                text encoding gum/quantity 
                                                      imports workbook audit audit/rules audit/sources)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
-                                                     imports app audit/rules reports/audit)
+                                                     imports jobs/laboratory app audit/rules reports/audit)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
@@ -134,6 +136,7 @@ set(GUMCERT_THIRD_PARTY_audit)
 set(GUMCERT_THIRD_PARTY_audit_rules                        Eigen)
 set(GUMCERT_THIRD_PARTY_jobs                               Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_certificate                   nlohmann)
+set(GUMCERT_THIRD_PARTY_jobs_laboratory                    nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_budget                        nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_circle_closure                nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_rotary_table                  Eigen nlohmann)

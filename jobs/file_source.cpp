@@ -21,7 +21,11 @@ namespace {
 }  // namespace
 
 std::string DiskFileSource::read(const std::string& name) const {
-    encoding::FileBytes file = encoding::read_regular_file(folder_ / std::filesystem::path(name), k_file_limit + 1);
+    const bool is_of_laboratory = has_laboratory() && name.starts_with(k_laboratory_prefix);
+    const std::filesystem::path path =
+        is_of_laboratory ? laboratory_ / std::filesystem::path(name.substr(k_laboratory_prefix.size()))
+                         : folder_ / std::filesystem::path(name);
+    encoding::FileBytes file = encoding::read_regular_file(path, k_file_limit + 1);
     if (!file.failure.empty()) {
         // "a/" has no name of a file, "" nothing at all: the message names the place as it was given.
         const std::string folder = folder_.string();
@@ -36,6 +40,11 @@ std::string MemoryFileSource::read(const std::string& name) const {
         not_readable(name, "there is no such file");
     }
     return found->second.substr(0, k_file_limit + 1);
+}
+
+bool MemoryFileSource::has_laboratory() const {
+    const auto first = files_.lower_bound(std::string(k_laboratory_prefix));
+    return first != files_.end() && first->first.starts_with(k_laboratory_prefix);
 }
 
 std::string ReadOnceSource::read(const std::string& name) const {

@@ -5,11 +5,16 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace gumcert::jobs {
 
 /// Largest file that is read, [byte].
 inline constexpr std::size_t k_file_limit = std::size_t{64} << 20U;
+
+/// Files of the laboratory folder have names that begin so, where the folder is not named by the job itself.
+inline constexpr std::string_view k_laboratory_prefix = "laboratory:/";
 
 /// Where a reader gets the files of a job from: a folder, or memory for tests.
 class FileSource {
@@ -20,16 +25,22 @@ public:
     /// \param name  as the job names it, relative to the job file
     /// \throws StorageError  if the file cannot be opened or read, or is not a regular file
     [[nodiscard]] virtual std::string read(const std::string& name) const = 0;
+    /// Whether there are files of a laboratory, with k_laboratory_prefix before their names; they go before the folder
+    /// that a job names.
+    [[nodiscard]] virtual bool has_laboratory() const { return false; }
 };
 
 /// Files of one folder of the disk.
 class DiskFileSource : public FileSource {
 public:
-    explicit DiskFileSource(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// \param laboratory  the folder of the laboratory; "": none
+    explicit DiskFileSource(std::filesystem::path folder, std::filesystem::path laboratory = {})
+        : folder_(std::move(folder)), laboratory_(std::move(laboratory)) {}
     [[nodiscard]] std::string read(const std::string& name) const override;
+    [[nodiscard]] bool has_laboratory() const override { return !laboratory_.empty(); }
 
 private:
-    std::filesystem::path folder_;
+    std::filesystem::path folder_, laboratory_;
 };
 
 /// Files in memory, name to content.
@@ -37,6 +48,8 @@ class MemoryFileSource : public FileSource {
 public:
     explicit MemoryFileSource(std::map<std::string, std::string> files) : files_(std::move(files)) {}
     [[nodiscard]] std::string read(const std::string& name) const override;
+    /// Where one of the names has the prefix: a record holds what was read of the laboratory under these names.
+    [[nodiscard]] bool has_laboratory() const override;
 
 private:
     std::map<std::string, std::string> files_;
@@ -48,6 +61,7 @@ class ReadOnceSource : public FileSource {
 public:
     explicit ReadOnceSource(const FileSource& source) : source_(source) {}
     [[nodiscard]] std::string read(const std::string& name) const override;
+    [[nodiscard]] bool has_laboratory() const override { return source_.has_laboratory(); }
 
 private:
     const FileSource& source_;

@@ -36,6 +36,8 @@ template <class Archive>
 void describe_certificate(Archive& a) {
     a.by_hand("certificate", R"({"$ref": "#/definitions/certificate"})", "an object, or the name of a file with one",
               "What the laboratory states on the certificate; without it the documents are specimens.");
+    a.by_code("laboratory", FileName{},
+              "Folder with the data of the laboratory (docs/laboratory.md), relative to the job.");
 }
 
 template <class Archive>

@@ -19,7 +19,7 @@ JobFiles::File JobFiles::job() {
 }
 
 std::optional<JobFiles::File> JobFiles::open(const std::string& name_in_job) {
-    const std::string name = folder_ + name_in_job;
+    const std::string name = name_in_source(name_in_job);
     if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
         names_.push_back(name);
     }
@@ -30,6 +30,24 @@ std::optional<JobFiles::File> JobFiles::open(const std::string& name_in_job) {
         not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
         return std::nullopt;
     }
+}
+
+std::string JobFiles::name_in_source(const std::string& name_in_job) const {
+    return name_in_job.starts_with(k_laboratory_prefix) && source_.has_laboratory() ? name_in_job
+                                                                                    : folder_ + name_in_job;
+}
+
+std::optional<JobFiles::File> JobFiles::open_if_there(const std::string& name_in_job) {
+    try {
+        (void)source_.read(name_in_source(name_in_job));
+    } catch (const gum::StorageError&) {
+        return std::nullopt;
+    }
+    return open(name_in_job);
+}
+
+std::optional<std::string> JobFiles::laboratory() const {
+    return source_.has_laboratory() ? std::optional<std::string>(k_laboratory_prefix) : std::nullopt;
 }
 
 std::optional<std::string> JobFiles::file_name_objection(std::string_view name) {

@@ -32,6 +32,10 @@ public:
     [[nodiscard]] File job();
     /// A file that the job names; nothing when it cannot be read, which is noted.
     [[nodiscard]] std::optional<File> open(const std::string& name);
+    /// The same of a file that need not be there: nothing is noted then.
+    [[nodiscard]] std::optional<File> open_if_there(const std::string& name);
+    /// What stands before the names of files of the laboratory, where the caller named its folder; else nothing.
+    [[nodiscard]] std::optional<std::string> laboratory() const;
 
     /// A file name under a key: relative to the job, with / between folders.
     /// \return nothing when it is absent or was refused
@@ -53,6 +57,8 @@ public:
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
 private:
+    [[nodiscard]] std::string name_in_source(const std::string& name_in_job) const;
+
     const FileSource& source_;
     std::string folder_;  ///< of the job in the source, with its /; empty at the top
     std::vector<std::string> names_;

@@ -19,6 +19,7 @@
 #include "jobs/job_kind.h"
 #include "jobs/job_reader.h"
 #include "jobs/json_object.h"
+#include "jobs/laboratory/laboratory_use.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -51,6 +52,8 @@ private:
         if (!is_budget()) {
             return;
         }
+        LaboratoryUse laboratory(files_, *document_, *problems_);
+        laboratory.fill_inputs(*document_);
         const std::optional<JsonObject> root = JsonObject::root(*document_, keys_of<BudgetStatement>(), *problems_);
         if (!root) {
             return;
@@ -77,7 +80,7 @@ private:
         }
         job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
         check_model(*root, inputs);
-        job_.certificate = read_certificate(files_, *document_, *problems_);
+        job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
         read_tables(*root, *document_, inputs, job_, *problems_);
     }
 

@@ -199,6 +199,20 @@ void describe_statement(Archive& a) {
     a.by_code("note", AnyText{}, "For people.");
 }
 
+/// A standard of the register (docs/laboratory.md), which takes the place of a statement. Jobs are read after it was filled
+/// in (jobs/laboratory/laboratory_use.h).
+template <class Archive>
+void describe_reference(Archive& a) {
+    constexpr Words<char, 2> k_taken{{{"value", 'v'}, {"deviation", 'd'}}};
+    a.by_code("standard", Line{}, "Identification of a standard in the register of the laboratory.");
+    a.by_code("quantity", Line{}, "With standard: of its certificate, where that has several.");
+    a.by_code("range", Line{}, "With standard: as in the register.");
+    a.by_code("mode", Line{}, "With standard: as in the register.");
+    a.by_code("at", k_number, "With standard: where it is used, in the unit of its nominal values.");
+    a.by_code("date", Line{}, "With standard: day of use; that of the work when left out.");
+    a.by_code("take", k_taken, "With standard: its value, when left out, or its deviation from the nominal value.");
+}
+
 template <class Archive>
 void describe(Archive& a, ComponentStatement&) {
     a.definition("budget_component", "Its value, where it has one, adds to that of the component before it.");
@@ -212,6 +226,7 @@ void describe(Archive& a, OverrideStatement&) {
     std::vector<ComponentStatement> components;
     a.definition("budget_override", "What differs at one point of a table.");
     describe_statement(a);
+    describe_reference(a);
     a.by_code("between_points", k_between_points, "Whether the points share one value of the input.");
     a.list("components", components, "Statements whose sum the input is.", {.least = 1, .most = k_most_components});
 }

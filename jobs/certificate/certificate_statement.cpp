@@ -57,9 +57,17 @@ void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
     accreditation.symbol_base64 = encoding::base64(file->bytes);
 }
 
-/// \param place  of the object
-std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace& place) {
-    const std::size_t refusals = place.problems->refusals();
+/// \param as_stated  of the object
+std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace& as_stated,
+                                         CertificateCompletion* completion) {
+    const std::size_t refusals = as_stated.problems->refusals();
+    std::optional<JsonDocument> completed;
+    CertificatePlace place = as_stated;
+    if (completion != nullptr) {
+        completed = *as_stated.document;
+        place.document = &*completed;
+        completion->complete(*completed, place);
+    }
     CertificateData data;
     CertificateArchive::read_struct_at(data, place);
     check_lists(data, place);
@@ -82,14 +90,15 @@ std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace
 
 }  // namespace
 
-std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocument& job, ProblemList& problems) {
+std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocument& job, ProblemList& problems,
+                                                CertificateCompletion* completion) {
     const auto found = job.value.find("certificate");
     if (found == job.value.end() || found->is_discarded()) {
         return std::nullopt;
     }
     const CertificatePlace place{&job, "/certificate", &problems};
     if (found->is_object()) {
-        return read_data(files, place);
+        return read_data(files, place, completion);
     }
     if (!found->is_string()) {
         place.refuse(k_wrong_type, described(*found), "must be an object or the name of a file", "correct the value");
@@ -110,7 +119,7 @@ std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocum
                     "write { \"key\": value, … }");
         return std::nullopt;
     }
-    return read_data(files, root);
+    return read_data(files, root, completion);
 }
 
 std::vector<certificate::Waiver> parse_waivers(std::string_view bytes, const std::string& file) {

@@ -15,6 +15,7 @@
 #include "jobs/job_files.h"
 #include "jobs/job_reader.h"
 #include "jobs/json_object.h"
+#include "jobs/laboratory/laboratory_use.h"
 #include "jobs/statement_keys.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -89,7 +90,8 @@ private:
         if (file && m.steps > 0) {
             read_readings(std::move(*file), root);
         }
-        job_.certificate = read_certificate(files_, *document_, *problems_);
+        LaboratoryUse laboratory(files_, *document_, *problems_);
+        job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
     }
 
     void read_unit_of(const JsonObject& root) {

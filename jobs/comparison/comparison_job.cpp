@@ -11,6 +11,7 @@
 #include "jobs/comparison/comparison_statement.h"
 #include "jobs/job_kind.h"
 #include "jobs/job_reader.h"
+#include "jobs/laboratory/laboratory_use.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -63,7 +64,8 @@ private:
             case Form::neither:
                 break;
         }
-        job_.certificate = read_certificate(files_, document, problems);
+        LaboratoryUse laboratory(files_, document, problems);
+        job_.certificate = read_certificate(files_, document, problems, &laboratory);
     }
 
     /// A record that is taken for a job is refused as such, once, and not key by key.

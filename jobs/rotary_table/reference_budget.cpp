@@ -32,6 +32,7 @@ public:
     [[nodiscard]] std::string read(const std::string& name) const override {
         return name == name_ ? bytes_ : source_.read(name);
     }
+    [[nodiscard]] bool has_laboratory() const override { return source_.has_laboratory(); }
 
 private:
     const FileSource& source_;

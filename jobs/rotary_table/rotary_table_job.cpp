@@ -7,6 +7,7 @@
 #include "gum/quantity/units.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "jobs/job_reader.h"
+#include "jobs/laboratory/laboratory_use.h"
 #include "jobs/rotary_table/rotary_table_environment.h"
 #include "jobs/rotary_table/rotary_table_exclusion.h"
 #include "jobs/rotary_table/rotary_table_fields.h"
@@ -295,7 +296,8 @@ private:
         if (reference) {
             read_reference(reading, *reference, std::move(reference_files), places, source_);
         }
-        job_.certificate = read_certificate(files_, reading.document, reading.problems);
+        LaboratoryUse laboratory(files_, reading.document, reading.problems);
+        job_.certificate = read_certificate(files_, reading.document, reading.problems, &laboratory);
         read_fixture_budget(reading, names, source_);
     }
 

@@ -148,14 +148,9 @@ void add_definitions(const JobFields& fields, std::vector<const JobFields*>& all
 
 /// The objects with a definition of the schema, and a heading of docs/job_keys.md, of their own.
 std::vector<const JobFields*> described_objects() {
-    std::vector<const JobFields*> all;
     // The points of a budget are described by hand.
-    for (const JobFields* kind : {&budget_fields(), &fields_of<OverrideStatement>(), &rotary_table_fields(),
-                                  &circle_closure_fields(), &comparison_fields()}) {
-        all.push_back(kind);
-        add_definitions(*kind, all);
-    }
-    return all;
+    return with_objects_in_them({&budget_fields(), &fields_of<OverrideStatement>(), &rotary_table_fields(),
+                                 &circle_closure_fields(), &comparison_fields()});
 }
 
 }  // namespace
@@ -226,10 +221,24 @@ std::string page_of_job_keys() {
         "explained in\n"
         "[budget_job.md](budget_job.md), [rotary_table_job.md](rotary_table_job.md),\n"
         "[circle_closure_job.md](circle_closure_job.md) and [comparison_job.md](comparison_job.md).\n";
-    for (const JobFields* object : described_objects()) {
-        add_tables(std::string(object->definition), *object, page);
+    return page + tables_of_keys(described_objects());
+}
+
+std::vector<const JobFields*> with_objects_in_them(const std::vector<const JobFields*>& objects) {
+    std::vector<const JobFields*> all;
+    for (const JobFields* object : objects) {
+        all.push_back(object);
+        add_definitions(*object, all);
     }
-    return page;
+    return all;
+}
+
+std::string tables_of_keys(const std::vector<const JobFields*>& objects) {
+    std::string tables;
+    for (const JobFields* object : objects) {
+        add_tables(std::string(object->definition), *object, tables);
+    }
+    return tables;
 }
 
 }  // namespace gumcert::jobs

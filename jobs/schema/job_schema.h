@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "jobs/job_fields.h"
 
@@ -18,6 +19,12 @@ namespace gumcert::jobs {
 /// \param schema  a JSON object with `definitions`; each begins on a line of its own, indented by four spaces
 /// \throws std::invalid_argument  if one of them is not there
 [[nodiscard]] std::string with_described_definitions(const std::string& schema);
+
+/// Tables of the keys of described objects and of all that stand in them, each under the name of its definition.
+[[nodiscard]] std::string tables_of_keys(const std::vector<const JobFields*>& objects);
+
+/// These objects and those in them that have a definition, each once.
+[[nodiscard]] std::vector<const JobFields*> with_objects_in_them(const std::vector<const JobFields*>& objects);
 
 /// docs/job_keys.md: a table for each described object.
 [[nodiscard]] std::string page_of_job_keys();

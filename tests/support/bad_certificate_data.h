@@ -41,7 +41,7 @@ inline std::vector<BadData> bad_certificate_data() {
         {"no_results", "/specifications/0/results", "", k_certificate_missing_key, "\"results\"", "/specifications/0"},
         {"no_unit_of_U", "/standards/0/unit", "", k_certificate_missing_key, "an uncertainty without unit",
          "/standards/0/U"},
-        {"text_for_object", "/customer", "\"Smith\"", k_certificate_type, "must be an object"},
+        {"text_for_object", "/item", "\"Smith\"", k_certificate_type, "must be an object"},
         {"number_for_text", "/number", "17", k_certificate_type, "17 — must be a text"},
         {"text_for_number", "/conditions/0/minimum", "\"19.8\"", k_certificate_type, "must be a number"},
         {"null", "/amendment", "null", k_certificate_type, "leave the key out"},

@@ -1,0 +1,710 @@
+#include "jobs/laboratory/laboratory_use.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "certificate/dates.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/unit.h"
+#include "jobs/certificate/certificate_archive.h"
+#include "jobs/laboratory/laboratory_codes.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
+
+namespace gumcert::jobs {
+
+namespace {
+
+using certificate::TextForm;
+using laboratory::Drift;
+using laboratory::StandardRecord;
+using laboratory::StandardUse;
+using laboratory::StandardValue;
+using nlohmann::json;
+
+/// Keys of an input that say which standard it is and how it is used.
+constexpr std::array<std::string_view, 7> k_reference_keys{"standard", "quantity", "range", "mode",
+                                                           "at",       "date",     "take"};
+
+/// Puts a value in the place of another one that was refused: readers say nothing more of it.
+void discard(json& value) {
+    value = json(json::value_t::discarded);
+}
+
+std::string text_in(const json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// Numbers of one unit in another one, and as they are where the two are one text.
+class UnitChange {
+public:
+    UnitChange(const std::string& from, const std::string& to)
+        : is_same_(from == to), from_(gum::Unit::parse(from)), to_(gum::Unit::parse(to)) {}
+
+    [[nodiscard]] bool is_possible() const {
+        return from_.dimension() == to_.dimension() && from_.is_celsius_temperature() == to_.is_celsius_temperature();
+    }
+    [[nodiscard]] double value(double v) const { return is_same_ ? v : in_decimals(to_.from_si(from_.to_si(v))); }
+    [[nodiscard]] double difference(double v) const {
+        return is_same_ ? v : in_decimals(to_.difference_from_si(from_.difference_to_si(v)));
+    }
+
+private:
+    /// Without what two conversions leave behind the last digit of a decimal number.
+    static double in_decimals(double v) {
+        constexpr int k_digits_of_double = 15;
+        const std::string text = text::significant(v, k_digits_of_double);
+        double rounded = v;
+        std::from_chars(text.data(), text.data() + text.size(), rounded);
+        return rounded;
+    }
+
+    bool is_same_;
+    gum::Unit from_, to_;
+};
+
+const char* word_of(laboratory::Answer answer) {
+    return answer == laboratory::Answer::yes ? "yes" : answer == laboratory::Answer::no ? "no" : "unknown";
+}
+
+json localised_json(const certificate::LocalisedText& text) {
+    if (text.by_language.empty()) {
+        return text.plain;
+    }
+    json languages = json::object();
+    for (const auto& [language, words] : text.by_language) {
+        languages[language] = words;
+    }
+    return languages;
+}
+
+void set_if_stated(json& row, const char* key, const std::string& text) {
+    if (!text.empty()) {
+        row[key] = text;
+    }
+}
+
+/// The same place for every value that was put there, so that messages have a line and a column.
+void place_below(JsonDocument& document, const std::string& pointer, const json& value, const text::Place& place) {
+    document.places.emplace(pointer, place);
+    if (value.is_object()) {
+        for (const auto& [key, member] : value.items()) {
+            place_below(document, child_pointer(pointer, key), member, place);
+        }
+    } else if (value.is_array()) {
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            place_below(document, child_pointer(pointer, i), value[i], place);
+        }
+    }
+}
+
+/// U of a row in SI units, for two rows in different units.
+std::optional<double> U_in_si(const json& row) {
+    const auto U = row.find("U");
+    const std::string unit = text_in(row, "unit");
+    if (U == row.end() || !U->is_number() || unit.empty()) {
+        return std::nullopt;
+    }
+    try {
+        return gum::Unit::parse(unit).difference_to_si(U->get<double>());
+    } catch (const gum::InputError&) {
+        return std::nullopt;  // refused where certificate data are read
+    }
+}
+
+constexpr double k_same_U = 1e-9;
+
+}  // namespace
+
+LaboratoryUse::LaboratoryUse(JobFiles& files, const JsonDocument& job, ProblemList& problems)
+    : files_(files), job_(job), problems_(problems), folder_(LaboratoryFolder::of_job(files, job, problems)) {}
+
+// ---- inputs -------------------------------------------------------------------------------------------------------------
+
+void LaboratoryUse::fill_inputs(JsonDocument& job) {
+    const auto inputs = job.value.find("inputs");
+    if (inputs == job.value.end() || !inputs->is_object()) {
+        return;
+    }
+    const auto refers = [](const json& statement) { return statement.is_object() && statement.contains("standard"); };
+    for (const std::string& name : keys_in_order(job, "/inputs")) {
+        if (refers((*inputs)[name])) {
+            fill_statement(job, child_pointer("/inputs", name), name, text_in((*inputs)[name], "unit"));
+        }
+    }
+    const auto points = job.value.find("points");
+    for (std::size_t i = 0; points != job.value.end() && points->is_array() && i < points->size(); ++i) {
+        if (!(*points)[i].is_object()) {
+            continue;
+        }
+        const std::string pointer = child_pointer("/points", i);
+        for (const std::string& name : keys_in_order(job, pointer)) {
+            if (refers((*points)[i][name])) {
+                const auto input = inputs->find(name);
+                const bool is_input = input != inputs->end() && input->is_object();
+                fill_statement(job, child_pointer(pointer, name), name, is_input ? text_in(*input, "unit") : "");
+            }
+        }
+    }
+    warn_of_shared_standards(job);
+}
+
+void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
+                                   const std::string& unit_of_input) {
+    json& statement = job.value.at(json::json_pointer(pointer));
+    const CertificatePlace place{&job, child_pointer(pointer, "standard"), &problems_};
+    const json id = statement["standard"];
+    if (!id.is_string()) {
+        refuse_type(id, "the identification of a standard", place);
+        discard(statement);
+        return;
+    }
+    const auto& name = id.get_ref<const std::string&>();
+    const bool is_point = pointer.starts_with("/points/");
+    if (!folder_) {
+        place.refuse(k_laboratory_missing, "the standard " + text::in_quotes(name) + ", and no laboratory",
+                     "standards stand in the register of the laboratory",
+                     "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
+    } else if (!LaboratoryFolder::is_identification(name)) {
+        place.refuse(k_laboratory_id, text::in_quotes(name),
+                     "an identification is the name of a file: letters, digits, '-', '_' and '.'",
+                     "name the standard as its file is named, without .json");
+    }
+    const StandardRecord* record =
+        folder_ && LaboratoryFolder::is_identification(name) ? folder_->standard(name) : nullptr;
+    const std::optional<StandardUse> use = record != nullptr ? read_use(job, statement, pointer) : std::nullopt;
+    const std::string take = text_in(statement, "take");
+    bool is_accepted = use.has_value();
+    if (statement.contains("take")) {
+        const CertificatePlace at{&job, child_pointer(pointer, "take"), &problems_};
+        if (!statement["take"].is_string()) {
+            refuse_type(statement["take"], "a text", at);
+            is_accepted = false;
+        } else {
+            is_accepted = acceptable_word(take, {"value", "deviation"}, at) && is_accepted;
+        }
+    }
+    std::optional<json> components =
+        is_accepted ? components_of(*record, *use, unit_of_input, take == "deviation", place) : std::nullopt;
+    if (!components) {
+        discard(statement);
+        return;
+    }
+    const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
+    facts_.uses.push_back({name, input, word_of(verdict.answer), verdict.because});
+    if (std::find(used_.begin(), used_.end(), name) == used_.end()) {
+        used_.push_back(name);
+    }
+    if (!is_point) {
+        inputs_of_[name].push_back(input);
+    }
+    const auto found = job.places.find(place.pointer);
+    const text::Place at = found == job.places.end() ? text::Place{} : found->second;
+    for (const std::string_view key : k_reference_keys) {
+        statement.erase(std::string(key));
+    }
+    if (!is_point && unit_of_input.empty()) {
+        statement["unit"] = (*components)["unit"];
+    }
+    json& list = (*components)["components"];
+    if (const auto own = statement.find("components"); own != statement.end() && own->is_array()) {
+        // Those of the job stand behind: their places move with them.
+        for (json& one : *own) {
+            list.push_back(std::move(one));
+        }
+    } else if (own != statement.end()) {
+        return;  // its reader refuses it
+    }
+    statement["components"] = list;
+    const std::string below = child_pointer(pointer, "components");
+    std::erase_if(job.places, [&](const auto& entry) { return entry.first.starts_with(below + "/"); });
+    place_below(job, below, list, at);
+}
+
+std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, const json& statement,
+                                                   const std::string& pointer) {
+    StandardUse use;
+    bool is_read = true;
+    const auto read_text = [&](const char* key, std::string& text, TextForm form) {
+        const auto found = statement.find(key);
+        if (found == statement.end()) {
+            return;
+        }
+        const CertificatePlace place{&job, child_pointer(pointer, key), &problems_};
+        if (!found->is_string()) {
+            refuse_type(*found, "a text", place);
+            is_read = false;
+        } else if (acceptable_text(found->get_ref<const std::string&>(), form, place)) {
+            text = found->get<std::string>();
+        } else {
+            is_read = false;
+        }
+    };
+    read_text("quantity", use.quantity, TextForm::name);
+    read_text("range", use.range, TextForm::name);
+    read_text("mode", use.mode, TextForm::name);
+    read_text("date", use.date, TextForm::date);
+    if (const auto at = statement.find("at"); at != statement.end()) {
+        if (at->is_number()) {
+            use.at = at->get<double>();
+        } else {
+            if (!at->is_discarded()) {
+                refuse_type(*at, "a number", {&job, child_pointer(pointer, "at"), &problems_});
+            }
+            is_read = false;
+        }
+    }
+    if (!statement.contains("date")) {
+        use.date = day_of_work();
+    }
+    return is_read ? std::optional(std::move(use)) : std::nullopt;
+}
+
+/// \return {"unit": …, "components": […]}; nothing when it was refused
+std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, const StandardUse& use,
+                                                 const std::string& unit, bool is_deviation,
+                                                 const CertificatePlace& place) {
+    if (use.date.empty() && record.drift.kind != laboratory::DriftKind::none) {
+        place.refuse(k_laboratory_day, "the day on which " + text::in_quotes(record.id) + " was used is not known",
+                     "a drift grows from the calibration to the day of use",
+                     "state performed_to or performed_from in the dates of the certificate, or \"date\" here");
+        return std::nullopt;
+    }
+    StandardValue value;
+    try {
+        value = laboratory::value_of_standard(record, use);
+    } catch (const gum::InputError& error) {
+        for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+            problems_.refuse({diagnostic.code, {}}, place.document->where(place.pointer),
+                             diagnostic.where + ": " + diagnostic.what, diagnostic.rule, diagnostic.action);
+        }
+        return std::nullopt;
+    }
+    if (!line_of_.contains(record.id)) {
+        line_of_[record.id] = value.result;
+    }
+    std::string of_value = value.unit;
+    double estimate = value.value;
+    if (is_deviation) {
+        const std::string& nominal_unit = value.result->nominal_unit;
+        const std::optional<double> nominal =
+            value.interpolation_half_width > 0.0 || value.result->low ? use.at : value.result->nominal;
+        if (!nominal || (!nominal_unit.empty() && nominal_unit != value.unit)) {
+            place.refuse(k_laboratory_unit,
+                         text::in_quotes(record.id) + " has no nominal value in \"" + value.unit + "\"",
+                         "a deviation is the value less its nominal value, in one unit",
+                         "take the value, or state \"nominal\" in the register");
+            return std::nullopt;
+        }
+        estimate -= *nominal;
+        of_value = gum::unit_of_difference(value.unit);
+    }
+    const std::string target = unit.empty() ? of_value : unit;
+    std::optional<UnitChange> change;
+    try {
+        change.emplace(of_value, target);
+    } catch (const gum::InputError&) {
+        return std::nullopt;  // the reader of the input refuses its unit
+    }
+    if (!change->is_possible()) {
+        place.refuse(k_laboratory_unit,
+                     text::in_quotes(record.id) + " is in \"" + of_value + "\", and the input in \"" + target + "\"",
+                     "an input takes the value of a standard of the same quantity",
+                     "correct the unit, or the standard");
+        return std::nullopt;
+    }
+    const std::string source = record.id + ", certificate " + value.calibration->certificate;
+    json components = json::array();
+    json calibration{{"name", "calibration of " + record.id}, {"value", change->value(estimate)}, {"source", source}};
+    const double U = change->difference(value.U);
+    if (value.k && *value.k == 1.0) {
+        calibration["u"] = U;
+    } else {
+        calibration["U"] = U;
+        calibration[value.k ? "k" : "p"] = value.k ? *value.k : *value.p;
+    }
+    if (value.nu) {
+        calibration["nu"] = *value.nu;
+    }
+    components.push_back(std::move(calibration));
+    const auto add_uniform = [&](const std::string& name, double half_width) {
+        components.push_back({{"name", name},
+                              {"value", 0.0},
+                              {"half_width", change->difference(half_width)},
+                              {"distribution", "uniform"},
+                              {"source", source}});
+    };
+    if (value.interpolation_half_width > 0.0) {
+        add_uniform("interpolation of " + record.id, value.interpolation_half_width);
+    }
+    const Drift& drift = value.drift;
+    const std::string since = "drift of " + record.id + " since " + value.calibration->calibrated;
+    if (drift.half_width > 0.0) {
+        add_uniform(since, drift.half_width);
+    } else if (drift.u > 0.0 || drift.value != 0.0) {
+        json component{{"name", since}, {"value", change->difference(drift.value)}, {"source", source}};
+        if (drift.u > 0.0) {
+            component["u"] = change->difference(drift.u);
+            component["type"] = "A";
+            if (!std::isinf(drift.nu)) {
+                component["nu"] = drift.nu;
+            }
+        } else {
+            component["constant"] = true;
+        }
+        components.push_back(std::move(component));
+    }
+    return json{{"unit", target}, {"components", std::move(components)}};
+}
+
+void LaboratoryUse::warn_of_shared_standards(const JsonDocument& job) {
+    if (job.value.contains("correlations") || job.value.contains("covariance")) {
+        return;
+    }
+    for (const std::string& id : used_) {
+        const std::vector<std::string>& inputs = inputs_of_[id];
+        if (inputs.size() > 1) {
+            problems_.warn(k_laboratory_shared, job.where(child_pointer("/inputs", inputs[1])),
+                           text::all_of(inputs) + " draw on the standard " + text::in_quotes(id),
+                           "values of one certificate have errors in common, and are taken as independent here",
+                           "state their correlation under \"correlations\"");
+        }
+    }
+}
+
+const std::string& LaboratoryUse::day_of_work() {
+    if (day_of_work_) {
+        return *day_of_work_;
+    }
+    day_of_work_.emplace();
+    const auto found = job_.value.find("certificate");
+    if (found == job_.value.end()) {
+        return *day_of_work_;
+    }
+    json data = *found;
+    if (found->is_string() && !JobFiles::file_name_objection(found->get_ref<const std::string&>())) {
+        // What is wrong with the file is said where the certificate is read.
+        const std::optional<JobFiles::File> file = files_.open_if_there(found->get<std::string>());
+        ProblemList unsaid{""};
+        const std::optional<JsonDocument> document = file ? read_json_document(file->bytes, unsaid) : std::nullopt;
+        data = document ? document->value : json();
+    }
+    if (data.is_object() && data.contains("dates") && data["dates"].is_object()) {
+        const std::string to = text_in(data["dates"], "performed_to");
+        const std::string day = to.empty() ? text_in(data["dates"], "performed_from") : to;
+        if (certificate::calendar_date(day)) {
+            day_of_work_ = day;
+        }
+    }
+    return *day_of_work_;
+}
+
+// ---- certificate data -----------------------------------------------------------------------------------------------
+
+void LaboratoryUse::complete(JsonDocument& document, const CertificatePlace& place) {
+    json& data = document.value.at(json::json_pointer(place.pointer));
+    if (!data.is_object() || refuse_without_folder(data, place)) {
+        return;
+    }
+    if (const LaboratoryFile* file = folder_->laboratory()) {
+        if (file->laboratory.is_object()) {
+            complete_object(data, "laboratory", file->laboratory, "the laboratory", "");
+        }
+        if (file->accreditation.is_object() && text_in(data, "status") != "not_accredited") {
+            complete_accreditation(data, *file);
+        }
+        complete_persons(data, *file, place);
+        for (const SignatoryStatement& person : file->signatories) {
+            facts_.signatories.push_back({person.name, person.from, person.to, person.methods, person.authorises});
+        }
+    } else if (data.contains("persons") && data["persons"].is_object()) {
+        for (auto& [role, person] : data["persons"].items()) {
+            if (person.is_string()) {
+                discard(person);  // whom it means stands in the file that was refused
+            }
+        }
+    }
+    complete_by_id(data, "customer", place, true);
+    complete_by_id(data, "method", place, false);
+    complete_standards(data, place);
+}
+
+std::optional<certificate::LaboratoryRegister> LaboratoryUse::registered() const {
+    return folder_ ? std::optional(facts_) : std::nullopt;
+}
+
+/// \return whether there is no folder; what refers to one is refused then
+bool LaboratoryUse::refuse_without_folder(json& data, const CertificatePlace& place) {
+    if (folder_) {
+        return false;
+    }
+    const auto refuse = [&](json& value, const std::string& relative) {
+        if (value.is_string() || (value.is_object() && value.contains("id"))) {
+            place.below(relative).refuse(k_laboratory_missing, described(value) + ", and no laboratory",
+                                         "what is not written out stands in the files of the laboratory",
+                                         "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
+            discard(value);
+        }
+    };
+    for (const char* key : {"customer", "method"}) {
+        if (data.contains(key)) {
+            refuse(data[key], std::string("/") + key);
+        }
+    }
+    if (data.contains("persons") && data["persons"].is_object()) {
+        for (auto& [key, person] : data["persons"].items()) {
+            refuse(person, child_pointer("/persons", key));
+        }
+    }
+    if (data.contains("standards") && data["standards"].is_array()) {
+        for (std::size_t i = 0; i < data["standards"].size(); ++i) {
+            refuse(data["standards"][i], child_pointer("/standards", i));
+        }
+    }
+    return true;
+}
+
+/// Fills in what an object of the data does not state, and notes what it states otherwise.
+void LaboratoryUse::complete_object(json& data, const std::string& key, const json& registered,
+                                    const std::string& subject, const std::string& pointer) {
+    json& object = data[key];
+    if (object.is_null()) {
+        object = json::object();
+    }
+    if (!object.is_object()) {
+        return;  // its reader refuses it
+    }
+    for (const auto& [name, value] : registered.items()) {
+        const auto stated = object.find(name);
+        if (stated == object.end()) {
+            object[name] = value;
+        } else if (*stated != value && !stated->is_discarded()) {
+            facts_.contradictions.push_back({.where = pointer + "/" + key + "/" + name,
+                                             .subject = subject,
+                                             .stated = described(*stated),
+                                             .registered = described(value)});
+        }
+    }
+}
+
+void LaboratoryUse::complete_by_id(json& data, const char* key, const CertificatePlace& place, bool is_customer) {
+    const auto found = data.find(key);
+    if (found == data.end()) {
+        return;
+    }
+    const bool is_reference = found->is_object() && found->contains("id");
+    if (!found->is_string() && !is_reference) {
+        return;
+    }
+    json& value = *found;
+    const CertificatePlace at = place.below(std::string("/") + key + (is_reference ? "/id" : ""));
+    const json id = is_reference ? value["id"] : value;
+    if (!id.is_string() || !LaboratoryFolder::is_identification(id.get_ref<const std::string&>())) {
+        at.refuse(k_laboratory_id, described(id),
+                  "an identification is the name of a file: letters, digits, '-', '_' and '.'",
+                  "name it as its file is named, without .json");
+        discard(value);
+        return;
+    }
+    const json* registered =
+        is_customer ? folder_->customer(id.get<std::string>()) : folder_->method(id.get<std::string>());
+    if (registered == nullptr) {
+        discard(value);
+        return;
+    }
+    if (!is_reference) {
+        value = *registered;
+        return;
+    }
+    value.erase("id");
+    json other = *registered;
+    if (is_customer) {  // contact and order are those of this work
+        other.update(value);
+        value = std::move(other);
+        return;
+    }
+    if (value.contains("deviations") || value.contains("no_deviations")) {
+        other.erase("deviations");
+        other.erase("no_deviations");
+    }
+    complete_object(data, key, other, std::string("the ") + key, "");
+}
+
+void LaboratoryUse::complete_accreditation(json& data, const LaboratoryFile& file) {
+    json registered = file.accreditation;
+    if (const std::string symbol = text_in(registered, "symbol_file"); !symbol.empty()) {
+        registered["symbol_file"] = folder_->name_of(symbol);
+    }
+    if (!registered.contains("signatories")) {
+        json names = json::array();
+        for (const SignatoryStatement& person : file.signatories) {
+            if (person.authorises) {
+                names.push_back(person.name);
+            }
+        }
+        if (!names.empty()) {
+            registered["signatories"] = std::move(names);
+        }
+    }
+    complete_object(data, "accreditation", registered, "the accreditation", "");
+}
+
+void LaboratoryUse::complete_persons(json& data, const LaboratoryFile& file, const CertificatePlace& place) {
+    if (!data.contains("persons") || !data["persons"].is_object()) {
+        return;
+    }
+    for (auto& [role, person] : data["persons"].items()) {
+        if (!person.is_string()) {
+            continue;
+        }
+        const auto found = std::find_if(file.signatories.begin(), file.signatories.end(),
+                                        [&](const SignatoryStatement& one) { return one.id == person; });
+        if (found == file.signatories.end()) {
+            std::vector<std::string> known;
+            for (const SignatoryStatement& one : file.signatories) {
+                known.push_back(text::in_quotes(one.id));
+            }
+            place.below(child_pointer("/persons", role))
+                .refuse(k_laboratory_person, described(person), "laboratory.json names " + text::listed(known, 20),
+                        "name one of them, or write the person out");
+            discard(person);
+            continue;
+        }
+        json written{{"name", found->name}};
+        set_if_stated(written, "function", found->function);
+        set_if_stated(written, "authorised_from", found->from);
+        set_if_stated(written, "authorised_to", found->to);
+        person = std::move(written);
+    }
+}
+
+json LaboratoryUse::row_of(const StandardRecord& record, const std::string& day) const {
+    const laboratory::Calibration* calibration = laboratory::calibration_on(record, day);
+    const laboratory::Calibration& last = calibration != nullptr ? *calibration : record.calibrations.back();
+    json row{{"name", localised_json(record.description)},
+             {"identification", record.id},
+             {"certificate", last.certificate},
+             {"calibrated", last.calibrated},
+             {"role", record.role}};
+    if (!last.issuer.empty()) {
+        row["issuer"] = localised_json(last.issuer);
+    }
+    set_if_stated(row, "issuer_accreditation", last.issuer_accreditation);
+    set_if_stated(row, "route", last.route);
+    set_if_stated(row, "evidence", last.evidence);
+    set_if_stated(row, "valid_to", last.valid_to);
+    set_if_stated(row, "sha256", last.sha256);
+    const auto used = line_of_.find(record.id);
+    const laboratory::CalibrationResult& line = used != line_of_.end() ? *used->second : last.results.front();
+    row["U"] = line.U;
+    row["k"] = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+    row["unit"] = gum::unit_of_difference(line.unit);
+    return row;
+}
+
+void LaboratoryUse::compare_standard(const json& stated, const json& row, const StandardRecord& record,
+                                     const std::string& pointer) {
+    const auto contradict = [&](const std::string& key, const std::string& a, const std::string& b) {
+        facts_.contradictions.push_back({.where = pointer + "/" + key,
+                                         .subject = "the standard \"" + record.id + "\"",
+                                         .stated = a,
+                                         .registered = b});
+    };
+    const std::optional<double> U = U_in_si(stated);
+    for (const auto& [key, value] : stated.items()) {
+        if (key == "name" || key == "identification" || value.is_discarded()) {
+            continue;  // a name may be worded for the reader of a certificate
+        }
+        const auto registered = row.find(key);
+        if (key == "U" || key == "k" || key == "unit") {
+            // Of any of its lines, in any unit.
+            const laboratory::Calibration* calibration = laboratory::calibration_on(record, text_in(row, "calibrated"));
+            bool fits = false;
+            for (const laboratory::CalibrationResult& line : calibration->results) {
+                const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
+                const double k = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+                fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
+                                           : U && std::abs(*U - of_line) <= k_same_U * of_line);
+            }
+            if (!fits && (key == "k" || (key == "U" && U))) {
+                contradict(key, described(value) + (key == "U" ? " " + text_in(stated, "unit") : std::string()),
+                           described(*registered) + (key == "U" ? " " + text_in(row, "unit") : std::string()));
+            }
+        } else if (registered == row.end() ? value.is_string() : *registered != value) {
+            contradict(key, described(value), registered == row.end() ? "nothing" : described(*registered));
+        }
+    }
+}
+
+void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place) {
+    const std::string day = day_of_work();
+    const bool is_listed = data.contains("standards");
+    json& list = data["standards"];
+    if (!is_listed) {
+        list = json::array();
+    }
+    if (!list.is_array()) {
+        return;  // its reader refuses it
+    }
+    std::vector<std::string> named;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        json& entry = list[i];
+        const std::string pointer = child_pointer("/standards", i);
+        if (entry.is_string()) {
+            entry = json{{"identification", entry}};
+        }
+        const std::string id = entry.is_object() ? text_in(entry, "identification") : "";
+        if (id.empty()) {
+            continue;
+        }
+        named.push_back(id);
+        const StandardRecord* record = LaboratoryFolder::is_identification(id) ? folder_->standard(id, false) : nullptr;
+        if (record == nullptr) {
+            facts_.not_registered.push_back(id);
+            if (!entry.contains("name")) {
+                place.below(pointer).refuse(k_laboratory_id, text::in_quotes(id) + " is not in the register",
+                                            "a standard that is named only stands in standards/" + id + ".json",
+                                            "add it to the register, or write the standard out");
+                discard(entry);
+            }
+            continue;
+        }
+        const json row = row_of(*record, day);
+        compare_standard(entry, row, *record, pointer);
+        for (const auto& [key, value] : row.items()) {
+            if (!entry.contains(key)) {
+                entry[key] = value;
+            }
+        }
+    }
+    for (const std::string& id : used_) {
+        if (std::find(named.begin(), named.end(), id) == named.end()) {
+            if (is_listed) {
+                facts_.not_listed.push_back(id);
+            }
+            list.push_back(row_of(*folder_->standard(id), day));
+        }
+    }
+}
+
+std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource& source, const std::string& job_file) {
+    JobFiles files(source, job_file);
+    const JobFiles::File file = files.job();
+    const std::optional<JsonDocument> document = read_json_document(file.bytes, *file.problems);
+    if (!document) {
+        return std::nullopt;
+    }
+    LaboratoryUse use(files, *document, *file.problems);
+    JsonDocument filled = *document;
+    use.fill_inputs(filled);
+    (void)read_certificate(files, *document, *file.problems, &use);
+    return use.registered();
+}
+
+}  // namespace gumcert::jobs

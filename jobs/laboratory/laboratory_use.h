@@ -1,0 +1,78 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificate/laboratory_register.h"
+#include "jobs/certificate/certificate_statement.h"
+#include "jobs/job_files.h"
+#include "jobs/json_object.h"
+#include "jobs/laboratory/laboratory_folder.h"
+#include "laboratory/standard_value.h"
+
+namespace gumcert::jobs {
+
+/// What a job takes from the folder of the laboratory, put where the job refers to it, before the job is read: the readers
+/// know statements of uncertainty and certificate data only, wherever they come from.
+///
+/// An input, or what a point states of it, with "standard": "STD-017" gets `components`: the calibration, the
+/// interpolation where there is one, and the drift up to the day of use; those that it states itself come after them. In
+/// certificate data, what is missing is filled in, and what contradicts the register is noted for the gates.
+class LaboratoryUse final : public CertificateCompletion {
+public:
+    /// \param job  as it was read; must outlive this, like the files and the list
+    LaboratoryUse(JobFiles& files, const JsonDocument& job, ProblemList& problems);
+
+    /// \param job  the same document
+    void fill_inputs(JsonDocument& job);
+
+    void complete(JsonDocument& document, const CertificatePlace& place) override;
+
+    /// What the gates hold against the certificate; none without a folder.
+    [[nodiscard]] std::optional<certificate::LaboratoryRegister> registered() const;
+
+private:
+    using Json = nlohmann::json;
+
+    void fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
+                        const std::string& unit_of_input);
+    [[nodiscard]] std::optional<laboratory::StandardUse> read_use(const JsonDocument& job, const Json& statement,
+                                                                  const std::string& pointer);
+    [[nodiscard]] std::optional<Json> components_of(const laboratory::StandardRecord& record,
+                                                    const laboratory::StandardUse& use, const std::string& unit,
+                                                    bool is_deviation, const CertificatePlace& place);
+    void warn_of_shared_standards(const JsonDocument& job);
+    [[nodiscard]] const std::string& day_of_work();
+
+    [[nodiscard]] bool refuse_without_folder(Json& data, const CertificatePlace& place);
+    void complete_object(Json& data, const std::string& key, const Json& registered, const std::string& subject,
+                         const std::string& pointer);
+    void complete_by_id(Json& data, const char* key, const CertificatePlace& place, bool is_customer);
+    void complete_accreditation(Json& data, const LaboratoryFile& file);
+    void complete_persons(Json& data, const LaboratoryFile& file, const CertificatePlace& place);
+    void complete_standards(Json& data, const CertificatePlace& place);
+    void compare_standard(const Json& stated, const Json& row, const laboratory::StandardRecord& record,
+                          const std::string& pointer);
+    [[nodiscard]] Json row_of(const laboratory::StandardRecord& record, const std::string& day) const;
+
+    JobFiles& files_;
+    const JsonDocument& job_;
+    ProblemList& problems_;
+    std::optional<LaboratoryFolder> folder_;
+    std::optional<std::string> day_of_work_;
+    certificate::LaboratoryRegister facts_;
+    std::vector<std::string> used_;                                        ///< standards, in the order of the inputs
+    std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
+    std::map<std::string, const laboratory::CalibrationResult*> line_of_;  ///< the first line that an input takes
+};
+
+/// What the register says of a job that was read and accepted; none where the job names no laboratory.
+/// \param job_file  its name in the source
+/// \throws gum::StorageError  if the job cannot be read
+[[nodiscard]] std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource& source,
+                                                                             const std::string& job_file);
+
+}  // namespace gumcert::jobs

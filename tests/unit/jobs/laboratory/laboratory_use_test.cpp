@@ -1,0 +1,174 @@
+#include "jobs/laboratory/laboratory_use.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "jobs/budget/budget_job.h"
+#include "tests/support/sample_laboratory.h"
+
+namespace gumcert::jobs {
+namespace {
+
+using nlohmann::json;
+
+json job_of(const json& inputs, const json& certificate = {}) {
+    json job{{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"laboratory", "lab"}, {"inputs", inputs}};
+    if (!certificate.is_null()) {
+        job["certificate"] = certificate;
+    }
+    return job;
+}
+
+BudgetJob read(const json& job, std::map<std::string, std::string> files = test::sample_laboratory_files("lab/")) {
+    files["job.json"] = job.dump();
+    return read_budget_job(MemoryFileSource(std::move(files)), "job.json");
+}
+
+certificate::LaboratoryRegister register_of(const json& job) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    files["job.json"] = job.dump();
+    return register_of_job(MemoryFileSource(std::move(files)), "job.json").value();
+}
+
+std::vector<std::string> codes_of_job(const json& job) {
+    std::vector<std::string> codes;
+    try {
+        (void)read(job);
+    } catch (const gum::DiagnosedError& error) {
+        for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+            codes.push_back(diagnostic.code);
+        }
+    }
+    return codes;
+}
+
+const json k_work = {{"status", "specimen"},
+                     {"dates", {{"performed_from", "2026-07-01"}, {"performed_to", "2026-07-02"}}}};
+
+TEST(LaboratoryUseTest, AnInputGetsValueUncertaintyAndDrift) {
+    const BudgetJob job = read(job_of({{"V", {{"standard", "STD-1"}, {"unit", "mV"}}}}, k_work));
+    ASSERT_EQ(job.inputs.size(), 1U);
+    const auto& parts = job.inputs[0].components;
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_DOUBLE_EQ(parts[0].value, 10.002);  // SI
+    EXPECT_DOUBLE_EQ(parts[0].u, 0.001);
+    EXPECT_EQ(parts[0].degrees_of_freedom, 50.0);
+    EXPECT_EQ(parts[0].source, "STD-1, certificate C-2");
+    // 182 days from the calibration to the last day of the work, at 0.5 mV a year.
+    EXPECT_NEAR(parts[1].u, 0.0005 * 182.0 / 365.25 / std::sqrt(3.0), 1e-12);
+    EXPECT_EQ(job.inputs[0].unit.text(), "mV");
+    EXPECT_THAT(job.files, testing::Contains("lab/standards/STD-1.json"));
+}
+
+TEST(LaboratoryUseTest, UnitAndDayMayComeFromRegisterAndInput) {
+    const BudgetJob job = read(job_of({{"V", {{"standard", "STD-1"}, {"date", "2025-01-11"}, {"take", "deviation"}}}}));
+    EXPECT_EQ(job.inputs[0].unit.text(), "V");
+    EXPECT_NEAR(job.inputs[0].components[0].value, 0.001, 1e-12);  // by the calibration of that day
+    EXPECT_EQ(job.inputs[0].components[0].source, "STD-1, certificate C-1");
+}
+
+TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
+    const BudgetJob job = read(job_of({{"V",
+                                        {{"standard", "STD-1"},
+                                         {"date", "2026-01-01"},
+                                         {"components", {{{"name", "cable"}, {"value", 0}, {"u", 0.1}}}}}}}));
+    const auto& parts = job.inputs[0].components;
+    ASSERT_EQ(parts.size(), 2U);  // no drift on the day of the calibration
+    EXPECT_EQ(parts[1].u, 0.1);
+}
+
+TEST(LaboratoryUseTest, PointsMayUseStandards) {
+    json job = job_of({{"V", {{"unit", "V"}}}});
+    job["points"] = {{{"V", {{"standard", "STD-1"}, {"date", "2026-01-01"}}}},
+                     {{"V", {{"standard", "STD-1"}, {"date", "2025-01-01"}}}}};
+    const BudgetJob read_job = read(job);
+    EXPECT_EQ(read_job.points.size(), 2U);
+}
+
+TEST(LaboratoryUseTest, WhatCannotBeIsRefused) {
+    using testing::ElementsAre;
+    json without = job_of({{"V", {{"standard", "STD-1"}}}});
+    EXPECT_THAT(codes_of_job(without), ElementsAre("GC-LAB-0107"));  // the day
+    without.erase("laboratory");
+    EXPECT_THAT(codes_of_job(without), ElementsAre("GC-LAB-0100"));
+    const auto with = [](json input) {
+        input["standard"] = "STD-1";
+        return codes_of_job(job_of({{"V", std::move(input)}}, k_work));
+    };
+    EXPECT_THAT(with({{"unit", "K"}}), ElementsAre("GC-LAB-0108"));
+    EXPECT_THAT(with({{"at", 5}}), ElementsAre("GC-LAB-0014"));
+    EXPECT_THAT(with({{"at", "5"}}), ElementsAre("GC-CERT-0103"));
+    EXPECT_THAT(with({{"take", "half"}}), ElementsAre("GC-CERT-0106"));
+    EXPECT_THAT(with({{"date", "yesterday"}}), ElementsAre("GC-CERT-0107"));
+    EXPECT_THAT(with({{"u", 1}}), testing::Not(testing::IsEmpty()));  // beside what the register states
+    EXPECT_THAT(codes_of_job(job_of({{"V", {{"standard", "../x"}}}})), ElementsAre("GC-LAB-0101"));
+}
+
+TEST(LaboratoryUseTest, OneStandardInTwoInputsIsTold) {
+    const json input{{"standard", "STD-1"}, {"date", "2026-01-01"}};
+    json job = job_of({{"a", input}, {"b", input}});
+    const std::vector<gum::Diagnostic> warnings = read(job).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].code, "GC-LAB-0109");
+    job["correlations"] = {{"a", "b", 0.9}};
+    EXPECT_TRUE(read(job).warnings.empty());
+}
+
+TEST(LaboratoryUseTest, CertificateDataAreFilledIn) {
+    json certificate = k_work;
+    certificate["customer"] = {{"id", "CUST-3"}, {"order", "PO-1"}};
+    certificate["method"] = "CP-1";
+    certificate["persons"] = {{"authorised_by", "HL"}};
+    const BudgetJob job = read(job_of({{"V", {{"standard", "STD-1"}}}}, certificate));
+    ASSERT_TRUE(job.certificate);
+    const certificate::CertificateData& data = *job.certificate;
+    EXPECT_EQ(data.laboratory.name.in("en"), "Laboratory");
+    EXPECT_EQ(data.accreditation->number, "A-1");
+    EXPECT_THAT(data.accreditation->signatories, testing::ElementsAre("Head"));
+    EXPECT_EQ(data.customer.name.in("en"), "Customer");
+    EXPECT_EQ(data.customer.order, "PO-1");
+    EXPECT_EQ(data.method.version, "4");
+    EXPECT_EQ(data.persons.authorised_by->name, "Head");
+    EXPECT_EQ(data.persons.authorised_by->authorised_to, "2026-06-30");
+    ASSERT_EQ(data.standards.size(), 1U);
+    EXPECT_EQ(data.standards[0].certificate, "C-2");
+    EXPECT_EQ(data.standards[0].U, 0.002);
+    EXPECT_EQ(data.standards[0].valid_to, "2026-12-31");
+    const certificate::LaboratoryRegister facts = register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate));
+    EXPECT_TRUE(facts.contradictions.empty());
+    ASSERT_EQ(facts.uses.size(), 1U);
+    EXPECT_EQ(facts.uses[0].answer, "yes");
+    EXPECT_EQ(facts.signatories.size(), 2U);
+}
+
+TEST(LaboratoryUseTest, ContradictionsAreNoted) {
+    json certificate = k_work;
+    certificate["dates"] = {{"performed_from", "2027-02-01"}};
+    certificate["accreditation"] = {{"number", "A-2"}};
+    certificate["persons"] = {{"authorised_by", "nobody"}};
+    certificate["standards"] = {
+        {{"name", "Standard"}, {"identification", "STD-1"}, {"certificate", "C-2"}, {"U", 2}, {"unit", "mV"}},
+        {{"name", "Other"}, {"identification", "STD-9"}}};
+    EXPECT_THAT(codes_of_job(job_of({{"V", {{"standard", "STD-1"}}}}, certificate)),
+                testing::ElementsAre("GC-LAB-0106"));
+    certificate.erase("persons");
+    certificate["standards"][0]["valid_to"] = "2027-12-31";
+    const certificate::LaboratoryRegister facts = register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate));
+    ASSERT_EQ(facts.contradictions.size(), 2U);  // U in another unit is no contradiction
+    EXPECT_EQ(facts.contradictions[0].where, "/accreditation/number");
+    EXPECT_EQ(facts.contradictions[1].where, "/standards/0/valid_to");
+    EXPECT_EQ(facts.contradictions[1].registered, "\"2026-12-31\"");
+    EXPECT_EQ(facts.uses[0].answer, "no");  // expired
+    EXPECT_THAT(facts.not_registered, testing::ElementsAre("STD-9"));
+    EXPECT_TRUE(facts.not_listed.empty());
+    certificate["standards"].erase(0);
+    EXPECT_THAT(register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate)).not_listed,
+                testing::ElementsAre("STD-1"));
+    EXPECT_FALSE(register_of_job(MemoryFileSource(std::map<std::string, std::string>{{"job.json", "{}"}}), "job.json"));
+}
+
+}  // namespace
+}  // namespace gumcert::jobs
