@@ -157,14 +157,16 @@ std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
 }
 
 AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
-                       std::span<const certificate::Waiver> waivers) {
+                       std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
     const std::string bytes = read_file(file);
     const std::string name = file.filename().string();
     AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
     audit::AuditSubject subject;
     switch (contents_of(bytes)) {
         case Contents::job:
-            audited.report = *evaluate_job(file, CovarianceFile::none, threads, templates, progress).audit;
+            audited.report =
+                *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
+                     .audit;
             if (waivers.empty()) {
                 return audited;
             }
@@ -207,7 +209,8 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
 }
 
 std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsigned threads, const fs::path& templates,
-                                      const gum::Progress& progress, std::span<const certificate::Waiver> waivers) {
+                                      const gum::Progress& progress, std::span<const certificate::Waiver> waivers,
+                                      const fs::path& laboratory) {
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -216,7 +219,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            attempts[file].audited = audit_file(files[file], threads, templates, told, waivers);
+            attempts[file].audited = audit_file(files[file], threads, templates, told, waivers, laboratory);
         } catch (...) {
             attempts[file].failure = std::current_exception();
         }

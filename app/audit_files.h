@@ -35,12 +35,14 @@ struct AuditedFile {
 
 /// Audits one file, whatever it is: a job is evaluated first, a record taken as it states itself and held against its own
 /// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
+/// \param laboratory  as of evaluate_job()
 /// \throws gum::InputError    what the readers refuse; GC-AUDIT-0011 a file of another kind
 /// \throws gum::NoResultError, gum::StorageError
 /// \param waivers  of findings of every file, beside those of a job or record itself
 [[nodiscard]] AuditedFile audit_file(const std::filesystem::path& file, unsigned threads,
                                      const std::filesystem::path& templates, const gum::Progress& progress = {},
-                                     std::span<const certificate::Waiver> waivers = {});
+                                     std::span<const certificate::Waiver> waivers = {},
+                                     const std::filesystem::path& laboratory = {});
 
 /// What became of a file.
 struct AuditAttempt {
@@ -53,7 +55,8 @@ struct AuditAttempt {
 [[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<std::filesystem::path>& files, unsigned threads,
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},
-                                                    std::span<const certificate::Waiver> waivers = {});
+                                                    std::span<const certificate::Waiver> waivers = {},
+                                                    const std::filesystem::path& laboratory = {});
 
 /// Does tasks 0 … n − 1 on some threads (0: as many as the machine has), and throws what the first of them throws.
 void run_in_workers(unsigned threads, std::size_t tasks, const std::function<void(std::size_t)>& task);

@@ -7,6 +7,7 @@
 #include "app/recompute_record.h"
 #include "jobs/file_source.h"
 #include "jobs/job_kind.h"
+#include "jobs/laboratory/register_reader.h"
 #include "json/strict_parser.h"
 
 namespace gumcert::app {
@@ -45,9 +46,22 @@ FileCheck check_record(const std::string& text, const std::string& name, unsigne
     return check;
 }
 
+FileCheck check_register_file(const std::string& text, const std::string& name, bool is_standard) {
+    FileCheck check{.kind = is_standard ? "standard of a laboratory" : "data of a laboratory", .findings = {}};
+    jobs::ProblemList problems(name);
+    if (const auto document = jobs::read_json_document(text, problems); document && is_standard) {
+        (void)jobs::read_standard(*document, problems);
+    } else if (document) {
+        (void)jobs::read_laboratory(*document, problems);
+    }
+    check.findings = problems.refused();
+    return check;
+}
+
 }  // namespace
 
-FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress) {
+FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
+                     const fs::path& laboratory) {
     const std::string text = read_file(file);
     const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '/');
@@ -75,7 +89,13 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
     if (says_record || (!document && is_record)) {
         return check_record(text, file.string(), threads, templates, progress);
     }
-    const jobs::DiskFileSource disk(file.parent_path());
+    if (document && document->is_object() && document->contains("schema")) {
+        const nlohmann::json& schema = (*document)["schema"];
+        if (schema == jobs::k_standard_schema_word || schema == jobs::k_laboratory_schema_word) {
+            return check_register_file(text, file.string(), schema == jobs::k_standard_schema_word);
+        }
+    }
+    const jobs::DiskFileSource disk(file.parent_path(), laboratory);
     return check_job(jobs::ReadOnceSource(disk), file.filename().string());
 }
 

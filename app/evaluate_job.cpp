@@ -22,19 +22,22 @@ void require_comparison_job(const std::filesystem::path& job_file) {
 }
 
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
-                                               const reports::EvaluationRecord& record) {
+                                               const reports::EvaluationRecord& record,
+                                               const std::filesystem::path& laboratory) {
     std::vector<std::filesystem::path> files;
     for (const reports::InputFile& file : record.job_files) {
-        files.push_back(job_file.parent_path() / file.name);
+        const bool is_of_laboratory = !laboratory.empty() && file.name.starts_with(jobs::k_laboratory_prefix);
+        files.push_back(is_of_laboratory ? laboratory / file.name.substr(jobs::k_laboratory_prefix.size())
+                                         : job_file.parent_path() / file.name);
     }
     return files;
 }
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const gum::Progress& progress,
-                        std::span<const Kind> kinds) {
-    return evaluate_job(jobs::DiskFileSource(job_file.parent_path()), job_file.filename().string(), covariance, threads,
-                        templates, progress, kinds);
+                        std::span<const Kind> kinds, const std::filesystem::path& laboratory) {
+    return evaluate_job(jobs::DiskFileSource(job_file.parent_path(), laboratory), job_file.filename().string(),
+                        covariance, threads, templates, progress, kinds);
 }
 
 Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file, const CovarianceOutput& covariance,

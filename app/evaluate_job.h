@@ -14,8 +14,10 @@
 namespace gumcert::app {
 
 /// The files that a record names as read, as paths beside the job.
+/// \param laboratory  the folder that evaluate_job() was given
 [[nodiscard]] std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_file,
-                                                             const reports::EvaluationRecord& record);
+                                                             const reports::EvaluationRecord& record,
+                                                             const std::filesystem::path& laboratory = {});
 
 /// Refuses a job of another kind than `comparison`; what is wrong with its text is left for the reader to report.
 /// \throws gum::InputError  GC-COMPARE-0140
@@ -26,12 +28,13 @@ void require_comparison_job(const std::filesystem::path& job_file);
 /// \param threads    of Monte Carlo; 0: as many as the machine has. Results do not depend on it
 /// \param templates  folder with profiles/<id>.json, for certificate data that name a profile by its id
 /// \param kinds      that a job may be of
+/// \param laboratory folder with the data of the laboratory, before the one that the job names; "": none
 /// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder, and those of the readers
 /// \throws gum::NoResultError, gum::StorageError
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance,
                                       unsigned threads, const std::filesystem::path& templates,
-                                      const gum::Progress& progress = {},
-                                      std::span<const Kind> kinds = program_kinds());
+                                      const gum::Progress& progress = {}, std::span<const Kind> kinds = program_kinds(),
+                                      const std::filesystem::path& laboratory = {});
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file,

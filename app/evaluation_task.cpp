@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "app/certificate_profile.h"
+#include "certificate/gates/register_gate.h"
 #include "encoding/sha2.h"
+#include "jobs/laboratory/laboratory_use.h"
 
 namespace gumcert::app {
 
@@ -44,10 +46,14 @@ std::optional<certificate::Profile> EvaluationTask::profile_of(
     return data ? std::optional(certificate_profile(*data, templates)) : std::nullopt;
 }
 
-void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
+void make_certificate(const EvaluationTask& task, Evaluation& evaluation,
+                      const std::optional<certificate::CertificateData>& data,
                       const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs) {
     if (data && profile) {
-        reports::certify(evaluation.record, *data, *profile, inputs);
+        const auto registered = jobs::register_of_job(task.files, task.job_file);
+        reports::certify(
+            evaluation.record, *data, *profile, inputs,
+            registered ? certificate::register_findings(*data, *registered) : std::vector<certificate::Finding>());
         evaluation.blocked = evaluation.record.certificate->blocked;
     }
 }

@@ -74,7 +74,9 @@ struct EvaluationTask {
 };
 
 /// Certifies the record of an evaluation where the job states certificate data; else nothing.
-void make_certificate(Evaluation& evaluation, const std::optional<certificate::CertificateData>& data,
+/// \param task  whose laboratory, where it has one, the certificate is held against
+void make_certificate(const EvaluationTask& task, Evaluation& evaluation,
+                      const std::optional<certificate::CertificateData>& data,
                       const std::optional<certificate::Profile>& profile, const certificate::CapabilityInputs& inputs);
 
 }  // namespace gumcert::app

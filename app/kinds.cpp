@@ -58,7 +58,8 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
     evaluation.record = reports::budget_record(job, result, files, covariance, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile, reports::capability_inputs(job, result, task.threads));
+        make_certificate(task, evaluation, job.certificate, profile,
+                         reports::capability_inputs(job, result, task.threads));
     }
     return evaluation;
 }
@@ -87,7 +88,7 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
     }
     evaluation.record = reports::rotary_table_record(job, result, parts, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
-    make_certificate(evaluation, job.certificate, profile, {});
+    make_certificate(task, evaluation, job.certificate, profile, {});
     return evaluation;
 }
 
@@ -105,7 +106,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     evaluation.record = reports::circle_closure_record(job, result, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
     if (job.certificate) {
-        make_certificate(evaluation, job.certificate, profile,
+        make_certificate(task, evaluation, job.certificate, profile,
                          {.values = {},
                           .distributions = reports::circle_closure_distributions(job, result),
                           .distributions_below = {}});

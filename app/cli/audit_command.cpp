@@ -130,7 +130,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     ProgressLine progress(!common.quiet);
     for (app::AuditAttempt& attempt : app::audit_files(
              all, static_cast<unsigned>(common.threads), templates, [&](const std::string& text) { progress(text); },
-             waivers)) {
+             waivers, options.laboratory)) {
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
                 std::rethrow_exception(attempt.failure);

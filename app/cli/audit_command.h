@@ -14,7 +14,8 @@ struct AuditOptions {
     std::vector<std::string> languages;  ///< the first one is used
     std::string waivers;                 ///< file with waivers of findings; "" none
     std::string share;
-    bool verbose = false;  ///< the text names each rule that was not checked
+    std::string laboratory;  ///< --laboratory
+    bool verbose = false;    ///< the text names each rule that was not checked
 };
 
 /// Audits files and folders. A file that is refused is reported, and the others are audited all the same.

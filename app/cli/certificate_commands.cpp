@@ -15,6 +15,8 @@
 #include "app/read_file.h"
 #include "imports/foreign_certificate.h"
 #include "imports/import_certificate.h"
+#include "imports/import_standard.h"
+#include "jobs/laboratory/laboratory_folder.h"
 #include "signing/verify.h"
 
 namespace gumcert::cli {
@@ -112,14 +114,30 @@ ExitCode print_check(const std::string& file, const app::FileCheck& check, const
 
 }  // namespace
 
-ExitCode import_certificate(const std::string& file, const std::string& output, const std::string& trust_store,
-                            const CommonOptions& common) {
+ExitCode import_certificate(const std::string& file, const std::string& asked, const std::string& standard,
+                            const std::string& trust_store, const CommonOptions& common) {
+    std::string output = asked;
+    if (!standard.empty()) {
+        if (!jobs::LaboratoryFolder::is_identification(standard)) {
+            refuse_usage("--standard", "\"" + standard + "\"", "an identification is the name of a file",
+                         "use letters, digits, '-', '_' and '.'");
+        }
+        std::error_code error;
+        if (std::filesystem::is_directory(asked, error)) {
+            output = (std::filesystem::path(asked) / (standard + ".json")).string();
+        }
+        if (!output.empty() && output != "-" && std::filesystem::exists(output, error)) {
+            refuse_usage(output, "is there already", "a file of the register has the history of its standard",
+                         "write to another place, and add the calibration to the file");
+        }
+    }
     if (!output.empty() && output != "-") {
         app::require_writable(output);
         app::require_not_an_input(output, {file});
     }
     const imports::ImportedJob imported =
-        imports::import_certificate(app::read_file(file), file, trust_of(trust_store));
+        standard.empty() ? imports::import_certificate(app::read_file(file), file, trust_of(trust_store))
+                         : imports::import_standard(app::read_file(file), file, standard, trust_of(trust_store));
     for (const gum::Diagnostic& remark : imported.remarks) {
         if (!common.quiet || remark.severity != gum::Severity::note) {
             print_message(remark, common);
@@ -131,14 +149,16 @@ ExitCode import_certificate(const std::string& file, const std::string& output, 
     }
     app::write_files({{output, imported.job}}, {file});
     if (!common.quiet) {
-        fmt::print("Written: {}\nNext: keep the inputs that you need, write the model, gumcert run {}\n", output,
+        fmt::print("Written: {}\nNext: {} {}\n", output,
+                   standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
+                                    : "state drift, valid_to and route, gumcert check",
                    output);
     }
     return imported.negative ? negative_answer : done;
 }
 
 ExitCode check_files(const std::vector<std::string>& files, bool certificates, const std::string& trust_store,
-                     const std::string& share, const CommonOptions& common) {
+                     const std::string& share, const std::string& laboratory, const CommonOptions& common) {
     const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
     ExitCode code = done;
     for (const std::string& file : files) {
@@ -148,8 +168,9 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = imports::check_certificate(app::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = app::check_file(file, static_cast<unsigned>(common.threads), templates_folder(share),
-                                        [&](const std::string& text) { progress(text); });
+                check = app::check_file(
+                    file, static_cast<unsigned>(common.threads), templates_folder(share),
+                    [&](const std::string& text) { progress(text); }, laboratory);
             }
             return print_check(file, check, common);
         });

@@ -74,6 +74,15 @@ void add_share(CLI::App& command, std::string& share) {
     command.add_option("--share", share, "Folder that holds templates/ and node_modules/")->type_name("FOLDER");
 }
 
+void add_laboratory(CLI::App& command, std::string& laboratory) {
+    command
+        .add_option("--laboratory", laboratory,
+                    "Folder with the data of the laboratory and its standards, docs/laboratory.md; before the one that "
+                    "the\njob names")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+}
+
 void add_common(CLI::App& command, CommonOptions& common) {
     command.add_flag("-q,--quiet", common.quiet, "No progress, no summary, no notes");
     command.add_flag("--json-messages", common.json_messages, "Messages as one JSON object a line");
@@ -120,6 +129,7 @@ void add_run(CLI::App& program, Arguments& a) {
                     "Folder for the output; default: the job's name with -out, beside the job. "
                     "With several jobs, a folder for each in it")
         ->type_name("FOLDER");
+    add_laboratory(command, a.documents.laboratory);
     add_document_options(command, a.documents);
     add_covariance_option(command, a.documents);
     command.footer(
@@ -139,6 +149,7 @@ void add_evaluate(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("evaluate", "Evaluate a job and write its record only");
     command.add_option("JOB", a.job, "Job file (JSON)")->required();
     add_file(command, "-o,--output", a.documents.output, k_record_help);
+    add_laboratory(command, a.documents.laboratory);
     add_share(command, a.documents.share);
     add_covariance_option(command, a.documents);
     command.footer("Example: gumcert evaluate job.json -o record.json");
@@ -149,6 +160,7 @@ void add_compare(CLI::App& program, Arguments& a) {
         "compare", "Do results agree, and what does that prove? Evaluate a comparison and write its record");
     command.add_option("JOB", a.job, "Job file (JSON) of kind comparison")->required();
     add_file(command, "-o,--output", a.documents.output, k_record_help);
+    add_laboratory(command, a.documents.laboratory);
     add_share(command, a.documents.share);
     command.footer(
         "Between laboratories, the job names participants with their results (value and u, or U with k) and how the\n"
@@ -196,6 +208,12 @@ void add_import(CLI::App& program, Arguments& a) {
     command.add_option("FILE", a.file, "The certificate (XML)")->required();
     add_file(command, "-o,--output", a.output,
              "Job file of kind budget with the numbers as inputs; default: to the terminal");
+    command
+        .add_option(
+            "--standard", a.standard,
+            "Identification: the certificate becomes a file of the register, docs/laboratory.md; -o may be the\n"
+            "folder standards/ then")
+        ->type_name("ID");
     add_file(command, "--trust", a.trust_store, k_trust_help);
     command.footer(
         "Example: gumcert import dcc certificate.xml -o standard.json --trust trusted.pem\n"
@@ -211,6 +229,7 @@ void add_check(CLI::App& program, Arguments& a) {
     command.add_option("FILE", a.files, "Jobs and records (JSON); or the word dcc, and digital certificates (XML)")
         ->required();
     add_file(command, "--trust", a.trust_store, k_trust_help);
+    add_laboratory(command, a.documents.laboratory);
     add_share(command, a.share);
     command.footer(
         "Example: gumcert check job.json record.json\n"
@@ -248,6 +267,7 @@ void add_audit(CLI::App& program, Arguments& a) {
         "Findings that somebody accepts, with name, date and reason (JSON): they are shown as accepted, and do not "
         "decide on the exit code");
     command.add_flag("--verbose", a.audit.verbose, "Name every rule that was not checked, and why");
+    add_laboratory(command, a.audit.laboratory);
     add_share(command, a.audit.share);
     command.footer(
         "Example: gumcert audit examples/audit/paper_fixture_budget/budget.csv\n"

@@ -200,10 +200,10 @@ bool naming_job(const fs::path& job, const Work& work) {
 /// \return true when the answer is negative
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
              const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
-    app::Evaluation evaluation =
-        app::evaluate_job(job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
-                          static_cast<unsigned>(common.threads), templates_folder(options.share),
-                          [&](const std::string& text) { progress(text); });
+    app::Evaluation evaluation = app::evaluate_job(
+        job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
+        static_cast<unsigned>(common.threads), templates_folder(options.share),
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(app::kind_of(record, app::program_kinds()), folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
@@ -222,7 +222,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
             files.push_back({documents[i], std::move(issued[i].bytes)});
         }
     }
-    for (const fs::path& file : app::input_files(job, record)) {
+    for (const fs::path& file : app::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
     }
     app::write_files(files, inputs);
@@ -366,12 +366,12 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         app::require_not_an_input(record_file, inputs);
     }
     ProgressLine progress(!common.quiet);
-    app::Evaluation evaluation =
-        app::evaluate_job(job,
-                          {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
-                           *reports::covariance_form(options.covariance)},
-                          static_cast<unsigned>(common.threads), templates_folder(share),
-                          [&](const std::string& text) { progress(text); });
+    app::Evaluation evaluation = app::evaluate_job(
+        job,
+        {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
+         *reports::covariance_form(options.covariance)},
+        static_cast<unsigned>(common.threads), templates_folder(share),
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
     const std::string text = reports::to_canonical_json(evaluation.record);
     judge_issue(evaluation.record, {}, share);
     progress.clear();
@@ -390,7 +390,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     if (!evaluation.covariance.empty()) {
         files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance});
     }
-    for (const fs::path& file : app::input_files(job, evaluation.record)) {
+    for (const fs::path& file : app::input_files(job, evaluation.record, options.laboratory)) {
         inputs.push_back(file);
     }
     app::write_files(files, inputs);

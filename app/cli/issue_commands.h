@@ -15,6 +15,7 @@ struct DocumentOptions {
     std::string share;                   ///< --share
     std::vector<std::string> languages;  ///< --language
     bool draft = false;                  ///< --draft
+    std::string laboratory;              ///< --laboratory
     std::string signer;                  ///< --sign: signer description; "" = not signed
     std::string superseded_by;           ///< --superseded-by: record of the later certificate; "" = none
     std::string covariance = "auto";     ///< --covariance: a word of reports::covariance_form()

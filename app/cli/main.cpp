@@ -61,7 +61,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         return render_records(a.records, a.format, a.documents, a.common);
     }
     if (a.command == "import") {
-        return import_certificate(a.file, a.output, a.trust_store, a.common);
+        return import_certificate(a.file, a.output, a.standard, a.trust_store, a.common);
     }
     if (a.command == "check") {
         const bool certificates = a.files.front() == "dcc";
@@ -71,7 +71,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         if (a.files.empty()) {
             refuse_usage("check dcc", "no file", "gumcert check dcc FILE", "name the digital certificates");
         }
-        return check_files(a.files, certificates, a.trust_store, a.share, a.common);
+        return check_files(a.files, certificates, a.trust_store, a.share, a.documents.laboratory, a.common);
     }
     if (a.command == "audit") {
         return audit_files(a.files, a.audit, a.common);

@@ -378,7 +378,7 @@ std::vector<Finding> validation_findings(const EvaluationRecord& record) {
 }  // namespace
 
 void certify(EvaluationRecord& record, CertificateData data, Profile profile,
-             const certificate::CapabilityInputs& inputs) {
+             const certificate::CapabilityInputs& inputs, const std::vector<Finding>& of_register) {
     record.certificate.emplace();
     record.certificate->data = std::move(data);
     record.certificate->profile = std::move(profile);
@@ -407,6 +407,7 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile,
     audit.insert(audit.end(), environment.begin(), environment.end());
     const std::vector<Finding> traceability = traceability_findings(record);
     audit.insert(audit.end(), traceability.begin(), traceability.end());
+    audit.insert(audit.end(), of_register.begin(), of_register.end());
     state_changes(record);
     certificate::pass_gates(*record.certificate, audit);
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "certificate/capability_inputs.h"
 #include "certificate/certificate_data.h"
+#include "certificate/certified_results.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::reports {
@@ -11,8 +14,10 @@ namespace gumcert::reports {
 /// (Result::printed, StatedValue::printed …) become the same ones, so that no two places of a document disagree.
 ///
 /// The rounding of a budget job (`reporting.rounding`: up) stays in force where the profile rounds half-even.
+/// \param of_register  findings of the register of the laboratory (certificate/gates/register_gate.h)
 /// \throws gum::InputError  GC-GUM-.. if a number of the record cannot be printed
 void certify(reports::EvaluationRecord& record, certificate::CertificateData data, certificate::Profile profile,
-             const certificate::CapabilityInputs& inputs = {});
+             const certificate::CapabilityInputs& inputs = {},
+             const std::vector<certificate::Finding>& of_register = {});
 
 }  // namespace gumcert::reports

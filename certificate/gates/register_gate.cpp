@@ -1,0 +1,93 @@
+#include "certificate/gates/register_gate.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "certificate/dates.h"
+#include "certificate/gates/finding_list.h"
+#include "certificate/text_words.h"
+
+namespace gumcert::certificate {
+
+namespace {
+
+void contradictions(FindingList& found, const LaboratoryRegister& registered) {
+    for (const LaboratoryRegister::Contradiction& one : registered.contradictions) {
+        const bool is_standard = one.where.starts_with("/standards/");
+        found.critical(
+            is_standard ? "T10" : "L01", iso_17025(is_standard ? "6.5" : "7.8.2.1"), one.where,
+            "the certificate states of " + one.subject + " " + one.stated + ", and the register " + one.registered,
+            "Correct the one that is wrong, or leave it out of the certificate data: the register fills it "
+            "in.");
+    }
+}
+
+void standards(FindingList& found, const LaboratoryRegister& registered) {
+    for (const LaboratoryRegister::Use& use : registered.uses) {
+        if (use.answer == "yes") {
+            continue;
+        }
+        const bool is_refuted = use.answer == "no";
+        found.add(is_refuted ? FindingSeverity::critical : FindingSeverity::major, "T11", iso_17025("6.4"), use.input,
+                  std::string(is_refuted ? "the standard \"" + use.standard + "\" cannot be used here: "
+                                         : "it is not known whether the standard \"" + use.standard +
+                                               "\" can be used here: ") +
+                      use.because,
+                  is_refuted ? "Use a standard that is calibrated for this."
+                             : "State it in the register, or where the input uses the standard.");
+    }
+    for (const std::string& id : registered.not_registered) {
+        found.major("T12", iso_17025("6.4"), "/standards",
+                    "the standard \"" + id + "\" of the certificate is not in the register of the laboratory",
+                    "Add it to the register, or correct its identification.");
+    }
+    for (const std::string& id : registered.not_listed) {
+        found.add(FindingSeverity::minor, "T13", iso_17025("7.8.4.1 c"), "/standards",
+                  "the budget uses the standard \"" + id + "\", and the list of the certificate does not name it",
+                  "Name it in the list; its row was added from the register.");
+    }
+}
+
+void signatory(FindingList& found, const CertificateData& data, const LaboratoryRegister& registered) {
+    const std::optional<Person>& person = data.persons.authorised_by;
+    if (!person || person->name.empty() || registered.signatories.empty()) {
+        return;
+    }
+    const auto refute = [&](const std::string& why) {
+        found.critical("P14", iso_17025("6.2.6"), "/persons/authorised_by",
+                       "by the register, " + person->name + " may not authorise this certificate: " + why,
+                       "Let a person authorise it whom the register allows to, or bring the register up to date.");
+    };
+    const auto one = std::find_if(
+        registered.signatories.begin(), registered.signatories.end(),
+        [&](const LaboratoryRegister::Signatory& s) { return letters_of(s.name) == letters_of(person->name); });
+    if (one == registered.signatories.end()) {
+        refute("it does not name this person");
+        return;
+    }
+    const std::string& day = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
+    if (!one->authorises) {
+        refute("the person signs, and does not authorise");
+    }
+    if (!day.empty() && !is_within(day, one->from, one->to)) {
+        refute("the authorisation is valid" + (one->from.empty() ? std::string() : " from " + one->from) +
+               (one->to.empty() ? std::string() : " to " + one->to) + ", and not on " + day);
+    }
+    const std::vector<std::string>& methods = one->methods;
+    if (!methods.empty() && std::find(methods.begin(), methods.end(), data.method.identification) == methods.end()) {
+        refute("the method \"" + data.method.identification + "\" is not among those of this person");
+    }
+}
+
+}  // namespace
+
+std::vector<Finding> register_findings(const CertificateData& data, const LaboratoryRegister& registered) {
+    FindingList found(data);
+    contradictions(found, registered);
+    standards(found, registered);
+    signatory(found, data, registered);
+    return found.take();
+}
+
+}  // namespace gumcert::certificate

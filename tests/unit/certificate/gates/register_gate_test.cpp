@@ -1,0 +1,76 @@
+#include "certificate/gates/register_gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "tests/support/finding_severities.h"
+#include "tests/unit/certificate/passed_certificate.h"
+
+namespace gumcert::certificate {
+namespace {
+
+/// What is found where the register is what `change` makes of it.
+std::vector<Finding> with_register(const std::function<void(CertificateData&, LaboratoryRegister&)>& change) {
+    CertificateData data = passed_certificate().data;
+    LaboratoryRegister registered;
+    LaboratoryRegister::Signatory one;
+    one.name = data.persons.authorised_by->name;
+    registered.signatories = {one};
+    change(data, registered);
+    return register_findings(data, registered);
+}
+
+TEST(RegisterGate, IsSilentWhereAllFits) {
+    EXPECT_TRUE(with_register([](CertificateData&, LaboratoryRegister& r) {
+                    r.uses = {{"STD-1", "V", "yes", ""}};
+                }).empty());
+}
+
+TEST(RegisterGate, ContradictionsAreCritical) {
+    const auto contradiction = [](const char* where) {
+        return only(with_register([&](CertificateData&, LaboratoryRegister& r) {
+            r.contradictions = {{where, "the standard \"STD-1\"", "\"2027-12-31\"", "\"2026-12-31\""}};
+        }));
+    };
+    expect_finding(contradiction("/standards/0/valid_to"), "T10", "ISO/IEC 17025:2017, 6.5", k_critical,
+                   "/standards/0/valid_to");
+    expect_finding(contradiction("/accreditation/number"), "L01", "ISO/IEC 17025:2017, 7.8.2.1", k_critical,
+                   "/accreditation/number");
+}
+
+TEST(RegisterGate, StandardsAreApplicableOrNotOrNobodyKnows) {
+    const auto use = [](const char* answer) {
+        return only(with_register([&](CertificateData&, LaboratoryRegister& r) {
+            r.uses = {{"STD-1", "V", answer, "it lies outside"}};
+        }));
+    };
+    expect_finding(use("no"), "T11", "ISO/IEC 17025:2017, 6.4", k_critical, "V");
+    expect_finding(use("unknown"), "T11", "ISO/IEC 17025:2017, 6.4", k_major, "V");
+    EXPECT_THAT(use("unknown").what, testing::HasSubstr("it is not known"));
+}
+
+TEST(RegisterGate, StandardsStandInRegisterAndList) {
+    expect_finding(only(with_register([](CertificateData&, LaboratoryRegister& r) { r.not_registered = {"STD-9"}; })),
+                   "T12", "ISO/IEC 17025:2017, 6.4", k_major, "/standards");
+    expect_finding(only(with_register([](CertificateData&, LaboratoryRegister& r) { r.not_listed = {"STD-1"}; })),
+                   "T13", "ISO/IEC 17025:2017, 7.8.4.1 c", k_minor, "/standards");
+}
+
+TEST(RegisterGate, OnlyARegisteredSignatoryAuthorises) {
+    const auto signatory = [](const std::function<void(LaboratoryRegister::Signatory&)>& change) {
+        return only(with_register([&](CertificateData&, LaboratoryRegister& r) { change(r.signatories.front()); }));
+    };
+    const std::string place = "/persons/authorised_by";
+    const std::string clause = "ISO/IEC 17025:2017, 6.2.6";
+    expect_finding(signatory([](auto& s) { s.name = "Another person"; }), "P14", clause, k_critical, place);
+    expect_finding(signatory([](auto& s) { s.authorises = false; }), "P14", clause, k_critical, place);
+    expect_finding(signatory([](auto& s) { s.to = "2020-01-01"; }), "P14", clause, k_critical, place);
+    expect_finding(signatory([](auto& s) { s.methods = {"another method"}; }), "P14", clause, k_critical, place);
+    EXPECT_TRUE(with_register([](CertificateData&, LaboratoryRegister& r) { r.signatories.clear(); }).empty());
+}
+
+}  // namespace
+}  // namespace gumcert::certificate
