@@ -194,8 +194,8 @@ struct Amendment {
     std::string sha256;  ///< of the earlier document, if it was a file
     LocalisedText reason;
     std::vector<LocalisedText> changes;
-    std::string
-        record;  ///< file beside the job: the record of the earlier certificate, which is compared with this one
+    /// File beside the job: the record of the earlier certificate, which is compared with this one
+    std::string record = {};
 };
 
 /// An item that is left out with a reason ("unless the laboratory has valid reasons").

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-json english() {
+json english_wording() {
     RenderAssets of_english = assets();
     of_english.languages = {"en"};
     return read_wording(of_english);
@@ -46,7 +46,7 @@ EvaluationRecord with_annexes(const std::string& extent) {
 }
 
 TEST(Annexes, AreAsTheLaboratoryWantsThem) {
-    const json wording = english();
+    const json wording = english_wording();
     const std::vector<std::string> full = annexes_of(certificate_view(with_annexes("full"), wording));
     EXPECT_EQ(annexes_of(certificate_view(with_annexes(""), wording)), full);
     EXPECT_THAT(full, Contains("type_a"));
@@ -57,7 +57,7 @@ TEST(Annexes, AreAsTheLaboratoryWantsThem) {
 }
 
 TEST(Annexes, WithoutThemNothingOfTheCertifiedPartIsMissing) {
-    const json wording = english();
+    const json wording = english_wording();
     std::vector<json> before;
     for (const json& section : certificate_view(with_annexes("full"), wording)["sections"]) {
         if (section["kind"] == "" && section["id"] != "statement_of_uncertainty") {
@@ -88,7 +88,7 @@ TEST(BudgetReport, SaysThatItIsNoCertificateAndShowsEverything) {
                                      .where = "/standards/0",
                                      .what = "no budget names it",
                                      .action = "Name it."}};
-    const json view = budget_report_view(record, english());
+    const json view = budget_report_view(record, english_wording());
     EXPECT_TRUE(view["identity"].empty());
     ASSERT_EQ(view["mark"].size(), 1U);
     EXPECT_EQ(view["mark"][0]["text"], "INTERNAL — no calibration certificate");
@@ -106,7 +106,7 @@ TEST(BudgetReport, SaysThatItIsNoCertificateAndShowsEverything) {
 }
 
 TEST(BudgetReport, OfARecordWithoutCertificateDataHasItsResults) {
-    const json view = budget_report_view(test::sample_budget_record(), english());
+    const json view = budget_report_view(test::sample_budget_record(), english_wording());
     EXPECT_FALSE(block(view, "table", "results-0").is_null());
     EXPECT_TRUE(annexes_of(view).empty());
 }

@@ -94,8 +94,8 @@ TEST(BudgetCertificate, BudgetHasTheLayoutOfTableH1) {
     EXPECT_THAT(cells(budget, 2),
                 ElementsAre("repeatability", "215.0 nm", "5.8 nm", "t", "A", "24", "1", "(5.8)", "(3.3)"));
     EXPECT_EQ(budget["rows"][2]["kind"], "part");
-    EXPECT_THAT(cells(budget, 5),
-                ElementsAre("alpha_s", "1.15 × 10⁻⁵ K⁻¹", "1.2 × 10⁻⁶ K⁻¹", "rectangular", "B", "∞", "0 nm·K", "0", "0.0"));
+    EXPECT_THAT(cells(budget, 5), ElementsAre("alpha_s", "1.15 × 10⁻⁵ K⁻¹", "1.2 × 10⁻⁶ K⁻¹", "rectangular", "B", "∞",
+                                              "0 nm·K", "0", "0.0"));
     // A Celsius temperature has an uncertainty in kelvin, and a sensitivity coefficient per kelvin.
     EXPECT_THAT(cells(budget, 7), ElementsAre("theta", "−0.10 °C", "0.41 K", "normal", "B", "∞", "0 nm/K", "0", "0.0"));
     EXPECT_THAT(cells(budget, 9), ElementsAre("l", "50000838 nm", "–", "t", "–", "16.7", "–", "32", "100"));
@@ -157,8 +157,9 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     const json view = view_of(r);
     EXPECT_THAT(heads(table(view, "results-0")),
                 ElementsAre("Name", "Description", "Value", "u", "Lower end", "Upper end", "Unit"));
-    EXPECT_THAT(cells(table(view, "results-0"), 0), ElementsAre("l", "length of the end gauge at 20 °C", "5.000020 × 10⁷",
-                                                                "5.7 × 10²", "4.999902 × 10⁷", "5.000086 × 10⁷", "nm"));
+    EXPECT_THAT(cells(table(view, "results-0"), 0),
+                ElementsAre("l", "length of the end gauge at 20 °C", "5.000020 × 10⁷", "5.7 × 10²", "4.999902 × 10⁷",
+                            "5.000086 × 10⁷", "nm"));
     std::string text = text_of(r);
     EXPECT_THAT(text, HasSubstr("no expanded uncertainty is stated."));
     EXPECT_THAT(text, HasSubstr("is reported for l, because second-order terms change the standard uncertainty or the "
@@ -217,7 +218,7 @@ TEST(BudgetCertificate, SaysWhatMonteCarloFound) {
 /// What every form of the documents of the samples must show, as texts that stand side by side.
 const std::vector<std::string> k_end_gauge = {
     " l length of the end gauge at 20 °C 50000838 93 nm 2.92 16.7 ",
-        " 50000623 nm 25 nm t B 18 1 25.0 62.2 ",
+    " 50000623 nm 25 nm t B 18 1 25.0 62.2 ",
     " repeatability 215.0 nm 5.8 nm t A 24 1 (5.8) (3.3) ",
     " 0 K⁻¹ 5.8 × 10⁻⁷ K⁻¹ rectangular B 50 5.00 × 10⁶ nm·K 2.9 0.8 ",
     " l 50000838 nm – t – 16.7 – 32 100 ",
