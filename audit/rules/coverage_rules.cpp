@@ -321,7 +321,9 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         }
         // "About 95 %" is said of k = 2; an interval may be a little wider than p asks for.
         const double least = gum::standard_normal_quantile(0.5 + 0.5 * *words.p);
-        const double fewest = std::floor(shown.allowed.nu_eff.low);
+        // Without rows only the document knows ν_eff; where it does not say, it may be as small as 1.
+        const double stated_nu = budget.claims.nu_eff ? budget.claims.nu_eff->interval().low : 1.0;
+        const double fewest = std::floor(budget.rows.empty() ? stated_nu : shown.allowed.nu_eff.low);
         const double most =
             fewest >= 1.0 ? std::max(least, gum::coverage_factor(*words.p, fewest)) : std::max(least, k);
         const bool narrow_shape = budget.coverage.kind == CoverageRule::Kind::convolution || k < 1.75;

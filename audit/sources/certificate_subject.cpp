@@ -76,6 +76,7 @@ public:
 private:
     [[nodiscard]] std::string point_of(const ImportedQuantity& quantity) const;
     [[nodiscard]] LimitsBeside limits_of(std::size_t position) const;
+    [[nodiscard]] std::optional<StatedNumber> degrees_of_freedom_of(const ImportedQuantity& quantity) const;
     [[nodiscard]] AuditedBudget budget_of(std::size_t position);
     void state_conformity(const ImportedQuantity& quantity, const LimitsBeside& limits, AuditedBudget& budget);
     void say(std::string sentence) {
@@ -103,11 +104,23 @@ std::string Results::point_of(const ImportedQuantity& quantity) const {
         for (const ImportedQuantity& other : certificate_.quantities) {
             if (quantity.table > 0 && other.table == quantity.table && other.row == quantity.row &&
                 other.role == "result" && WordLine(other.ref_type).has(column)) {
-                return other.value + " " + gum::unit_for_people(unit_stated(other));
+                const std::string unit = gum::unit_for_people(unit_stated(other));
+                return other.value + (unit.empty() ? "" : " ") + unit;
             }
         }
     }
     return "row " + std::to_string(*quantity.row + 1);
+}
+
+/// Effective degrees of freedom as this program writes them: a column beside, with the label of its result.
+std::optional<StatedNumber> Results::degrees_of_freedom_of(const ImportedQuantity& quantity) const {
+    for (const ImportedQuantity& other : certificate_.quantities) {
+        if (!quantity.label.empty() && other.label == quantity.label && other.table == quantity.table &&
+            other.row == quantity.row && other.ref_type.find("effectiveDegreesOfFreedom") != std::string::npos) {
+            return number_stated(other.value, quantity.result);
+        }
+    }
+    return std::nullopt;
 }
 
 /// Limits follow their quantity: they stand in its meta data, one for all rows or one for each.
@@ -255,6 +268,7 @@ AuditedBudget Results::budget_of(std::size_t position) {
         u = claims.u_c ? u : half / normal;
         budget.coverage.k = u > 0.0 ? half / u : normal;
     }
+    claims.nu_eff = degrees_of_freedom_of(q);
     budget.correlation_variance = u * u;
     budget.digits = claims.U ? digits_of(*claims.U) : 2;
     state_conformity(q, limits_of(position), budget);

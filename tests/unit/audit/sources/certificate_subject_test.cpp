@@ -105,7 +105,9 @@ TEST(SubjectOfCertificate, FindsWhatIsWrongWithTheStatementOfUncertainty) {
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.3125", "2.00", "0.9545"))), "R01"));
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.3", "2.00", "0.9545"))), "R02"));
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "2.00", ""))), "R04"));
-    EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "3.00", "0.90"))), "K03"));
+    EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "1.80", "0.9545"))), "K03"));
+    EXPECT_FALSE(finds(subject_of_text(document(uncertainty("0.31", "2.13", "0.9545"))), "K03"))
+        << "nobody knows its ν_eff";
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "2.00", "0.9545"), "", "", "")), "R05"));
 }
 
