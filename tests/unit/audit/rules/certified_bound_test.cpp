@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-AuditedRow quantity(const std::string& name, double estimate, double u, Shape shape = Shape::normal) {
+AuditedRow row_of_number(const std::string& name, double estimate, double u, Shape shape = Shape::normal) {
     AuditedRow row = test::audited_row(name, u, Contributor::other);
     row.unit = "1";
     row.estimate = exact_number(estimate, "row " + name);
@@ -21,7 +21,7 @@ AuditedRow quantity(const std::string& name, double estimate, double u, Shape sh
     return row;
 }
 
-AuditSubject subject_of(const std::string& equation, std::vector<AuditedRow> rows) {
+AuditSubject subject_of_equation(const std::string& equation, std::vector<AuditedRow> rows) {
     AuditedBudget budget;
     budget.name = "y";
     budget.unit = "1";
@@ -38,11 +38,11 @@ AuditReport bounded(const AuditSubject& subject) {
 }
 
 TEST(CertifiedBound, AnswersWhereNothingIsLost) {
-    std::vector<AuditedRow> rows{quantity("a", 10.0, 0.01), quantity("b", 2.0, 0.002)};
+    std::vector<AuditedRow> rows{row_of_number("a", 10.0, 0.01), row_of_number("b", 2.0, 0.002)};
     rows[0].used_sensitivity = 2.0;
     rows[1].used_sensitivity = 10.0;
     // U = 2·√(0.02² + 0.02²) = 0.057: half a unit of its last digit is 0.0005; the product leaves out 0.02·0.004.
-    const AuditReport report = bounded(subject_of("y = a*b", rows));
+    const AuditReport report = bounded(subject_of_equation("y = a*b", rows));
     EXPECT_TRUE(report.findings.empty());
     EXPECT_TRUE(report.not_checked.empty());
     ASSERT_EQ(report.notes.size(), 1U);
@@ -53,9 +53,9 @@ TEST(CertifiedBound, AnswersWhereNothingIsLost) {
 
 TEST(CertifiedBound, IsMajorWhereTheEquationCertainlyLeavesItsTangent) {
     // y = a² at 0.1 with u = 0.1: what is left out reaches (2·0.1)² = 0.04; U = 0.04, its last digit 0.001.
-    std::vector<AuditedRow> rows{quantity("a", 0.1, 0.1)};
+    std::vector<AuditedRow> rows{row_of_number("a", 0.1, 0.1)};
     rows[0].used_sensitivity = 0.2;
-    const AuditReport report = bounded(subject_of("y = a^2", rows));
+    const AuditReport report = bounded(subject_of_equation("y = a^2", rows));
     ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_EQ(report.findings.front().severity, FindingSeverity::major);
     EXPECT_THAT(report.findings.front().what, HasSubstr("leaves its tangent by 0.03998 at least"));
@@ -63,18 +63,18 @@ TEST(CertifiedBound, IsMajorWhereTheEquationCertainlyLeavesItsTangent) {
 }
 
 TEST(CertifiedBound, IsMilderWhereTheLawWasValidated) {
-    std::vector<AuditedRow> rows{quantity("a", 0.1, 0.1)};
+    std::vector<AuditedRow> rows{row_of_number("a", 0.1, 0.1)};
     rows[0].used_sensitivity = 0.2;
-    AuditSubject subject = subject_of("y = a^2", rows);
+    AuditSubject subject = subject_of_equation("y = a^2", rows);
     subject.budgets.front().monte_carlo = StatedMonteCarlo{};
     EXPECT_EQ(bounded(subject).findings.front().severity, FindingSeverity::information);
 }
 
 TEST(CertifiedBound, LooksAtBoundedQuantitiesWithinTheirLimits) {
     const auto evidence = [](Shape shape) {
-        std::vector<AuditedRow> rows{quantity("a", 0.1, 0.1, shape)};
+        std::vector<AuditedRow> rows{row_of_number("a", 0.1, 0.1, shape)};
         rows[0].used_sensitivity = 0.2;
-        return bounded(subject_of("y = a^2", rows)).findings.front().evidence.front();
+        return bounded(subject_of_equation("y = a^2", rows)).findings.front().evidence.front();
     };
     EXPECT_THAT(evidence(Shape::normal), HasSubstr("to 0.04"));
     EXPECT_THAT(evidence(Shape::rectangular), HasSubstr("to 0.03"));
@@ -84,16 +84,17 @@ TEST(CertifiedBound, LooksAtBoundedQuantitiesWithinTheirLimits) {
 
 TEST(CertifiedBound, SaysWhatItCannotLookAt) {
     const auto because = [](const std::string& equation, std::vector<AuditedRow> rows) {
-        const AuditReport report = bounded(subject_of(equation, std::move(rows)));
+        const AuditReport report = bounded(subject_of_equation(equation, std::move(rows)));
         EXPECT_TRUE(report.findings.empty() && report.notes.empty()) << equation;
         EXPECT_EQ(report.not_checked.size(), 1U) << equation;
         return report.not_checked.empty() ? "" : report.not_checked.front().because;
     };
-    EXPECT_EQ(because("y = 1/a", {quantity("a", 0.1, 0.1)}), "y: \"1/a\": the divisor may be 0 there");
-    EXPECT_EQ(because("y = abs(a)", {quantity("a", 0.1, 0.1)}), "y: \"abs(a)\": a kink may lie there");
-    EXPECT_THAT(because("y = a*b", {quantity("a", 0.1, 0.1)}), HasSubstr("no row, or more than one, stands for b"));
-    EXPECT_THAT(because("0 = y - a", {quantity("a", 0.1, 0.1)}), HasSubstr("implicit"));
-    EXPECT_EQ(because("", {quantity("a", 0.1, 0.1)}), "no equation of the measurement is stated");
+    EXPECT_EQ(because("y = 1/a", {row_of_number("a", 0.1, 0.1)}), "y: \"1/a\": the divisor may be 0 there");
+    EXPECT_EQ(because("y = abs(a)", {row_of_number("a", 0.1, 0.1)}), "y: \"abs(a)\": a kink may lie there");
+    EXPECT_THAT(because("y = a*b", {row_of_number("a", 0.1, 0.1)}),
+                HasSubstr("no row, or more than one, stands for b"));
+    EXPECT_THAT(because("0 = y - a", {row_of_number("a", 0.1, 0.1)}), HasSubstr("implicit"));
+    EXPECT_EQ(because("", {row_of_number("a", 0.1, 0.1)}), "no equation of the measurement is stated");
 }
 
 }  // namespace
