@@ -267,6 +267,7 @@ AuditedBudget Results::budget_of(std::size_t position) {
         const double half = 0.5 * (high->value - low->value);
         u = claims.u_c ? u : half / normal;
         budget.coverage.k = u > 0.0 ? half / u : normal;
+        claims.coverage_probability.reset();  // no k belongs to the p of an interval
     }
     claims.nu_eff = degrees_of_freedom_of(q);
     budget.correlation_variance = u * u;

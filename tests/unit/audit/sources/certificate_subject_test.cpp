@@ -111,6 +111,17 @@ TEST(SubjectOfCertificate, FindsWhatIsWrongWithTheStatementOfUncertainty) {
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "2.00", "0.9545"), "", "", "")), "R05"));
 }
 
+TEST(SubjectOfCertificate, AsksForNoFactorOfAnInterval) {
+    const AuditSubject subject = subject_of_text(document(
+        "<si:measurementUncertaintyUnivariate><si:coverageIntervalMU><si:valueStandardMU>0.10</si:valueStandardMU>"
+        "<si:intervalMin>9.90</si:intervalMin><si:intervalMax>10.28</si:intervalMax>"
+        "<si:coverageProbability>0.95</si:coverageProbability></si:coverageIntervalMU>"
+        "</si:measurementUncertaintyUnivariate>"));
+    ASSERT_EQ(subject.budgets.size(), 1U);
+    EXPECT_NEAR(subject.budgets.front().coverage.k, 1.9, 1e-12);
+    EXPECT_EQ(rules_found(subject), std::vector<std::string>{});
+}
+
 TEST(SubjectOfCertificate, DecidesAgainByARuleThatIsNamed) {
     const std::string limits = "<dcc:conformity>pass</dcc:conformity><dcc:data>" +
                                limit("basic_toleranceLimitUpper", "10.20") +
