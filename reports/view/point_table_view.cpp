@@ -1,6 +1,5 @@
 #include "reports/view/point_table_view.h"
 
-#include "certificate/statement_of_uncertainty.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 
@@ -8,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +34,16 @@ const std::string k_blank = "\u00A0";  // nothing is missing where nothing is to
 /// Of a word that the wording has for a role or a usual name of a column; else the name itself.
 Text word_or(const std::string& name, const Wording& words) {
     return !name.empty() && words.has("point_table", name) ? words("point_table", name) : Text(name);
+}
+
+/// The magnitude of a printed number below 0; "" for any other.
+std::string without_minus(const std::string& printed) {
+    for (const std::string_view minus : {"-", "\u2212"}) {
+        if (printed.starts_with(minus)) {
+            return printed.substr(minus.size());
+        }
+    }
+    return {};
 }
 
 class LayoutColumns {
@@ -149,9 +159,7 @@ private:
         const auto lower = [](const CertifiedValue& v) { return v.verdict && !v.verdict->printed.lower.empty(); };
         const auto upper = [](const CertifiedValue& v) { return v.verdict && !v.verdict->printed.upper.empty(); };
         const bool symmetrical = !any(of, [&](const CertifiedValue& v) {
-            return !lower(v) || !upper(v) ||
-                   certificate::number_of(v.verdict->printed.lower) !=
-                       std::optional(-certificate::number_of(v.verdict->printed.upper).value_or(0.0));
+            return !lower(v) || !upper(v) || without_minus(v.verdict->printed.lower) != v.verdict->printed.upper;
         });
         if (symmetrical && overview_.plus_minus()) {
             add_limit(c, of, "limit", [](const Verdict& v) { return v.printed.upper; });
