@@ -49,7 +49,7 @@ TEST(Annexes, AreAsTheLaboratoryWantsThem) {
     const json wording = english_wording();
     const std::vector<std::string> full = annexes_of(certificate_view(with_annexes("full"), wording));
     EXPECT_EQ(annexes_of(certificate_view(with_annexes(""), wording)), full);
-    EXPECT_THAT(full, Contains("type_a"));
+    EXPECT_THAT(full, Contains("monte_carlo"));
     EXPECT_THAT(full, Contains("uncertainty"));
     EXPECT_THAT(annexes_of(certificate_view(with_annexes("summary"), wording)),
                 ::testing::ElementsAre("evaluation", "uncertainty"));
@@ -79,7 +79,9 @@ TEST(Annexes, WithoutThemNothingOfTheCertifiedPartIsMissing) {
 TEST(BudgetReport, SaysThatItIsNoCertificateAndShowsEverything) {
     EvaluationRecord record = with_annexes("none");
     record.digest = std::string(64, 'd');
-    record.inputs.front().description = certificate::LocalisedText("What it is");
+    record.inputs.emplace_back();
+    record.inputs.back().name = "x_1";
+    record.inputs.back().description = certificate::LocalisedText("What it is");
     record.job_files.push_back(input_file("readings.csv", "x,y\r\n1,2\n", true));
     record.job_files.push_back(input_file("lost.csv", "x\n", false));
     record.certificate->findings = {{.id = "T06",

@@ -34,7 +34,8 @@ TEST(Symbols, WordsAreNone) {
 
 TEST(Symbols, OfARecordAreThoseOfItsQuantities) {
     EvaluationRecord record = test::sample_budget_record();
-    record.inputs.front().name = "q_own";
+    record.inputs.emplace_back();
+    record.inputs.back().name = "q_own";
     const std::string all = symbols_in(record).dump();
     EXPECT_NE(all.find("{\"base\":\"q\",\"index\":\"own\",\"text\":\"q_own\"}"), std::string::npos) << all;
     EXPECT_NE(all.find("\"T_L\""), std::string::npos);
