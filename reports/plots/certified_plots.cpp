@@ -20,6 +20,7 @@ using certificate::CertifiedValue;
 
 constexpr std::size_t k_least_values = 3;
 constexpr std::size_t k_most_certified_panels = 12;
+constexpr double k_certified_margin = 8.0;  // so that the bars of the outermost points stand inside of the frame
 
 /// A printed number as the number that the table shows: the plot and the table cannot disagree.
 std::optional<double> number_of(std::string printed) {
@@ -80,6 +81,19 @@ struct CertifiedLimit {
     }
 };
 
+/// What a result is called in the table, where the job says so; else its name.
+std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
+    if (table.layout) {
+        for (const certificate::ShownColumn& shown : table.layout->shown) {
+            if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
+                const std::string stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ";
+                return stage + words("point_table", shown.role).first();
+            }
+        }
+    }
+    return column.result;
+}
+
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     const certificate::PointColumn* const abscissa = abscissa_of(table);
     const bool joined = abscissa != nullptr;
@@ -109,7 +123,7 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
         }
     }
     const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
-    const std::string name = shortened(printable(column.result), 24);
+    const std::string name = shortened(printable(name_of_panel(table, column, words)), 40);
     PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
     for (CertifiedLimit* const limit : {&lower, &upper, &acceptance_lower, &acceptance_upper}) {
         if (limit->joined) {  // from left to right, whatever the order of the points
@@ -152,7 +166,8 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
               .panels = {},
               .columns = table.columns.size() > 3 ? 2 : 1,
               .panel_height = 150.0,
-              .x_is_angle = is_angle};
+              .x_is_angle = is_angle,
+              .margin = abscissa != nullptr ? k_certified_margin : 0.0};
     for (const CertifiedColumn& column : table.columns) {
         PlotPanel panel = panel_of(table, column, words);
         if (panel.series.front().points.size() < k_least_values) {
