@@ -56,6 +56,20 @@ const std::vector<BadBudget>& bad_budgets() {
     const std::string straight = R"j("equation": "y = a + b*t", )j";
     const std::string three = R"j("data": {"t": [0, 1, 2], "y": [0, 1, 2]})j";
     static const std::vector<BadBudget> list{
+        // ---- points and tables of results
+        {"declared_column_of_an_input",
+         x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": {"columns": {"X": "V"}, "list": [{"X": 1}]})j",
+         code(k_point_column), "job.json#/points/columns/X", "is an input and a column of points"},
+        {"table_column",
+         x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": [{"X": 1}], "tables": [{"columns": ["X", "U", "W"]}])j",
+         code(k_table_column), "job.json#/tables/0/columns/2", "is nothing that the points of this job have"},
+        {"table_without_U",
+         x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": [{"X": 1}], "tables": [{"columns": ["X"]}])j",
+         code(k_table_incomplete), "job.json#/tables/0", "shows \"X\" without U"},
+        {"point_without_limit",
+         x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": [{"X": 1}], "certificate": {"specifications": [
+             {"id": "s", "results": ["X"], "unit": "V", "rule": {"id": "DR-01"}, "limits": {"by": "points"}}]})j",
+         code(k_point_without_limit), "job.json#/certificate", "the point states no limit"},
         // ---- numbers
         {"overflow", x(R"j({"value": 1e999, "u": 1})j"), code(k_json_number_range), "job.json:1:", "1e999"},
         {"underflow", x(R"j({"value": 1, "u": 1e-999})j"), code(k_json_number_range), "job.json:1:", "1e-999"},
