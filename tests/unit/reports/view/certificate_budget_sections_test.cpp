@@ -219,7 +219,7 @@ TEST(BudgetCertificate, SaysWhatMonteCarloFound) {
 const std::vector<std::string> k_end_gauge = {
     " l length of the end gauge at 20 °C 50000838 93 nm 2.92 16.7 ",
     " 50000623 nm 25 nm t B 18 1 25.0 62.2 ",
-    " repeatability 215.0 nm 5.8 nm t A 24 1 (5.8) (3.3) ",
+    " 215.0 nm 5.8 nm t A 24 1 (5.8) (3.3) ",
     " 0 K⁻¹ 5.8 × 10⁻⁷ K⁻¹ rectangular B 50 5.00 × 10⁶ nm·K 2.9 0.8 ",
     " l 50000838 nm – t – 16.7 – 32 100 ",
     " d: repeatability five readings ",
