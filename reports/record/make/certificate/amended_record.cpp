@@ -58,6 +58,14 @@ public:
     void stated(const char* key, const Type& v, std::initializer_list<const char*>) {
         look(at_ + "/" + key, v);
     }
+    template <class Type, class... Rule>
+    void added(const char* key, const Type& v, const Rule&...) {
+        look(at_ + "/" + key, v);
+    }
+    template <class Type, class... Rule>
+    void if_any(const char* key, const Type& v, const Rule&...) {
+        look(at_ + "/" + key, v);
+    }
     template <class Type>
     void filled(const char*, const Type&) {}
 
