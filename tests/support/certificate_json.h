@@ -39,6 +39,7 @@ public:
     void added(const char* key, const Type& v, Rule... rule) {
         (*this)(key, v, rule...);
     }
+    template <class Type, class... Rule>
     void stated(const char* key, const Type& v, Rule... rule) {
         (*this)(key, v, rule...);
     }

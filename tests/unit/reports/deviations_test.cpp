@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/forms/asset_files.h"
 #include "tests/unit/reports/document_text.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gumcert::reports {
 namespace {

@@ -18,11 +18,11 @@ constexpr const char* k_advice_of_laboratory =
 
 TEST(LaboratorySchema, IsTheFile) {
     const std::filesystem::path root(GUMCERT_SOURCE_DIR);
-    const ordered_json jobs = ordered_json::parse(test::file_content(root / "schemas/job-1.schema.json"));
-    EXPECT_TRUE(json::readable_json(laboratory_schema(jobs)) + "\n" ==
-                test::file_content(root / "schemas/laboratory-1.schema.json"))
+    const ordered_json jobs = ordered_json::parse(gumcert::test::file_content(root / "schemas/job-1.schema.json"));
+    EXPECT_TRUE(gumcert::json::readable_json(laboratory_schema(jobs)) + "\n" ==
+                gumcert::test::file_content(root / "schemas/laboratory-1.schema.json"))
         << k_advice_of_laboratory;
-    EXPECT_TRUE(page_of_laboratory_keys() == test::file_content(root / "docs/laboratory_keys.md"))
+    EXPECT_TRUE(page_of_laboratory_keys() == gumcert::test::file_content(root / "docs/laboratory_keys.md"))
         << k_advice_of_laboratory;
 }
 

@@ -17,9 +17,11 @@ namespace {
 
 using nlohmann::json;
 
-std::string json_text(const std::vector<audit::AuditReport>& reports, const std::vector<Waiver>& waivers = {}) {
-    return audit_as_json(
-        make_audit_view(reports, test::sample_rules(), {.program = "gumcert 0.1.0", .waivers = waivers}));
+std::string json_text(std::vector<audit::AuditReport> reports, const std::vector<certificate::Waiver>& waivers = {}) {
+    for (audit::AuditReport& report : reports) {
+        report.subject.waivers = waivers;
+    }
+    return audit_as_json(make_audit_view(reports, test::sample_rules(), {.program = "gumcert 0.1.0"}));
 }
 
 std::set<std::string> names_of(const json& object) {
@@ -88,7 +90,8 @@ TEST(AuditJson, AFileWithoutABudgetHasNoOutcome) {
 
 TEST(AuditJson, TheSchemaAcceptsWhatIsWrittenAndNothingElse) {
     const test::JsonSchema schema("audit-1.schema.json");
-    const std::vector<Waiver> waivers = {{.rule = "B05", .by = "A. N.", .when = "2026-03-04", .reason = "known"}};
+    const std::vector<certificate::Waiver> waivers = {
+        {.finding = "B05", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "known"}};
     audit::AuditSubject empty;
     empty.name = "empty.csv";
     const audit::AuditReport nothing = audit::audit(std::move(empty), {});
