@@ -53,7 +53,8 @@ reports::AuditView audit_view(const audit::AuditReport& report, const std::strin
 }
 
 bool is_refuted_by_audit(const Evaluation& evaluation) {
-    return evaluation.audit && !evaluation.record.comparison && evaluation.audit->has_critical();
+    return evaluation.audit && !evaluation.record.comparison &&
+           !critical_findings(*evaluation.audit, audit::all_rules()).empty();
 }
 
 void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {

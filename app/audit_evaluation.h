@@ -14,8 +14,8 @@ namespace gumcert::app {
 /// \param job_file  its name in its source
 void audit_evaluation(Evaluation& evaluation, const std::string& job_file);
 
-/// Whether the audit left a critical finding that nobody accepts. Of a comparison the scores are the answer, and what the
-/// audit says of them is not another one: false.
+/// Whether the audit itself, beside the gates of a certificate, left a critical finding that nobody accepts. Of a
+/// comparison the scores are the answer, and what the audit says of them is not another one: false.
 [[nodiscard]] bool is_refuted_by_audit(const Evaluation& evaluation);
 
 /// The audit as documents show it.

@@ -136,7 +136,7 @@ AuditFinding matter_of(const AuditSubject& subject, std::size_t budget, const ch
 void coverage_not_stated(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const Claims& claims = subject.budgets[i].claims;
-        if (!claims.U) {
+        if (!claims.U || claims.U->value == 0.0) {  // what is exact by definition has no k
             continue;
         }
         const bool k = claims.k || WordLine(claims.coverage_sentence).has_any({"k ", "factor", "erweiterungsfaktor"});
