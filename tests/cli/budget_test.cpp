@@ -115,7 +115,8 @@ protected:
             const Ended whole = run(example(name), folder() / "out");
             EXPECT_EQ(whole.code, 0) << whole.err;
             const auto files = contents_of(folder() / "out");
-            EXPECT_EQ(files.size(), 4U);
+            EXPECT_EQ(files.size(), 5U);
+            EXPECT_TRUE(files.contains("audit.html"));
             EXPECT_TRUE(files.contains("certificate.xml"));
             EXPECT_TRUE(files.contains("certificate.html"));
             EXPECT_TRUE(files.contains("certificate.pdf"));
@@ -195,7 +196,7 @@ TEST_F(BudgetExamples, GaugeBlockIsNotValidatedAndSaysSo) {
     }
     const Ended ended = run(job_file(), folder() / "out");
     EXPECT_EQ(ended.code, 1) << ended.err;
-    EXPECT_EQ(contents_of(folder() / "out").size(), 4U) << "the documents are written all the same";
+    EXPECT_EQ(contents_of(folder() / "out").size(), 5U) << "the documents are written all the same";
     EXPECT_NE(ended.out.find("NOT validated"), std::string::npos) << ended.out;
     EXPECT_NE(bytes_of(folder() / "out" / "certificate.html").find("not validated"), std::string::npos);
 }

@@ -13,7 +13,7 @@ using nlohmann::json;
 class LaboratoryFolderOfJobs : public ProgramTest {
 protected:
     LaboratoryFolderOfJobs() {
-        fs::copy(shipped_example().parent_path().parent_path() / "laboratory", folder(), fs::copy_options::recursive);
+        fs::copy(shipped_example().parent_path() / "laboratory", folder(), fs::copy_options::recursive);
     }
     [[nodiscard]] fs::path folder() const { return folder_.path() / "work"; }
     [[nodiscard]] fs::path job() const { return folder() / "end_gauge.json"; }

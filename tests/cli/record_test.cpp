@@ -49,8 +49,8 @@ TEST_F(Record, RunWritesTheDocumentsAndNothingElse) {
     for (const auto& [name, bytes] : contents_of(run.folder())) {
         names.insert(name);
     }
-    EXPECT_EQ(names, (std::set<std::string>{"certificate.html", "certificate.pdf", "certificate.xml", "covariance.csv",
-                                            "record.json"}));
+    EXPECT_EQ(names, (std::set<std::string>{"audit.html", "certificate.html", "certificate.pdf", "certificate.xml",
+                                            "covariance.csv", "record.json"}));
     const std::string html = bytes_of(run.folder() / "certificate.html");
     EXPECT_TRUE(html.starts_with("<!DOCTYPE html>") || html.starts_with("<!doctype html>")) << html.substr(0, 80);
     EXPECT_NE(html.find("</html>"), std::string::npos);
@@ -85,7 +85,7 @@ TEST_F(Record, NamesProgramJobAndOptions) {
     EXPECT_TRUE(record_["options"].is_object());
     EXPECT_TRUE(record_["options"]["solver"]["step_tolerance"].is_number());
     EXPECT_TRUE(record_["diagnostics"].is_array());
-    EXPECT_TRUE(record_["audit"].is_null());
+    EXPECT_EQ(record_["audit"]["schema"], "gumcert/audit/1");
 }
 
 TEST_F(Record, DigestsAreThoseOfTheFiles) {

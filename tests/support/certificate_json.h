@@ -202,6 +202,11 @@ inline certificate::CertificateData complete_certificate_data() {
                             .changes = {"Serial number"},
                             .record = "earlier.json"};
     d.omissions = {{.clause = "7.8.2.1 k", .reason = "No sampling was needed"}};
+    d.waivers = {{.finding = "U10",
+                  .where = "/results/l/budget/0, u",
+                  .by = "Head of laboratory",
+                  .date = "2026-11-20",
+                  .reason = "The maker states it so, in writing."}};
     d.annexes = "summary";
     return d;
 }

@@ -62,7 +62,9 @@ TEST(OutputForms, RefuseWhatTheyDoNotApplyTo) {
     };
     EXPECT_EQ(code_of(record_of_kind("comparison"), "dcc"), "GC-REPORT-0041");
     EXPECT_EQ(code_of(record_of_kind("budget"), "csv"), "GC-REPORT-0040");
-    EXPECT_EQ(code_of(record_of_kind("comparison"), "report-html"), "GC-REPORT-0042");
+    EvaluationRecord comparison = record_of_kind("comparison");
+    comparison.comparison.emplace();
+    EXPECT_EQ(code_of(comparison, "report-html"), "GC-REPORT-0042");
     EXPECT_EQ(code_of(record_of_kind("comparison"), "label-svg"), "GC-REPORT-0043");
     EXPECT_EQ(code_of(test::certified_budget_record(), "label-svg"), "");
     EXPECT_EQ(code_of(test::certified_budget_record(), "text"), "");

@@ -99,9 +99,8 @@ TEST(CertificateStatement, ReadsEverything) {
 }
 
 TEST(CertificateStatement, ReadsTheObjectInAJob) {
-    const BudgetJob job =
-        test::read_budget(k_length + R"(, "certificate": )" + complete().dump(),
-                          {{"symbol.png", sample_png()}, {"earlier.json", "{}"}});
+    const BudgetJob job = test::read_budget(k_length + R"(, "certificate": )" + complete().dump(),
+                                            {{"symbol.png", sample_png()}, {"earlier.json", "{}"}});
     ASSERT_TRUE(job.certificate);
     EXPECT_EQ(CertificateJsonWriter::structure(*job.certificate), complete());
     EXPECT_THAT(job.files, ElementsAre("job.json", "symbol.png", "earlier.json"));

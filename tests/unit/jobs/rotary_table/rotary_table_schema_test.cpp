@@ -203,6 +203,9 @@ TEST_F(JobSchemaTest, AgreesWithTheReaderOnEveryKey) {
     for (const JobKeys& object : rotary_table_job_keys()) {
         for (const std::string_view key : object.keys) {
             const std::string pointer = std::string(object.pointer) + "/" + std::string(key);
+            if (key == "laboratory") {
+                continue;  // names a folder, from which a job is filled in before it is read (tests/unit/jobs/laboratory)
+            }
             EXPECT_TRUE(used.contains(pointer)) << pointer << " is in neither of the complete jobs";
         }
     }

@@ -331,7 +331,7 @@ TEST(EvaluationRecord, ReportsEveryProblemWithItsPointer) {
     r["rotary"]["a~b/c"] = 1;
     r["results"]["O_y"]["u"] = -0.1;
     r["comparison"]["points"][2]["En"] = "0.4";
-    r["audit"] = json::object();
+    r["audit"] = json::array();
     const std::string all = record_refusal(r.dump());
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0013 record.json#/rotary/errors/5/EBA — missing"));
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0015 record.json#/rotary/errors/6/EXA/U — string — must be a number"));
@@ -341,7 +341,7 @@ TEST(EvaluationRecord, ReportsEveryProblemWithItsPointer) {
     EXPECT_THAT(all, HasSubstr("GC-RECORD-0014 record.json#/rotary/a~0b~1c — unknown key"));
     EXPECT_THAT(all, HasSubstr("record.json#/results/O_y/u — -0.1 — must be 0 or greater"));
     EXPECT_THAT(all, HasSubstr("record.json#/comparison/points/2/En — string — must be a number"));
-    EXPECT_THAT(all, HasSubstr("record.json#/audit — object"));
+    EXPECT_THAT(all, HasSubstr("record.json#/audit — array"));
 }
 
 TEST(EvaluationRecord, RefusesAnotherSchemaBeforeAnythingElse) {

@@ -186,7 +186,7 @@ TEST_F(RecordSchema, RefusesWhatTheReaderRefuses) {
         [](json& r) { r["schema"] = "gumcert/record/2"; },
         [](json& r) { r.erase("software"); },
         [](json& r) { r["extra"] = 1; },
-        [](json& r) { r["audit"] = json::object(); },
+        [](json& r) { r["audit"] = json::array(); },
         [](json& r) { r["results"]["O_y"]["U"] = "0.3"; },
         [](json& r) { r["results"]["O_y"].erase("order"); },
         [](json& r) { r["rotary"]["axis"] = "D"; },
