@@ -46,6 +46,9 @@ EVALUATED = (
     ("comparison/methods.json", "html text csv", "de"),
     ("comparison/proficiency_test.json", "html text csv", "en"),
     ("comparison/proficiency_test.json", "html", "zh-Hant"),
+    ("everyday/multimeter/job.json", "html text dcc", "en"),
+    ("everyday/torque_wrench/job.json", "text", "de"),
+    ("laboratory/end_gauge.json", "text", "en"),
 )
 STUDIES = (
     ("plan rotary_table/plan.json", "json html"),
