@@ -31,7 +31,8 @@ protected:
     }
     [[nodiscard]] std::vector<std::string> findings() const {
         std::vector<std::string> ids;
-        for (const json& finding : json::parse(bytes_of(record()))["certificate"]["findings"]) {
+        const json made = json::parse(bytes_of(record()));
+        for (const json& finding : made["certificate"]["findings"]) {
             if (finding["severity"] == "critical") {
                 ids.push_back(finding["id"]);
             }
