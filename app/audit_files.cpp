@@ -224,8 +224,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsign
             attempts[file].failure = std::current_exception();
         }
     };
-    gum::WorkerThreads workers(threads);
-    workers.run(tables.size(), [&](unsigned, std::size_t task) { attempt(tables[task], {}); });
+    run_in_workers(threads, tables.size(), [&](std::size_t task) { attempt(tables[task], {}); });
     for (const std::size_t file : others) {
         attempt(file, progress);
     }

@@ -27,18 +27,18 @@ struct AuditedFile {
 [[nodiscard]] std::vector<certificate::Waiver> waivers_from(const std::filesystem::path& file);
 
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
-/// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name. Records and documents beside a job that gumcert wrote are
-/// left out where the job itself is there.
+/// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name; a PDF where a digital certificate is attached that does not
+/// lie beside it.
 /// \throws gum::InputError    GC-AUDIT-0010 a folder without such a file
 /// \throws gum::StorageError  what cannot be looked at
 [[nodiscard]] std::vector<std::filesystem::path> files_to_audit(const std::vector<std::filesystem::path>& named);
 
 /// Audits one file, whatever it is: a job is evaluated first, a record taken as it states itself and held against its own
 /// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
+/// \param waivers     of findings of every file, beside those of a job or record itself
 /// \param laboratory  as of evaluate_job()
 /// \throws gum::InputError    what the readers refuse; GC-AUDIT-0011 a file of another kind
 /// \throws gum::NoResultError, gum::StorageError
-/// \param waivers  of findings of every file, beside those of a job or record itself
 [[nodiscard]] AuditedFile audit_file(const std::filesystem::path& file, unsigned threads,
                                      const std::filesystem::path& templates, const gum::Progress& progress = {},
                                      std::span<const certificate::Waiver> waivers = {},
