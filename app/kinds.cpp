@@ -36,7 +36,7 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
     const jobs::BudgetJob job = jobs::read_budget_job(task.files, task.job_file);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     gum::BudgetResult result = gum::evaluate_budget(job, task.threads, task.progress);
-    const std::size_t results = result.points.size() * result.output_names.size();
+    const std::size_t results = gum::budget_result_count(result);
     Eigen::MatrixXd covariance;
     if (results > 1 && results <= k_most_correlated_results) {
         covariance = gum::reported_covariance(job, result);

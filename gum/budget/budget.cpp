@@ -42,6 +42,58 @@ std::vector<OutputSymbol> model_outputs(const Budget& budget) {
     return symbols;
 }
 
+namespace {
+
+/// Part of a list that holds those of all sections, one section after the other.
+template <class T>
+std::vector<T> part_of(const std::vector<T>& all, const Budget& budget, std::size_t section,
+                       std::size_t BudgetSection::*count) {
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < section; ++s) {
+        first += budget.sections[s].*count;
+    }
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return {begin, begin + static_cast<std::ptrdiff_t>(budget.sections[section].*count)};
+}
+
+}  // namespace
+
+Budget budget_of_section(const Budget& budget, std::size_t section) {
+    return {.coverage_probability = budget.coverage_probability,
+            .coverage = budget.coverage,
+            .truncate_degrees_of_freedom = budget.truncate_degrees_of_freedom,
+            .rounding = budget.rounding,
+            .model = part_of(budget.model, budget, section, &BudgetSection::equations),
+            .unknowns = part_of(budget.unknowns, budget, section, &BudgetSection::unknowns),
+            .inputs = budget.inputs,
+            .correlations = budget.correlations,
+            .simultaneous = budget.simultaneous,
+            .fits = budget.fits,
+            .outputs = part_of(budget.outputs, budget, section, &BudgetSection::outputs),
+            .points = part_of(budget.points, budget, section, &BudgetSection::points),
+            .sections = {},
+            .monte_carlo = budget.monte_carlo};
+}
+
+std::size_t first_point_of(const Budget& budget, std::size_t section) {
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < section; ++s) {
+        first += budget.sections[s].points;
+    }
+    return first;
+}
+
+std::optional<std::size_t> section_of_point(const Budget& budget, std::size_t point) {
+    std::size_t end = 0;
+    for (std::size_t s = 0; s < budget.sections.size(); ++s) {
+        end += budget.sections[s].points;
+        if (point < end) {
+            return s;
+        }
+    }
+    return std::nullopt;
+}
+
 const BudgetInput& input_at(const Budget& budget, std::size_t input, std::optional<std::size_t> point) {
     if (point) {
         for (const auto& [index, own] : budget.points[*point].inputs) {

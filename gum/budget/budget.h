@@ -78,6 +78,17 @@ struct BudgetOutput {
     std::string where;
 };
 
+/// Results that come from equations of their own, at points of their own, among others of one budget: DC voltage and
+/// resistance of one instrument. Inputs, correlations and fits are those of the budget, so that what sections have in
+/// common correlates their results. Equations, unknowns, outputs and points of a budget are those of its sections, one
+/// section after the other.
+struct BudgetSection {
+    std::string name;
+    std::size_t equations = 0;  ///< 0: inputs and parameters of fits are the results, those that `outputs` names
+    std::size_t unknowns = 0, outputs = 0;
+    std::size_t points = 0;  ///< 0: one evaluation
+};
+
 /// An uncertainty budget to be evaluated (gum/budget/evaluate_budget.h): measurement model, inputs in coherent SI, and
 /// what is asked for.
 struct Budget {
@@ -93,8 +104,9 @@ struct Budget {
     std::vector<InputCorrelation> correlations;
     std::vector<SimultaneousInputs> simultaneous;
     std::vector<BudgetFit> fits;
-    std::vector<BudgetOutput> outputs;  ///< empty: those of the model
-    std::vector<BudgetPoint> points;    ///< empty: one evaluation
+    std::vector<BudgetOutput> outputs;    ///< empty: those of the model
+    std::vector<BudgetPoint> points;      ///< empty: one evaluation
+    std::vector<BudgetSection> sections;  ///< empty: the budget is one
     std::optional<MonteCarloRequest> monte_carlo;
 };
 
@@ -103,6 +115,16 @@ struct Budget {
 [[nodiscard]] std::vector<InputSymbol> model_inputs(const Budget& budget);
 /// What is asked of the equations, in the order of the budget; empty: what the model gives by itself.
 [[nodiscard]] std::vector<OutputSymbol> model_outputs(const Budget& budget);
+
+/// A section as a budget of its own: its equations, unknowns, outputs and points, and all inputs, correlations and fits.
+/// \param section  position in Budget::sections
+[[nodiscard]] Budget budget_of_section(const Budget& budget, std::size_t section);
+
+/// Where the points of a section begin in Budget::points.
+[[nodiscard]] std::size_t first_point_of(const Budget& budget, std::size_t section);
+
+/// The section that a point of the table belongs to; nothing in a budget without sections.
+[[nodiscard]] std::optional<std::size_t> section_of_point(const Budget& budget, std::size_t point);
 
 /// The input of a budget that holds at a point of its table.
 /// \param point  position in Budget::points, or nothing

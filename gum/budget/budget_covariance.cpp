@@ -71,10 +71,12 @@ PointFactor factor_of(const BudgetPointResult& point) {
 }  // namespace
 
 Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
-    const auto m = static_cast<Eigen::Index>(result.output_names.size());
-    const auto points = static_cast<Eigen::Index>(result.points.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m * points, m * points);
-    if (points > 1) {
+    std::vector<Eigen::Index> first{0};  // result of each point
+    for (const BudgetPointResult& point : result.points) {
+        first.push_back(first.back() + static_cast<Eigen::Index>(point.outputs.size()));
+    }
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(first.back(), first.back());
+    if (result.points.size() > 1) {
         std::vector<PointFactor> factors;
         std::map<Deviate, std::size_t> uses;
         for (const BudgetPointResult& point : result.points) {
@@ -90,13 +92,13 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
             }
         }
         const auto all = static_cast<Eigen::Index>(shared.size());
-        for (Eigen::Index first = 0; first < all; first += k_columns) {
-            Eigen::MatrixXd S = Eigen::MatrixXd::Zero(m * points, std::min(k_columns, all - first));
-            for (Eigen::Index p = 0; p < points; ++p) {
-                for (const auto& [deviate, column] : factors[static_cast<std::size_t>(p)]) {
+        for (Eigen::Index block = 0; block < all; block += k_columns) {
+            Eigen::MatrixXd S = Eigen::MatrixXd::Zero(first.back(), std::min(k_columns, all - block));
+            for (std::size_t p = 0; p < factors.size(); ++p) {
+                for (const auto& [deviate, column] : factors[p]) {
                     const auto found = shared.find(deviate);
-                    if (found != shared.end() && found->second >= first && found->second < first + S.cols()) {
-                        S.block(p * m, found->second - first, m, 1) = column;
+                    if (found != shared.end() && found->second >= block && found->second < block + S.cols()) {
+                        S.block(first[p], found->second - block, column.size(), 1) = column;
                     }
                 }
             }
@@ -104,8 +106,9 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
         }
         covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
     }
-    for (Eigen::Index p = 0; p < points; ++p) {  // with what is of this point alone
-        covariance.block(p * m, p * m, m, m) = result.points[static_cast<std::size_t>(p)].propagation.covariance;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {  // with what is of this point alone
+        const Eigen::MatrixXd& own = result.points[p].propagation.covariance;
+        covariance.block(first[p], first[p], own.rows(), own.cols()) = own;
     }
     return covariance;
 }

@@ -457,7 +457,8 @@ std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::option
 }  // namespace
 
 BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
-                         std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities)
+                         std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities,
+                         std::vector<std::size_t> results)
     : system_(std::move(system)),
       symbol_count_(static_cast<Eigen::Index>(symbols.size())),
       groups_(std::move(groups)),
@@ -470,15 +471,29 @@ BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector
         for (std::size_t i = 0; i < system_->output_count(); ++i) {
             outputs_.push_back({system_->output_name(i), coherent_unit(system_->output_unit(i))});
         }
+        unused_.resize(symbols.size());
+        for (const std::size_t unused : system_->unused_inputs()) {
+            unused_[unused] = true;
+        }
         if (system_->unknown_count() > 0) {
             // Implicit models are solved anew in each trial, from here: the solutions of the trials lie about it.
             start_ = system_->solve(this->symbols(input_estimates(*this)));
         }
     } else {
-        for (const BudgetSymbol& symbol : symbols) {
-            outputs_.push_back({symbol.name, coherent_unit(symbol.unit)});
+        if (results.empty()) {
+            results.resize(symbols.size());
+            std::iota(results.begin(), results.end(), std::size_t{0});
+        }
+        for (const std::size_t result : results) {
+            results_.push_back(static_cast<Eigen::Index>(result));
+            outputs_.push_back({symbols[result].name, coherent_unit(symbols[result].unit)});
         }
     }
+}
+
+bool BudgetModel::uses(std::size_t symbol) const {
+    return system_ ? !unused_[symbol]
+                   : std::find(results_.begin(), results_.end(), static_cast<Eigen::Index>(symbol)) != results_.end();
 }
 
 Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {
@@ -493,17 +508,28 @@ Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd BudgetModel::evaluate(const Eigen::VectorXd& x) const {
-    return system_ ? system_->evaluate(symbols(x)) : symbols(x);
+    return system_ ? system_->evaluate(symbols(x)) : Eigen::VectorXd(symbols(x)(results_));
 }
 
 Eigen::VectorXd BudgetModel::rounding(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd z = symbols(x);
-    return system_ ? system_->rounding(z) : z.unaryExpr([](double value) { return decimal_rounding(value); });
+    return system_ ? system_->rounding(z)
+                   : Eigen::VectorXd(z(results_).unaryExpr([](double value) { return decimal_rounding(value); }));
+}
+
+Eigen::MatrixXd BudgetModel::by_symbol(const Eigen::VectorXd& x) const {
+    if (system_) {
+        return system_->jacobian(symbols(x));
+    }
+    Eigen::MatrixXd chosen = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(results_.size()), symbol_count_);
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+        chosen(static_cast<Eigen::Index>(i), results_[i]) = 1.0;
+    }
+    return chosen;
 }
 
 Eigen::MatrixXd BudgetModel::jacobian(const Eigen::VectorXd& x) const {
-    const Eigen::MatrixXd by_symbol =
-        system_ ? system_->jacobian(symbols(x)) : Eigen::MatrixXd::Identity(symbol_count_, symbol_count_);
+    const Eigen::MatrixXd by_symbol = this->by_symbol(x);
     if (one_to_one_) {
         return by_symbol;
     }
@@ -548,7 +574,7 @@ void BudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Ei
     if (system_) {
         system_->evaluate_trials(z, y, start_);
     } else {
-        y = z;
+        y = z(Eigen::all, results_);
     }
 }
 

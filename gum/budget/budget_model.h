@@ -34,8 +34,15 @@ class BudgetModel final : public MeasurementModel {
 public:
     /// \param system      nothing: the symbols themselves are the outputs
     /// \param quantities  one for each quantity of the groups, in their order
+    /// \param results     without a system: the symbols that are the outputs; empty: all
     BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
-                std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities);
+                std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities,
+                std::vector<std::size_t> results = {});
+
+    /// Whether the symbols themselves are the outputs.
+    [[nodiscard]] bool is_of_symbols() const { return !system_.has_value(); }
+    /// Whether an output depends on a symbol.
+    [[nodiscard]] bool uses(std::size_t symbol) const;
 
     [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return groups_; }
     [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return outputs_; }
@@ -49,14 +56,18 @@ public:
 
 private:
     [[nodiscard]] Eigen::VectorXd symbols(const Eigen::VectorXd& x) const;
+    /// Derivative of the outputs by the symbols.
+    [[nodiscard]] Eigen::MatrixXd by_symbol(const Eigen::VectorXd& x) const;
 
     std::optional<EquationSystem> system_;
     Eigen::Index symbol_count_ = 0;
     std::vector<InputGroup> groups_;
     std::vector<BudgetQuantity> quantities_;
     std::vector<OutputQuantity> outputs_;
-    Eigen::VectorXd start_;    ///< solution of implicit equations at the estimates, where every trial begins
-    bool one_to_one_ = false;  ///< quantity i is symbol i: nothing to add up
+    std::vector<bool> unused_;           ///< symbols, with a system
+    std::vector<Eigen::Index> results_;  ///< without a system: symbols
+    Eigen::VectorXd start_;              ///< solution of implicit equations at the estimates, where every trial begins
+    bool one_to_one_ = false;            ///< quantity i is symbol i: nothing to add up
 };
 
 /// The groups of a budget at one point of its table, with all that follows from them.

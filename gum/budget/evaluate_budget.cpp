@@ -184,7 +184,7 @@ void run_monte_carlo_unasked(const Budget& budget, const std::vector<std::string
         for (Diagnostic& problem : all) {
             for (std::size_t i = 0; i < evidence.size(); ++i) {
                 if (!evidence[i].empty()) {
-                    problem.where = "result " + result.output_names[i] + where + ", " + problem.where;
+                    problem.where = "result " + point.outputs[i].name + where + ", " + problem.where;
                     problem.rule += "; Monte Carlo is needed here, because " + reason_in_words(evidence[i]);
                     break;
                 }
@@ -206,7 +206,7 @@ void validate_outputs(const Budget& budget, BudgetPointResult& point, BudgetResu
         if (!output.expanded_uncertainty) {
             result.validation_failed = true;
         } else if (u > 0.0) {
-            const Unit& unit = result.output_units[i];
+            const Unit& unit = output.unit;
             output.validation =
                 validation_in_unit(y, u, *output.expanded_uncertainty, *output.monte_carlo,
                                    {[&](double value) { return unit.from_si(value); },
@@ -228,7 +228,7 @@ void validate_together(const Budget& budget, BudgetPointResult& point, BudgetRes
     }
     Eigen::VectorXd in_unit(m);
     for (Eigen::Index j = 0; j < m; ++j) {
-        in_unit(j) = result.output_units[static_cast<std::size_t>(j)].difference_from_si(1.0);
+        in_unit(j) = point.outputs[static_cast<std::size_t>(j)].unit.difference_from_si(1.0);
     }
     point.joint_validation =
         validate_jointly(point.propagation, joint_effective_degrees_of_freedom(*point.model, point.propagation),
@@ -238,8 +238,8 @@ void validate_together(const Budget& budget, BudgetPointResult& point, BudgetRes
 
 void warn(const Budget& budget, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-        const std::string place = "result " + result.output_names[i] + where;
         const BudgetOutputResult& output = point.outputs[i];
+        const std::string place = "result " + output.name + where;
         if (output.standard_uncertainty == 0.0 && !output.by_monte_carlo) {
             result.notes.push_back(zero_uncertainty_message(output, place));
         } else if (output.coverage == "none" && !output.by_monte_carlo) {
@@ -294,7 +294,7 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
     std::vector<CoverageChoice> choices;
     bool needed = false;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
-        choices.push_back(coverage_choice_of(budget, result.output_names[i]));
+        choices.push_back(coverage_choice_of(budget, point.outputs[i].name));
         needed = needed || needs_monte_carlo(choices[i], evidence[i]);
     }
     if (budget.monte_carlo) {
@@ -313,7 +313,7 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
             output.has_mean = exist.mean;
             output.has_u = exist.u;
         }
-        decide_reported(choices[i], evidence[i], result.output_units[i], point.propagation.value(index),
+        decide_reported(choices[i], evidence[i], output.unit, point.propagation.value(index),
                         budget.monte_carlo ? budget.monte_carlo->digits : 2, output);
         if (trials_do_not_vary(point, index)) {
             output.by_monte_carlo = false;  // what the law says of u = 0 holds for the trials too
@@ -328,37 +328,103 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
     }
 }
 
-BudgetPointResult evaluate_point(const Budget& budget, const std::optional<EquationSystem>& system,
-                                 std::optional<std::size_t> at, unsigned threads, const Progress& progress,
-                                 BudgetResult& result) {
-    BudgetInputs inputs = budget_inputs(budget, result.fits, at);
-    if (!at || *at == 0) {
+/// What is evaluated by one set of equations: a whole budget, or a section of it.
+struct Part {
+    const Budget& whole;
+    const Budget& budget;  ///< of the section
+    std::optional<std::size_t> section;
+    std::size_t first_point = 0;  ///< in the whole
+    std::optional<EquationSystem> system;
+    std::vector<std::size_t> results;         ///< without equations: symbols
+    std::vector<BudgetOutputResult> outputs;  ///< names, units, and what is asked for
+};
+
+/// \param at  position in the points of the part
+BudgetPointResult evaluate_point(const Part& part, std::optional<std::size_t> at, unsigned threads,
+                                 const Progress& progress, BudgetResult& result) {
+    const Budget& budget = part.budget;
+    BudgetPointResult point;
+    point.section = part.section;
+    if (at) {
+        point.point = part.first_point + *at;
+    }
+    BudgetInputs inputs = budget_inputs(part.whole, result.fits, point.point);
+    if (result.points.empty()) {
         result.notes.insert(result.notes.end(), inputs.notes.begin(), inputs.notes.end());
     }
-    BudgetPointResult point;
     point.streams = std::move(inputs.streams);
-    point.model = std::make_shared<const BudgetModel>(system, result.symbols, std::move(inputs.groups),
-                                                      std::move(inputs.quantities));
-    PointPropagation propagated = propagate_where_possible(budget, system, *point.model, result.symbols);
+    point.model = std::make_shared<const BudgetModel>(part.system, result.symbols, std::move(inputs.groups),
+                                                      std::move(inputs.quantities), part.results);
+    PointPropagation propagated = propagate_where_possible(budget, part.system, *point.model, result.symbols);
     point.propagation = std::move(propagated.propagation);
     point.without_derivative = std::move(propagated.without_derivative);
-    if (system && !is_linear(*system) && point.propagation.jacobian.cols() <= k_most_inputs_of_second_order) {
+    if (part.system && !is_linear(*part.system) && point.propagation.jacobian.cols() <= k_most_inputs_of_second_order) {
         point.second_order = second_order_of(point);
     }
-    for (std::size_t i = 0; i < result.output_names.size(); ++i) {
-        BudgetOutputResult output;
-        output.coverage_probability = coverage_probability_of(budget, result.output_names[i]);
-        const auto index = static_cast<Eigen::Index>(i);
+    for (const BudgetOutputResult& asked : part.outputs) {
+        BudgetOutputResult output = asked;
+        const auto index = static_cast<Eigen::Index>(point.outputs.size());
         point.propagation.coverage_probability = output.coverage_probability;
         expand_by_propagation(budget, point, index, output);
-        state_zero_uncertainty(budget, point, result.output_names[i], output);
+        state_zero_uncertainty(budget, point, output.name, output);
         output.second_order_matters = changes(point, index, k_reported_change, k_reported_shift);
         point.outputs.push_back(std::move(output));
     }
     const std::string where = at ? " at point " + budget.points[*at].name : "";
-    report(budget, system, where, threads, progress, point, result);
+    report(budget, part.system, where, threads, progress, point, result);
     warn(budget, point, where, result);
     return point;
+}
+
+/// What the equations give, or the symbols themselves: of a section those that it asks for.
+void set_outputs(const std::vector<BudgetSymbol>& symbols, Part& part) {
+    const auto add = [&](const std::string& name, const Unit& unit) {
+        BudgetOutputResult& output = part.outputs.emplace_back();
+        output.name = name;
+        output.unit = unit;
+        output.coverage_probability = coverage_probability_of(part.budget, name);
+    };
+    if (part.system) {
+        for (std::size_t i = 0; i < part.system->output_count(); ++i) {
+            add(part.system->output_name(i), part.system->output_unit(i));
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < symbols.size(); ++i) {
+        // An input that is a result has the unit that it is asked for in.
+        const auto stated = std::find_if(part.budget.outputs.begin(), part.budget.outputs.end(),
+                                         [&](const auto& output) { return output.name == symbols[i].name; });
+        const bool is_stated = stated != part.budget.outputs.end();
+        if (is_stated || !part.section) {
+            part.results.push_back(i);
+            add(symbols[i].name, is_stated && stated->unit ? *stated->unit : symbols[i].unit);
+        }
+    }
+}
+
+void evaluate_part(const Budget& whole, const Budget& budget, std::optional<std::size_t> section, unsigned threads,
+                   const Progress& progress, BudgetResult& result) {
+    Part part{.whole = whole,
+              .budget = budget,
+              .section = section,
+              .first_point = section ? first_point_of(whole, *section) : 0,
+              .system = compile_model(budget),
+              .results = {},
+              .outputs = {}};
+    set_outputs(result.symbols, part);
+    if (budget.points.empty()) {
+        if (progress && budget.monte_carlo) {
+            progress("Monte Carlo");
+        }
+        result.points.push_back(evaluate_point(part, std::nullopt, threads, progress, result));
+    }
+    for (std::size_t p = 0; p < budget.points.size(); ++p) {
+        if (progress) {
+            progress("point " + std::to_string(part.first_point + p + 1) + " of " +
+                     std::to_string(whole.points.size()));
+        }
+        result.points.push_back(evaluate_point(part, p, threads, progress, result));
+    }
 }
 
 }  // namespace
@@ -380,33 +446,11 @@ BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progr
             result.notes.push_back(std::move(*lost));
         }
     }
-    const std::optional<EquationSystem> system = compile_model(budget);
-    if (system) {
-        for (std::size_t i = 0; i < system->output_count(); ++i) {
-            result.output_names.push_back(system->output_name(i));
-            result.output_units.push_back(system->output_unit(i));
-        }
-    } else {
-        for (const BudgetSymbol& symbol : result.symbols) {
-            result.output_names.push_back(symbol.name);
-            // An input that is a result has the unit that it is asked for in.
-            const auto stated = std::find_if(budget.outputs.begin(), budget.outputs.end(), [&](const auto& output) {
-                return output.name == symbol.name && output.unit;
-            });
-            result.output_units.push_back(stated != budget.outputs.end() ? *stated->unit : symbol.unit);
-        }
+    if (budget.sections.empty()) {
+        evaluate_part(budget, budget, std::nullopt, threads, progress, result);
     }
-    if (budget.points.empty()) {
-        if (progress && budget.monte_carlo) {
-            progress("Monte Carlo");
-        }
-        result.points.push_back(evaluate_point(budget, system, std::nullopt, threads, progress, result));
-    }
-    for (std::size_t p = 0; p < budget.points.size(); ++p) {
-        if (progress) {
-            progress("point " + std::to_string(p + 1) + " of " + std::to_string(budget.points.size()));
-        }
-        result.points.push_back(evaluate_point(budget, system, p, threads, progress, result));
+    for (std::size_t s = 0; s < budget.sections.size(); ++s) {
+        evaluate_part(budget, budget_of_section(budget, s), s, threads, progress, result);
     }
     note_reported(budget, result);
     return result;
@@ -414,12 +458,20 @@ BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progr
 
 std::vector<std::string> budget_result_names(const Budget& budget, const BudgetResult& result) {
     std::vector<std::string> names;
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        for (const std::string& output : result.output_names) {
-            names.push_back(budget.points.empty() ? output : output + "[" + budget.points[p].name + "]");
+    for (const BudgetPointResult& point : result.points) {
+        for (const BudgetOutputResult& output : point.outputs) {
+            names.push_back(point.point ? output.name + "[" + budget.points[*point.point].name + "]" : output.name);
         }
     }
     return names;
+}
+
+std::size_t budget_result_count(const BudgetResult& result) {
+    std::size_t count = 0;
+    for (const BudgetPointResult& point : result.points) {
+        count += point.outputs.size();
+    }
+    return count;
 }
 
 }  // namespace gumcert::gum

@@ -19,6 +19,8 @@ namespace gumcert::gum {
 
 /// Everything computed for one output of a budget at one point of its table, coherent SI.
 struct BudgetOutputResult {
+    std::string name;
+    Unit unit;  ///< that it is asked for in
     double coverage_probability = 0.9545;
     /// u(y) of the law of propagation: of the first order, and where that vanishes, with the second-order terms.
     double standard_uncertainty = 0.0;
@@ -46,6 +48,8 @@ struct BudgetOutputResult {
 
 /// A budget at one point of its table (or the only one).
 struct BudgetPointResult {
+    std::optional<std::size_t> point;    ///< position in Budget::points; nothing without a table
+    std::optional<std::size_t> section;  ///< position in Budget::sections; nothing where there are none
     std::shared_ptr<const BudgetModel> model;
     std::vector<std::uint64_t> streams;  ///< one a group: what points have in common is equal
     Propagation propagation;
@@ -58,10 +62,8 @@ struct BudgetPointResult {
 
 struct BudgetResult {
     std::vector<BudgetSymbol> symbols;
-    std::vector<std::string> output_names;
-    std::vector<Unit> output_units;
     std::vector<engine::CurveFit> fits;
-    std::vector<BudgetPointResult> points;  ///< one without a table of points
+    std::vector<BudgetPointResult> points;  ///< one without a table of points; those of all sections in their order
     std::vector<Diagnostic> notes;
     /// What the program ran Monte Carlo with by itself; none where the budget asks for it, or nothing called for it.
     std::optional<MonteCarloRequest> automatic_monte_carlo;
@@ -78,6 +80,9 @@ struct BudgetResult {
 /// Accuracy: that of its parts, docs/accuracy.md#law-of-propagation and what follows there.
 /// Example: examples/api/uncertainty_budget.cpp
 [[nodiscard]] BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progress& progress = {});
+
+/// How many results there are at all points.
+[[nodiscard]] std::size_t budget_result_count(const BudgetResult& result);
 
 /// Names of all results, points one after the other: "l", or "l[20 mm]" at a point of a table.
 [[nodiscard]] std::vector<std::string> budget_result_names(const Budget& budget, const BudgetResult& result);

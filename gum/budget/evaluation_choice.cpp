@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "gum/linearity_check.h"
@@ -251,34 +252,45 @@ void note_reported(const Budget& budget, BudgetResult& result) {
         std::vector<std::string> points;
         bool any = false;
     };
-    const auto places_of = [&](std::size_t output, const auto& holds) {
+    const auto places_of = [&](const std::string& output, const auto& holds) {
         Places places;
-        for (std::size_t p = 0; p < result.points.size(); ++p) {
-            if (holds(result.points[p].outputs[output])) {
-                places.any = true;
-                if (!budget.points.empty()) {
-                    places.points.push_back(budget.points[p].name);
+        for (const BudgetPointResult& point : result.points) {
+            for (const BudgetOutputResult& of : point.outputs) {
+                if (of.name == output && holds(of)) {
+                    places.any = true;
+                    if (point.point) {
+                        places.points.push_back(budget.points[*point.point].name);
+                    }
                 }
             }
         }
         return places;
     };
     constexpr std::size_t k_most_names = 5;
-    const auto where_of = [&](std::size_t output, const Places& places) {
-        const std::string name = "result " + result.output_names[output];
+    const auto where_of = [&](const std::string& output, const Places& places) {
+        const std::string name = "result " + output;
         return places.points.empty() ? name
                                      : name + " at " + (places.points.size() == 1 ? "point " : "points ") +
                                            text::listed(places.points, k_most_names);
     };
     static constexpr std::array<const char*, 6> k_reasons{"second_order", "vanishing",  "no_derivative",
                                                           "not_linear",   "asymmetric", "contradicted"};
-    for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+    std::vector<std::string> outputs;  // each once, in the order of the results
+    std::set<std::string> known;
+    for (const BudgetPointResult& point : result.points) {
+        for (const BudgetOutputResult& of : point.outputs) {
+            if (known.insert(of.name).second) {
+                outputs.push_back(of.name);
+            }
+        }
+    }
+    for (const std::string& output : outputs) {
         for (const char* reason : k_reasons) {
-            const Places reported = places_of(i, [&](const BudgetOutputResult& o) { return o.because == reason; });
+            const Places reported = places_of(output, [&](const BudgetOutputResult& o) { return o.because == reason; });
             if (reported.any) {
                 result.notes.push_back(
                     {.code = "GC-BUDGET-0025",
-                     .where = where_of(i, reported),
+                     .where = where_of(output, reported),
                      .what = "the result of Monte Carlo is reported, because " + reason_in_words(reason),
                      .rule = "the law of propagation holds for models that are nearly linear and results that are "
                              "nearly normal (JCGM 101:2008, clause 8)",
@@ -287,11 +299,11 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                                    : "State \"monte_carlo\" in the job to choose seed and number of trials.",
                      .severity = Severity::note});
             }
-            const Places forced = places_of(i, [&](const BudgetOutputResult& o) { return o.against == reason; });
+            const Places forced = places_of(output, [&](const BudgetOutputResult& o) { return o.against == reason; });
             if (forced.any) {
                 result.notes.push_back(
                     {.code = "GC-BUDGET-0026",
-                     .where = where_of(i, forced),
+                     .where = where_of(output, forced),
                      .what = "the law of propagation is reported because the job asks for it, although " +
                              reason_in_words(reason),
                      .rule = "a result is stated by the evaluation that holds (JCGM 101:2008, clause 8)",
@@ -299,11 +311,11 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                      .severity = Severity::warning});
             }
         }
-        const Places without = places_of(i, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u; });
+        const Places without = places_of(output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u; });
         if (without.any) {
             result.notes.push_back(
                 {.code = "GC-BUDGET-0027",
-                 .where = where_of(i, without),
+                 .where = where_of(output, without),
                  .what = "the trials of Monte Carlo give no standard uncertainty: their tails fall off so slowly that "
                          "the distribution has no variance, or none that trials can find",
                  .rule = "a standard deviation of trials estimates u only where the distribution has one; coverage "

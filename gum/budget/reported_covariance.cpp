@@ -44,8 +44,7 @@ Eigen::VectorXd reported_uncertainties(const BudgetResult& result) {
 
 /// Covariance of trials that are drawn of all points at once.
 Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
-    const auto m = static_cast<Eigen::Index>(result.output_names.size());
-    const Eigen::Index n = m * static_cast<Eigen::Index>(result.points.size());
+    const auto n = static_cast<Eigen::Index>(budget_result_count(result));
     std::vector<InputDraws> draws;
     for (const BudgetPointResult& point : result.points) {
         draws.emplace_back(point.model->inputs(), seed, point.streams);
@@ -54,20 +53,24 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
     const auto trials = static_cast<Eigen::Index>(
         std::clamp(static_cast<std::uint64_t>(k_most_products / pairs), k_fewest_together, k_most_together));
     Eigen::RowVectorXd centre(n);
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        centre.segment(static_cast<Eigen::Index>(p) * m, m) = result.points[p].propagation.value.transpose();
+    Eigen::Index column = 0;
+    for (const BudgetPointResult& point : result.points) {
+        centre.segment(column, point.propagation.value.size()) = point.propagation.value.transpose();
+        column += point.propagation.value.size();
     }
     Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(n);
     Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index first = 0; first < trials; first += k_rows) {
         const Eigen::Index count = std::min(k_rows, trials - first);
         Eigen::MatrixXd all(count, n);
+        column = 0;
         for (std::size_t p = 0; p < result.points.size(); ++p) {
             Eigen::MatrixXd x(count, draws[p].size());
-            Eigen::MatrixXd y(count, m);
+            Eigen::MatrixXd y(count, static_cast<Eigen::Index>(result.points[p].outputs.size()));
             draws[p].draw(static_cast<std::uint64_t>(first), x);
             result.points[p].model->evaluate_trials(x, y);
-            all.middleCols(static_cast<Eigen::Index>(p) * m, m) = y;
+            all.middleCols(column, y.cols()) = y;
+            column += y.cols();
         }
         all.rowwise() -= centre;
         sum += all.colwise().sum();

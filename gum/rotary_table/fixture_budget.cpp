@@ -55,12 +55,13 @@ InputGroup group_of_variants(const std::vector<InputGroup>& variants) {
 
 void check_output(const RotaryTableRequest& request, const BudgetResult& result) {
     const Dimension length = Unit::parse("m").dimension();
-    if (result.output_names.size() == 1 && result.output_units.front().dimension() == length) {
+    const std::vector<BudgetOutputResult>& outputs = result.points.front().outputs;
+    if (outputs.size() == 1 && outputs.front().unit.dimension() == length) {
         return;
     }
     std::string found;
-    for (std::size_t i = 0; i < result.output_names.size(); ++i) {
-        found += (i == 0 ? "" : ", ") + result.output_names[i] + " [" + result.output_units[i].text() + "]";
+    for (const BudgetOutputResult& output : outputs) {
+        found += (found.empty() ? "" : ", ") + output.name + " [" + output.unit.text() + "]";
     }
     throw InputError(Diagnostic{.code = "GC-INPUT-0230",
                                 .where = request.fixture_budget_file + "#/outputs",

@@ -28,13 +28,14 @@ std::vector<std::pair<std::string, gum::Unit>> budget_results(const gum::Budget&
     return results;
 }
 
-const gum::Unit& result_unit(const BudgetJob& job, std::size_t point, const std::string& result,
-                             const gum::Unit& unit) {
-    if (point >= job.point_units.size()) {
-        return unit;
+const gum::Unit& result_unit(const BudgetJob& job, const gum::BudgetPointResult& point, std::size_t output) {
+    const gum::BudgetOutputResult& result = point.outputs[output];
+    if (!point.point || *point.point >= job.point_units.size()) {
+        return result.unit;
     }
-    const auto own = job.point_units[point].find(result);
-    return own == job.point_units[point].end() ? unit : own->second;
+    const std::map<std::string, gum::Unit>& units = job.point_units[*point.point];
+    const auto own = units.find(result.name);
+    return own == units.end() ? result.unit : own->second;
 }
 
 }  // namespace gumcert::jobs

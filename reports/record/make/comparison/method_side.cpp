@@ -71,7 +71,9 @@ MethodSide side_of_budget(const MethodBudget& budget, const gum::Unit& unit, dou
     // A covariance between points, and shared sources, are those of the law of propagation.
     job.coverage = gum::CoverageChoice::law_of_propagation;
     gum::BudgetResult result = gum::evaluate_budget(job, 1);
-    result.output_units.front() = unit;  // the rows of its table as well are in the unit of the comparison
+    for (gum::BudgetPointResult& point : result.points) {
+        point.outputs.front().unit = unit;  // the rows of its table as well are in the unit of the comparison
+    }
     const Eigen::MatrixXd covariance = gum::budget_covariance(result);
     MethodSide side;
     std::vector<Eigen::Index> rows;

@@ -68,7 +68,7 @@ TEST(EvaluateBudget, EndGaugeOfTheGum) {
     EXPECT_TRUE(l.second_order_matters);
     EXPECT_TRUE(prints_as(point.second_order->standard_uncertainty(0) / k_nm, "34"));
     EXPECT_TRUE(tells(result, "GC-BUDGET-0026")) << "the law is asked for although they matter";
-    EXPECT_EQ(result.output_units.front().text(), "nm");
+    EXPECT_EQ(result.points.front().outputs.front().unit.text(), "nm");
     EXPECT_EQ(budget_result_names(end_gauge(), result), std::vector<std::string>{"l"});
     // Components are quantities of their own: nine of seven inputs.
     EXPECT_EQ(point.model->quantities().size(), 9U);

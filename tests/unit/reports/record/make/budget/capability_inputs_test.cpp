@@ -54,7 +54,7 @@ TEST(CapabilityInputs, HoldTheDistributionOfAConvolution) {
     const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     ASSERT_EQ(inputs.distributions.size(), 1U);
     const auto& P = inputs.distributions.at("y");  // x in millimetres, or in what the model gives
-    const gum::Unit unit = gum::evaluate_budget(job, 1).output_units.at(0);
+    const gum::Unit unit = gum::evaluate_budget(job, 1).points.at(0).outputs.at(0).unit;
     const auto at = [&](double mm) { return P(unit.from_si(1e-3 * mm)); };
     EXPECT_NEAR(at(10.0), 0.5, 1e-6);
     EXPECT_NEAR(at(10.05), 0.75, 1e-6);
