@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,10 @@ namespace gumcert::certificate {
 
 /// Values of an input of a budget, for the capabilities that depend on it.
 struct InputValues {
-    std::string unit;            ///< UDUNITS-2
-    std::vector<double> values;  ///< in `unit`, one a point of the table, or one for all
+    std::string unit;  ///< UDUNITS-2
+    /// In `unit`, one a point of the table, or one for all; none at points whose results do not rest on it.
+    std::vector<std::optional<double>> values;
+    std::optional<double> without_point = {};  ///< of results that have no point, beside others that have one
 };
 
 /// What the evaluation knows beside its record.

@@ -225,6 +225,16 @@ struct Parameter {
     double value = 0.0;
 };
 
+/// What holds for the results of one section of a job in place of what the certificate states for all
+/// (certificate/section_data.h).
+struct SectionData {
+    std::string section;  ///< its name in the job
+    std::optional<Item> item;
+    std::optional<Method> method;
+    std::vector<std::string> standards;  ///< identifications of rows of `standards`; empty: all
+    std::vector<Condition> conditions;   ///< empty: those of the certificate
+};
+
 struct CertificateData {
     /// "accredited", "not_accredited" or "specimen". Without the key: accredited where an accreditation is stated, else
     /// specimen.
@@ -258,6 +268,7 @@ struct CertificateData {
     /// What stands behind the certified part of documents: "none", "summary" (the budgets), "full"; "", where the
     /// laboratory states nothing, is full.
     std::string annexes;
+    std::vector<SectionData> sections;  ///< those that state something of their own
 };
 
 }  // namespace gumcert::certificate

@@ -340,6 +340,15 @@ void describe(Archive& a, Struct& r) {
     a("uncertainty_sentence", r.uncertainty_sentence, TextForm::text_or_none);
 }
 
+template <class Archive, Described<SectionData> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("section", r.section);
+    a("item", r.item);
+    a("method", r.method);
+    a("standards", r.standards);
+    a("conditions", r.conditions);
+}
+
 template <class Archive, Described<CertificateData> Struct>
 void describe(Archive& a, Struct& r) {
     a("status", r.status, {"accredited", "not_accredited", "specimen"});
@@ -371,6 +380,7 @@ void describe(Archive& a, Struct& r) {
     a("omissions", r.omissions);
     a.added("waivers", r.waivers);
     a.stated("annexes", r.annexes, {"", "none", "summary", "full"});
+    a.stated("sections", r.sections);
 }
 
 // What the evaluation adds. It stands in records only.
@@ -489,6 +499,7 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, Described<TableRequest> Struct>
 void describe(Archive& a, Struct& r) {
+    a.stated("section", r.section);
     a("title", r.title);
     a("group_by", r.group_by);
     a("where", r.where);
@@ -516,6 +527,7 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, Described<CertifiedTable> Struct>
 void describe(Archive& a, Struct& r) {
     a("id", r.id);
+    a.stated("section", r.section);
     a("argument", r.argument);
     a.if_any("layout", r.layout);
     a("columns", r.columns);

@@ -75,6 +75,7 @@ struct CertifiedTable {
         std::vector<std::optional<double>> values;  ///< none: a name only
         std::vector<std::string> printed;
     };
+    std::string section = {};              ///< of the job, by its name; "" where it has none
     std::optional<Argument> argument;      ///< none: every column has one value
     std::optional<TableLayout> layout;     ///< where the job says which columns are shown
     std::vector<CertifiedColumn> columns;  ///< all of the same length

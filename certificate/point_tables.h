@@ -56,8 +56,9 @@ struct TableRequest {
     struct RowChoice {
         std::string column, is;
     };
-    LocalisedText title;   ///< empty: that of results
-    std::string group_by;  ///< column with words; "": one group
+    std::string section = {};  ///< whose points it shows; "" in a job without sections
+    LocalisedText title;       ///< empty: that of results
+    std::string group_by;      ///< column with words; "": one group
     std::vector<RowChoice> where;
     std::vector<GroupUnit> units;
     std::vector<ShownColumn> columns;

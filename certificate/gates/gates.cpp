@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <utility>
+
+#include "certificate/section_data.h"
 
 namespace gumcert::certificate {
 
@@ -21,6 +25,44 @@ bool has_accredited_value(const Certificate& certificate) {
     return false;
 }
 
+/// What a section states of its own passes the gates as that of the certificate does.
+/// \param all  findings of the certificate, to which those of the sections are added
+void add_sections(const Certificate& certificate, std::vector<Finding>& all) {
+    const std::vector<SectionData>& sections = certificate.data.sections;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        Certificate part;
+        part.data = data_of_section(certificate.data, sections[i].section);
+        part.profile = certificate.profile;
+        for (const CertifiedTable& table : certificate.tables) {
+            if (table.section == sections[i].section) {
+                part.tables.push_back(table);
+            }
+        }
+        std::vector<std::string> own;
+        if (sections[i].item) {
+            own.emplace_back("/item");
+        }
+        if (sections[i].method) {
+            own.emplace_back("/method");
+        }
+        if (!sections[i].conditions.empty()) {
+            own.emplace_back("/conditions");
+        }
+        std::vector<Finding> found = completeness_findings(part);
+        const std::vector<Finding> more = plausibility_findings(part);
+        found.insert(found.end(), more.begin(), more.end());
+        for (Finding& finding : found) {
+            const bool is_own = std::any_of(own.begin(), own.end(), [&](const std::string& key) {
+                return finding.where == key || finding.where.starts_with(key + "/");
+            });
+            if (is_own) {
+                finding.where = "/sections/" + std::to_string(i) + finding.where;
+                all.push_back(std::move(finding));
+            }
+        }
+    }
+}
+
 }  // namespace
 
 void pass_gates(Certificate& certificate, const std::vector<Finding>& audit) {
@@ -29,6 +71,7 @@ void pass_gates(Certificate& certificate, const std::vector<Finding>& audit) {
                                              symbol_findings(certificate), language_findings(certificate), audit}) {
         all.insert(all.end(), more.begin(), more.end());
     }
+    add_sections(certificate, all);
     certificate.findings.clear();
     certificate.symbol = certificate.data.status == "accredited" && has_accredited_value(certificate);
     add_findings(certificate, all);

@@ -74,9 +74,17 @@ void signatory(FindingList& found, const CertificateData& data, const Laboratory
         refute("the authorisation is valid" + (one->from.empty() ? std::string() : " from " + one->from) +
                (one->to.empty() ? std::string() : " to " + one->to) + ", and not on " + day);
     }
-    const std::vector<std::string>& methods = one->methods;
-    if (!methods.empty() && std::find(methods.begin(), methods.end(), data.method.identification) == methods.end()) {
-        refute("the method \"" + data.method.identification + "\" is not among those of this person");
+    const auto hold_against = [&](const Method& method) {
+        const std::vector<std::string>& methods = one->methods;
+        if (!methods.empty() && std::find(methods.begin(), methods.end(), method.identification) == methods.end()) {
+            refute("the method \"" + method.identification + "\" is not among those of this person");
+        }
+    };
+    hold_against(data.method);
+    for (const SectionData& section : data.sections) {
+        if (section.method && section.method->identification != data.method.identification) {
+            hold_against(*section.method);
+        }
     }
 }
 

@@ -208,6 +208,13 @@ inline certificate::CertificateData complete_certificate_data() {
                   .date = "2026-11-20",
                   .reason = "The maker states it so, in writing."}};
     d.annexes = "summary";
+    SectionData section;
+    section.section = "length";
+    section.item = d.item;
+    section.method = d.method;
+    section.standards = {d.standards.front().identification};
+    section.conditions = d.conditions;
+    d.sections = {section};
     return d;
 }
 

@@ -129,6 +129,41 @@ TEST(CompletenessGate, FindsEachItemThatIsMissing) {
     }
 }
 
+// The law of sections: what is a finding of item, method or conditions of a certificate is one where a section states them.
+TEST(CompletenessGate, FindsTheSameInWhatASectionStates) {
+    std::size_t looked_at = 0;
+    for (const Spoilt& spoilt : missing_items()) {
+        const auto begins = [&](const char* key) { return spoilt.where.rfind(key, 0) == 0; };
+        if (!begins("/item") && !begins("/method") && !begins("/conditions/")) {
+            continue;
+        }
+        SCOPED_TRACE(spoilt.name);
+        ++looked_at;
+        Certificate spoiled = passed_certificate();
+        spoilt.spoil(spoiled);
+        Certificate c = passed_certificate();
+        c.tables.front().section = "part";
+        SectionData section;
+        section.section = "part";
+        section.item = spoiled.data.item;
+        section.method = spoiled.data.method;
+        section.conditions = spoiled.data.conditions;
+        c.data.sections = {section};
+        pass_gates(c);
+        expect_finding(only(c.findings), spoilt.id, spoilt.clause, spoilt.severity, "/sections/0" + spoilt.where);
+    }
+    EXPECT_GE(looked_at, 5U);
+    Certificate sound = passed_certificate();
+    SectionData section;
+    section.section = "part";
+    section.item = sound.data.item;
+    section.method = sound.data.method;
+    section.conditions = sound.data.conditions;
+    sound.data.sections = {section};
+    pass_gates(sound);
+    EXPECT_THAT(ids(sound.findings), testing::IsEmpty());
+}
+
 TEST(CompletenessGate, FindsThatThereAreNoResults) {
     Certificate c = passed_certificate();
     c.tables.clear();
