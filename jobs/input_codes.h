@@ -151,6 +151,8 @@ inline constexpr InputCode k_table_column{"GC-INPUT-0361", "a column that a tabl
 inline constexpr InputCode k_table_incomplete{"GC-INPUT-0362",
                                               "tables that leave out points, or what belongs to a result"};
 inline constexpr InputCode k_point_without_limit{"GC-INPUT-0363", "a point without the limits of its specification"};
+inline constexpr InputCode k_sections_of_budget{"GC-INPUT-0364",
+                                                "a budget with sections where one with one set of results is expected"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -290,6 +292,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_table_column,
                                           k_table_incomplete,
                                           k_point_without_limit,
+                                          k_sections_of_budget,
                                           k_file_not_readable,
                                           k_warn_extra_column,
                                           k_warn_unused_station,

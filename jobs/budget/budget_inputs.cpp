@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "gum/expression/name.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
 #include "jobs/budget/budget_fit_statement.h"
@@ -113,7 +114,7 @@ void BudgetInputs::read(const JsonObject& root) {
     names_ = keys_in_order(document_, pointer);
     stated_.reserve(names_.size());
     for (const std::string& name : names_) {
-        read_input(name, child_pointer(pointer, name), root.has("points"));
+        read_input(name, child_pointer(pointer, name), root.has("points") || root.has("sections"));
     }
     const Reading reading = [&](const std::string& name) -> const gum::BudgetInput* {
         const auto found = of_name_.find(name);
@@ -470,9 +471,41 @@ bool BudgetInputs::is_read_by_specification(const std::string& name) const {
 
 // ---- points of a table ----------------------------------------------------------------------------------------------
 
-void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
-    const json* points = root.find("points");
+void BudgetInputs::set_used(const std::optional<std::set<std::string>>& names) {
+    std::vector<bool>& used = used_.emplace_back(stated_.size(), !names);
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; names && i < stated_.size(); ++i) {
+        used[i] = names->contains(gum::canonical_name(stated_[i].name));
+        if (used[i]) {
+            found.push_back(i);
+        }
+    }
+    // A specification reads the value of another input.
+    while (!found.empty()) {
+        const std::size_t reader = found.back();
+        found.pop_back();
+        for (std::size_t i = 0; i < readers_.size(); ++i) {
+            if (!used[i] && std::find(readers_[i].begin(), readers_[i].end(), reader) != readers_[i].end()) {
+                used[i] = true;
+                found.push_back(i);
+            }
+        }
+    }
+}
+
+bool BudgetInputs::is_used(const std::string& input, std::size_t section) const {
+    const auto found = of_name_.find(input);
+    return found != of_name_.end() && section < used_.size() && used_[section][found->second];
+}
+
+void BudgetInputs::read_points(const JsonObject& object, const std::optional<std::set<std::string>>& used,
+                               BudgetJob& job) {
+    set_used(used);
+    const json* points = object.find("points");
     if (points == nullptr) {
+        for (std::size_t i = 0; i < stated_.size(); ++i) {
+            stated_[i].is_wanted_alone = stated_[i].is_wanted_alone || used_.back()[i];
+        }
         return;
     }
     if (const auto found = of_name_.find(std::string{k_point}); found != of_name_.end()) {
@@ -481,28 +514,32 @@ void BudgetInputs::read_points(const JsonObject& root, BudgetJob& job) {
                          "in a table of points this word names the point", "rename the input");
         return;
     }
+    const std::size_t before = job.points.size();
     if (points->is_array()) {
-        read_point_array(*points, root.pointer("points"), job);
+        read_point_array(*points, object.pointer("points"), job);
     } else if (points->is_object()) {
         static constexpr std::array<std::string_view, 3> k_keys{"file", "list", "columns"};
-        const JsonObject object(document_, root.pointer("points"), k_keys, problems_);
-        read_columns(object, job);
-        if (object.has("list")) {
-            if (object.has("file")) {
-                object.refuse(k_two_statements, "list", "\"file\" and \"list\" are given together",
-                              "points stand in a file or in the job", "keep one of them");
-            } else if (const json* list = object.optional_array("list")) {
-                read_point_array(*list, object.pointer("list"), job);
+        const JsonObject table(document_, object.pointer("points"), k_keys, problems_);
+        read_columns(table, job);
+        fill_columns(before, job);
+        if (table.has("list")) {
+            if (table.has("file")) {
+                table.refuse(k_two_statements, "list", "\"file\" and \"list\" are given together",
+                             "points stand in a file or in the job", "keep one of them");
+            } else if (const json* list = table.optional_array("list")) {
+                read_point_array(*list, table.pointer("list"), job);
             }
-        } else if (const auto name = JobFiles::file_name(object, "file", true)) {
+        } else if (const auto name = JobFiles::file_name(table, "file", true)) {
             read_point_file(*name, job);
         }
-        fill_columns(job.points.size(), job);
     } else {
-        root.refuse(k_wrong_type, "points", described(*points), "must be an array or an object",
-                    "give an array of points, or {\"file\": \"points.csv\"}");
+        object.refuse(k_wrong_type, "points", described(*points), "must be an array or an object",
+                      "give an array of points, or {\"file\": \"points.csv\"}");
     }
-    finish_points(job);
+    fill_columns(job.points.size(), job);
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        stated_[i].wanted += used_.back()[i] ? job.points.size() - before : 0;
+    }
 }
 
 void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
@@ -574,7 +611,20 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
         if (column.role.empty() && role != certificate::k_quantity_roles.end()) {
             column.role = name;
         }
-        has_words_.push_back(!unit && !is_limit(name));
+        const bool has_words = !unit && !is_limit(name);
+        const auto known = std::find_if(job.point_columns.begin(), job.point_columns.end(),
+                                        [&](const certificate::PointColumn& c) { return c.name == name; });
+        if (known != job.point_columns.end()) {  // of a section before
+            const auto position = static_cast<std::size_t>(known - job.point_columns.begin());
+            if (has_words_[position] != has_words || known->unit != column.unit || known->role != column.role ||
+                known->stage != column.stage || !(known->heading == column.heading)) {
+                problems_.refuse(k_point_column, where,
+                                 text::in_quotes(name) + " is declared otherwise than in a section before",
+                                 "a name stands for one column in all sections", "declare it alike, or rename it");
+            }
+            continue;
+        }
+        has_words_.push_back(has_words);
         job.point_columns.push_back(std::move(column));
     }
 }
@@ -590,6 +640,8 @@ std::optional<std::size_t> BudgetInputs::information(const std::string& name, Bu
     }
     certificate::PointColumn& column = job.point_columns.emplace_back();
     column.name = name;
+    column.values.resize(job.points.size());
+    column.printed.resize(job.points.size());
     has_words_.push_back(false);
     return job.point_columns.size() - 1;
 }
@@ -689,27 +741,43 @@ void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
                         "state it at these points, or in the inputs");
 }
 
+namespace {
+
+/// Where only points state an input, what stands in the job is what the first of them says.
+void take_from_points(std::size_t position, BudgetJob& job) {
+    for (const gum::BudgetPoint& point : job.points) {
+        for (const auto& [index, input] : point.inputs) {
+            if (index == position) {
+                job.inputs[position] = input;
+                job.inputs[position].stated = false;
+                return;
+            }
+        }
+    }
+}
+
+}  // namespace
+
 void BudgetInputs::finish_points(BudgetJob& job) {
     std::vector<std::string> unused;
     for (std::size_t i = 0; i < stated_.size(); ++i) {
         Stated& stated = stated_[i];
-        const bool everywhere = !job.points.empty() && stated.points == job.points.size();
-        if (!everywhere) {
-            refuse_unstated(stated, job.points.size());
-        }
-        if (!job.points.empty() && (!stated.base || !stated.is_complete)) {
-            for (const auto& [position, input] : job.points.front().inputs) {
-                if (position == positions_[i]) {
-                    job.inputs[position] = input;
-                    job.inputs[position].stated = false;
-                }
+        const bool everywhere = stated.wanted > 0 && stated.points == stated.wanted && !stated.is_wanted_alone;
+        if (!everywhere && stated.pending) {
+            if (stated.is_wanted_alone || (stated.wanted == 0 && !job.points.empty())) {
+                problems_.take(*stated.pending);
+            } else {
+                refuse_unstated(stated, stated.wanted);
             }
+        }
+        if (!stated.base || !stated.is_complete) {
+            take_from_points(positions_[i], job);
         }
         if (!everywhere) {
             continue;
         }
         for (const auto& [key, points] : stated.overridden) {
-            if (points == job.points.size() && stated.keys->has(key) &&
+            if (points == stated.wanted && stated.keys->has(key) &&
                 (key == "value" || key == "observations" || key == "groups" || key == "samples" || key == "limits")) {
                 unused.push_back(text::in_quotes(stated.name + "." + std::string{key}));
             }
@@ -965,6 +1033,9 @@ void BudgetInputs::read_point(gum::BudgetPoint& point, const std::map<std::size_
     std::map<std::size_t, Evaluated> here;
     std::set<std::size_t> read_again;
     for (std::size_t i = 0; i < stated_.size(); ++i) {
+        if (!used_.back()[i]) {
+            continue;
+        }
         if (overrides.contains(i) || told.contains(i)) {
             ++stated_[i].points;
         } else if (stated_[i].silent.size() < k_most_named) {

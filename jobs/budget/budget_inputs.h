@@ -49,8 +49,15 @@ public:
     /// What the inputs are to the reader of a certificate, by their names.
     [[nodiscard]] const std::map<std::string, QuantityPart>& parts() const { return parts_; }
 
-    /// Reads the key `points`. The inputs of the job must be in it already, with correlations and fits.
-    void read_points(const JsonObject& root, BudgetJob& job);
+    /// Reads the key `points` of the job or of a section; the inputs of the job must be in it already, with correlations
+    /// and fits. Of several sections the points come one after the other.
+    /// \param used  names of the inputs that the results rest on, in the form in which names are compared; nothing: all.
+    ///              A point leaves the others to the sections that use them
+    void read_points(const JsonObject& object, const std::optional<std::set<std::string>>& used, BudgetJob& job);
+    /// What the points leave open, and what of the job they leave unused: after the last section.
+    void finish_points(BudgetJob& job);
+    /// Whether the results of a section rest on an input; of a job without sections they may rest on all.
+    [[nodiscard]] bool is_used(const std::string& input, std::size_t section) const;
 
 private:
     /// An input, and what is needed to evaluate it again at a point.
@@ -67,7 +74,9 @@ private:
         std::optional<Evaluated> base;         ///< nothing when it was refused
         bool is_complete = true;               ///< false: its specification waits for the value of another input
         std::unique_ptr<ProblemList> pending;  ///< what is wrong with the base, in a job with points
-        std::size_t points = 0;                ///< that state the input, or were refused for it
+        std::size_t wanted = 0;                ///< points whose results rest on the input
+        bool is_wanted_alone = false;          ///< by a section without points
+        std::size_t points = 0;                ///< of these, that state the input, or were refused for it
         std::vector<std::string> silent;       ///< names of the first points that leave it to the job
         std::map<std::string_view, std::size_t> overridden;  ///< keys of the base: points that replace them
     };
@@ -85,8 +94,8 @@ private:
     static bool check_digits(const Evaluated& evaluated);
     /// An input that neither the job nor all of its points state.
     void refuse_unstated(const Stated& stated, std::size_t points);
-    /// What the points leave open, and what of the job they leave unused.
-    void finish_points(BudgetJob& job);
+    /// The inputs that what is read now rests on.
+    void set_used(const std::optional<std::set<std::string>>& names);
 
     /// One column of a file of points.
     struct FileColumn {
@@ -129,6 +138,7 @@ private:
     std::map<std::string, QuantityPart> parts_;
     std::vector<bool> has_words_;                       ///< columns of points that are declared, as in the job
     std::map<std::size_t, std::vector<int>> decimals_;  ///< of stated_: one a point, -1 where not stated
+    std::vector<std::vector<bool>> used_;               ///< one a section, or one alone: of stated_
     bool symbols_are_whole_ = true;
 };
 

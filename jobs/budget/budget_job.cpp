@@ -7,10 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "gum/expression/name.h"
 #include "jobs/budget/budget_correlation.h"
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job_statement.h"
+#include "jobs/budget/budget_results.h"
 #include "jobs/budget/budget_statement.h"
 #include "jobs/budget/budget_tables.h"
 #include "jobs/certificate/certificate_archive.h"
@@ -59,8 +61,10 @@ private:
             return;
         }
         read_common(*root);
-        read_model(*root);
-        read_unknowns(*root);
+        const std::vector<JsonObject> parts = read_sections(*root);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            read_equations(parts[i], i);
+        }
         const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
         BudgetInputs inputs(*document_, covariance, files_, *problems_);
         inputs.read(*root);
@@ -70,8 +74,23 @@ private:
         job_.fits = read_fits(*root, *document_, inputs.names(), files_, *problems_);
         model_is_whole_ = model_is_whole_ && problems_->refusals() == problems_before;
         read_correlations(*root, *document_, covariance, positions, inputs.names(), job_, *problems_);
-        read_outputs(*root);
-        inputs.read_points(*root, job_);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const std::size_t before = job_.outputs.size();
+            read_outputs(parts[i]);
+            if (!job_.sections.empty()) {
+                job_.sections[i].outputs = job_.outputs.size() - before;
+            }
+        }
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const std::size_t before = job_.points.size();
+            inputs.read_points(parts[i], used_by(i), job_);
+            if (!job_.sections.empty()) {
+                job_.sections[i].points = job_.points.size() - before;
+            }
+        }
+        if (root->has("points") || root->has("sections")) {
+            inputs.finish_points(job_);
+        }
         job_.input_descriptions = inputs.descriptions();
         job_.input_parts = inputs.parts();
         double p = job_.coverage_probability;
@@ -79,9 +98,12 @@ private:
             p = std::max(p, output.coverage_probability.value_or(p));
         }
         job_.monte_carlo = read_monte_carlo(*root, p, 2, *problems_);
-        check_model(*root, inputs);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            check_model(parts[i], i, inputs);
+        }
+        check_sections(inputs);
         job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
-        read_tables(*root, *document_, inputs, job_, *problems_);
+        read_tables(parts, *document_, inputs, job_, *problems_);
     }
 
     bool is_budget() {
@@ -128,6 +150,127 @@ private:
         reader.read(stated_, {"coverage"});
         read_unused_texts(root);
         reader.read(stated_, {"reporting"});
+    }
+
+    /// The objects that hold equations, results and points: the sections, or the job itself.
+    std::vector<JsonObject> read_sections(const JsonObject& root) {
+        const json* sections = root.find("sections");
+        if (sections == nullptr) {
+            return {root};
+        }
+        for (const char* key : {"model", "solve_for", "outputs", "points", "tables"}) {
+            if (root.has(key)) {
+                root.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"sections\"",
+                            "a job with sections has equations, results and points in them",
+                            "move it into the section that it belongs to");
+            }
+        }
+        std::vector<JsonObject> parts;
+        if (!sections->is_object() || sections->empty() || sections->size() > k_most_sections) {
+            root.refuse(sections->is_object() ? k_wrong_size : k_wrong_type, "sections",
+                        sections->is_object() ? std::to_string(sections->size()) + " sections" : described(*sections),
+                        "must be an object of 1 to " + std::to_string(k_most_sections) + " sections",
+                        "write {\"DC voltage\": {\"model\": [\"name = expression\"]}}");
+            model_is_whole_ = false;
+            return parts;
+        }
+        for (const std::string& name : keys_in_order(*document_, root.pointer("sections"))) {
+            const std::string pointer = child_pointer(root.pointer("sections"), name);
+            if (const auto objection = name_objection(name)) {
+                problems_->refuse(k_text_not_allowed, document_->where(pointer),
+                                  "the name of the section " + *objection,
+                                  "a name has 1 to 256 bytes, no spaces around it and no control or hidden characters",
+                                  "correct the name");
+                continue;
+            }
+            if (!sections->at(name).is_object()) {
+                problems_->refuse(k_wrong_type, document_->where(pointer), described(sections->at(name)),
+                                  "must be an object", "state its model, outputs and points");
+                model_is_whole_ = false;
+                continue;
+            }
+            parts.emplace_back(*document_, pointer, keys_of<SectionStatement>(), *problems_);
+            job_.sections.push_back({.name = name});
+            certificate::LocalisedText& title = job_.section_titles.emplace_back();
+            if (const json* stated = parts.back().find("title"); stated != nullptr && stated->is_object()) {
+                read_localised(*stated, title, true, {&*document_, parts.back().pointer("title"), problems_});
+            } else {
+                title = parts.back().optional_string("title").value_or("");
+            }
+        }
+        return parts;
+    }
+
+    void read_equations(const JsonObject& part, std::size_t section) {
+        const std::size_t equations = job_.model.size();
+        const std::size_t unknowns = job_.unknowns.size();
+        read_model(part);
+        read_unknowns(part);
+        if (!job_.sections.empty()) {
+            job_.sections[section].equations = job_.model.size() - equations;
+            job_.sections[section].unknowns = job_.unknowns.size() - unknowns;
+        }
+    }
+
+    /// Names that the results of a section rest on; nothing for a whole job, whose points state what they like.
+    [[nodiscard]] std::optional<std::set<std::string>> used_by(std::size_t section) const {
+        if (job_.sections.empty()) {
+            return std::nullopt;
+        }
+        std::set<std::string> names;
+        const gum::Budget part = gum::budget_of_section(job_, section);
+        for (const gum::EquationText& equation : part.model) {
+            try {
+                for (const std::string& name : gum::equation_names(equation).uses) {
+                    names.insert(name);
+                }
+            } catch (const gum::DiagnosedError&) {
+                return std::nullopt;  // refused with the model
+            }
+        }
+        if (part.model.empty()) {
+            for (const gum::BudgetOutput& output : part.outputs) {
+                names.insert(gum::canonical_name(output.name));
+            }
+        }
+        return names;
+    }
+
+    /// A result has one name in the whole job, and an input is used in one section at least.
+    void check_sections(const BudgetInputs& inputs) {
+        if (job_.sections.empty() || problems_->refusals() > 0) {
+            return;
+        }
+        std::map<std::string, std::string> seen;
+        for (std::size_t s = 0; s < job_.sections.size(); ++s) {
+            const std::string& section = job_.sections[s].name;
+            const std::string where = document_->where(child_pointer("/sections", section));
+            for (const auto& [name, unit] : budget_results(gum::budget_of_section(job_, s))) {
+                const auto [entry, is_new] = seen.emplace(name, section);
+                if (!is_new) {
+                    problems_->refuse(k_name_of_two, where,
+                                      text::in_quotes(name) + " is a result of the section " +
+                                          text::in_quotes(entry->second) + " too",
+                                      "scope, specifications and tables know a result by its name",
+                                      "give the results of different sections different names");
+                }
+            }
+        }
+        for (const gum::BudgetInput& input : job_.inputs) {
+            bool is_used = false;
+            for (std::size_t s = 0; s < job_.sections.size(); ++s) {
+                is_used = is_used || inputs.is_used(input.name, s);
+            }
+            if (!is_used) {
+                warn_unused(input);
+            }
+        }
+    }
+
+    void warn_unused(const gum::BudgetInput& input) {
+        problems_->warn(k_warn_unused_input, input.where,
+                        "no result depends on the input " + text::in_quotes(input.name),
+                        "an input that is not used has no part in any uncertainty", "remove it, or complete the model");
     }
 
     void read_model(const JsonObject& root) {
@@ -227,16 +370,18 @@ private:
 
     // ---- the model as a whole ---------------------------------------------------------------------------------------
 
-    void check_model(const JsonObject& root, const BudgetInputs& inputs) {
-        if (job_.model.empty()) {
+    void check_model(const JsonObject& root, std::size_t section, const BudgetInputs& inputs) {
+        const gum::Budget own = job_.sections.empty() ? gum::Budget() : gum::budget_of_section(job_, section);
+        const gum::Budget& part = job_.sections.empty() ? job_ : own;
+        if (part.model.empty()) {
             if (model_is_whole_) {
-                check_without_model(root, inputs);
+                check_without_model(root, part, inputs);
             }
             return;
         }
         if (!model_is_whole_ || !inputs.symbols_are_whole()) {
             // Names and units are not known: what can be said is whether the equations are equations.
-            for (const gum::EquationText& equation : job_.model) {
+            for (const gum::EquationText& equation : part.model) {
                 try {
                     (void)gum::equation_names(equation);
                 } catch (const gum::DiagnosedError& error) {
@@ -246,12 +391,12 @@ private:
             return;
         }
         const bool is_accepted = problems_->refusals() == 0;
-        std::vector<gum::InputSymbol> symbols = gum::model_inputs(job_);
+        std::vector<gum::InputSymbol> symbols = gum::model_inputs(part);
         if (!is_accepted) {
             // The inputs that were refused for what they state have a name and a unit all the same.
             symbols = inputs.symbols();
             std::map<std::string, std::optional<double>> constants;
-            for (const gum::InputSymbol& known : gum::model_inputs(job_)) {
+            for (const gum::InputSymbol& known : gum::model_inputs(part)) {
                 constants.emplace(known.name, known.constant);
             }
             for (gum::InputSymbol& symbol : symbols) {
@@ -266,17 +411,14 @@ private:
         }
         try {
             const gum::EquationSystem system =
-                gum::EquationSystem::compile(job_.model, symbols, job_.unknowns, gum::model_outputs(job_));
+                gum::EquationSystem::compile(part.model, symbols, part.unknowns, gum::model_outputs(part));
             for (const gum::Diagnostic& warning : system.warnings()) {
                 problems_->warn(InputCode{warning.code, {}}, warning.where, warning.what, warning.rule, warning.action);
             }
             for (const std::size_t unused : system.unused_inputs()) {
-                if (is_accepted && unused < job_.inputs.size() &&
+                if (is_accepted && job_.sections.empty() && unused < job_.inputs.size() &&
                     !inputs.is_read_by_specification(job_.inputs[unused].name)) {
-                    problems_->warn(k_warn_unused_input, job_.inputs[unused].where,
-                                    "no result depends on the input " + text::in_quotes(job_.inputs[unused].name),
-                                    "an input that is not used has no part in any uncertainty",
-                                    "remove it, or complete the model");
+                    warn_unused(job_.inputs[unused]);
                 }
             }
         } catch (const gum::DiagnosedError& error) {
@@ -284,8 +426,8 @@ private:
         }
     }
 
-    void check_without_model(const JsonObject& root, const BudgetInputs& inputs) {
-        if (!job_.unknowns.empty()) {
+    void check_without_model(const JsonObject& root, const gum::Budget& part, const BudgetInputs& inputs) {
+        if (!part.unknowns.empty()) {
             root.refuse(k_nothing_to_evaluate, "solve_for", "unknowns without equations",
                         "an unknown is solved for from equations \"0 = expression\"", "add the model");
         }
@@ -296,6 +438,11 @@ private:
             }
             return;
         }
+        if (!job_.sections.empty() && part.outputs.empty()) {
+            root.refuse(k_nothing_to_evaluate, "outputs", "a section without equations and without results",
+                        "a section without a model names inputs or parameters of fits as its results",
+                        "add \"outputs\", or a model");
+        }
         std::map<std::string, gum::Unit> known;
         for (const gum::InputSymbol& symbol : inputs.symbols()) {
             known.emplace(symbol.name, symbol.unit);
@@ -305,7 +452,7 @@ private:
                 known.emplace(parameter.name, parameter.unit);
             }
         }
-        for (const gum::BudgetOutput& output : job_.outputs) {
+        for (const gum::BudgetOutput& output : part.outputs) {
             const auto found = known.find(output.name);
             if (found == known.end()) {
                 if (inputs.symbols_are_whole() && problems_->refusals() == 0) {
@@ -347,6 +494,19 @@ std::span<const JobKeys> budget_job_keys() {
 
 BudgetJob read_budget_job(const FileSource& source, const std::string& job_file) {
     return Reader(source, job_file).result();
+}
+
+BudgetJob read_undivided_budget_job(const FileSource& source, const std::string& job_file) {
+    BudgetJob job = read_budget_job(source, job_file);
+    if (!job.sections.empty()) {
+        ProblemList problems(job_file);
+        problems.refuse(k_sections_of_budget, text::visible(job_file) + "#/sections",
+                        std::to_string(job.sections.size()) + " sections",
+                        "what builds on a budget takes the results of one model",
+                        "put the section that is meant into a job of its own");
+        throw gum::InputError(problems.refused());
+    }
+    return job;
 }
 
 BudgetJob read_budget_job(const std::filesystem::path& job_file) {

@@ -30,6 +30,8 @@ struct BudgetJob : gum::Budget {
     /// What points have beside their inputs, and then the inputs that tables and limits name.
     std::vector<certificate::PointColumn> point_columns;
     std::vector<certificate::TableRequest> tables;
+    /// Titles of the sections, one a section of the budget; empty: the name of the section.
+    std::vector<certificate::LocalisedText> section_titles;
     /// Units of results by their names, where a table shows a point in others; one a point, or empty.
     std::vector<std::map<std::string, gum::Unit>> point_units;
     /// What inputs and outputs are, by their names: "length of the standard"; those without are not here.
@@ -52,5 +54,11 @@ struct BudgetJob : gum::Budget {
 /// \throws StorageError  if a file cannot be read
 [[nodiscard]] BudgetJob read_budget_job(const std::filesystem::path& job_file);
 [[nodiscard]] BudgetJob read_budget_job(const FileSource& source, const std::string& job_file);
+
+/// The same for a budget that others build upon, which has one set of results: the budget of a fixture, of a reference
+/// value, of one side of a comparison.
+/// \throws InputError    as read_budget_job(), and GC-INPUT-0364 for a budget with sections
+/// \throws StorageError  if a file cannot be read
+[[nodiscard]] BudgetJob read_undivided_budget_job(const FileSource& source, const std::string& job_file);
 
 }  // namespace gumcert::jobs

@@ -12,6 +12,8 @@
 
 namespace gumcert::jobs {
 
+inline constexpr std::size_t k_most_sections = 50;
+
 // What the file of a budget job says, and its description (jobs/job_fields.h).
 
 /// An unknown of an implicit equation.
@@ -29,6 +31,13 @@ struct OutputStatement {
 /// One table of results as the job wants it; read by jobs/budget/budget_tables.h.
 struct TableStatement {};
 
+/// A part of a certificate with equations and points of its own.
+struct SectionStatement {
+    std::vector<UnknownStatement> solve_for;
+    std::vector<OutputStatement> outputs;
+    std::vector<TableStatement> tables;
+};
+
 struct BudgetStatement {
     BudgetJob job;
     std::vector<InputStatement> inputs;
@@ -37,6 +46,7 @@ struct BudgetStatement {
     std::vector<UnknownStatement> solve_for;
     std::vector<OutputStatement> outputs;
     std::vector<TableStatement> tables;
+    std::vector<SectionStatement> sections;
     MonteCarloStatement monte_carlo;
 };
 
@@ -79,22 +89,14 @@ void describe(Archive& a, TableStatement&) {
 }
 
 template <class Archive>
-void describe(Archive& a, BudgetStatement& r) {
-    describe_head(a, k_budget_kind);
-    a("title", r.job.title, Line{1000}, "Free text.");
-    a("coverage_probability", r.job.coverage_probability, In{k_coverage_probability},
-      "Of all results that do not state their own; 0.9545 when left out.");
-    describe_certificate(a);
-    a.part("monte_carlo", r.monte_carlo,
-           "Monte Carlo beside the law of propagation; left out: only where the law of propagation does not hold.");
-    describe_notes(a);
+void describe_model(Archive& a) {
     a.by_code("model", Either{k_equation, Several{k_equation}},
               "name = expression, or 0 = expression; left out: the inputs and the parameters of fits are the results.");
-    a.named("inputs", r.inputs, "What is known of each input quantity, under its name.", {.most = k_most_inputs});
-    a.by_code("correlations", Several{Row{AnyText{}, AnyText{}, In{between(-1.0, 1.0, "")}}},
-              "Two names of inputs and their correlation coefficient.");
-    a.part("covariance", r.covariance, "Inputs and their covariance matrix.");
-    a.by_code("simultaneous", Several{Several{AnyText{}, 2}, 0}, "Names of inputs that were observed together.");
+}
+
+/// What results there are, and where.
+template <class Archive, class Struct>
+void describe_results(Archive& a, Struct& r) {
     a.named("solve_for", r.solve_for, "Unknowns of implicit equations, by name.");
     a.named("outputs", r.outputs, "Results that are asked for, by name.");
     a.by_hand(
@@ -117,6 +119,37 @@ void describe(Archive& a, BudgetStatement& r) {
         "A table of test points: under the names of inputs their values, or whatever differs; point is the name "
         "of the point.");
     a.list("tables", r.tables, "Tables of results; one with all points when left out.", {.least = 1, .most = 100});
+}
+
+template <class Archive>
+void describe(Archive& a, SectionStatement& r) {
+    a.by_hand("title", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
+              "What certificates call it; the name of the section when left out.");
+    describe_model(a);
+    describe_results(a, r);
+}
+
+template <class Archive>
+void describe(Archive& a, BudgetStatement& r) {
+    describe_head(a, k_budget_kind);
+    a("title", r.job.title, Line{1000}, "Free text.");
+    a("coverage_probability", r.job.coverage_probability, In{k_coverage_probability},
+      "Of all results that do not state their own; 0.9545 when left out.");
+    describe_certificate(a);
+    a.part("monte_carlo", r.monte_carlo,
+           "Monte Carlo beside the law of propagation; left out: only where the law of propagation does not hold.");
+    describe_notes(a);
+    describe_model(a);
+    a.named("inputs", r.inputs, "What is known of each input quantity, under its name.", {.most = k_most_inputs});
+    a.by_code("correlations", Several{Row{AnyText{}, AnyText{}, In{between(-1.0, 1.0, "")}}},
+              "Two names of inputs and their correlation coefficient.");
+    a.part("covariance", r.covariance, "Inputs and their covariance matrix.");
+    a.by_code("simultaneous", Several{Several{AnyText{}, 2}, 0}, "Names of inputs that were observed together.");
+    describe_results(a, r);
+    a.named("sections", r.sections,
+            "In place of model, solve_for, outputs, points and tables: several such parts, by name, that share inputs, "
+            "correlations and fits. Names of results differ between them.",
+            {.least = 1, .most = k_most_sections});
     a.named("fits", r.fits, "Least-squares fits whose parameters are used like inputs.");
     a.part("reporting", r.job, "How numbers are reported.", [](auto& in, BudgetJob& job) {
         constexpr Words<bool, 2> k_degrees{{{"exact", false}, {"truncated", true}}};

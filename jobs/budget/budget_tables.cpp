@@ -44,13 +44,23 @@ bool is_of_result(std::string_view word) {
 class TableReader {
 public:
     TableReader(const JsonDocument& document, const BudgetInputs& inputs, BudgetJob& job, ProblemList& problems)
-        : document_(document), inputs_(inputs), job_(job), problems_(problems), results_(budget_results(job)) {}
+        : document_(document), inputs_(inputs), job_(job), problems_(problems) {
+        if (job.sections.empty()) {
+            results_.push_back(budget_results(job));
+        }
+        for (std::size_t s = 0; s < job.sections.size(); ++s) {
+            results_.push_back(budget_results(gum::budget_of_section(job, s)));
+        }
+    }
 
-    void read(const JsonObject& root) {
-        if (const json* list = root.find("tables")) {
-            read_list(*list, root.pointer("tables"));
-        } else if (wants_table()) {
-            add_default(TableRequest(), document_.where("/points"));
+    void read(const std::vector<JsonObject>& parts) {
+        for (section_ = 0; section_ < parts.size(); ++section_) {
+            const JsonObject& part = parts[section_];
+            if (const json* list = part.find("tables")) {
+                read_list(*list, part.pointer("tables"));
+            } else if (wants_table()) {
+                add_default(TableRequest(), document_.where(part.pointer("points")));
+            }
         }
         if (problems_.refusals() == 0) {
             add_inputs();
@@ -65,12 +75,39 @@ private:
     const BudgetInputs& inputs_;
     BudgetJob& job_;
     ProblemList& problems_;
-    std::vector<std::pair<std::string, Unit>> results_;
+    std::vector<std::vector<std::pair<std::string, Unit>>> results_;  ///< one a section, or one alone
+    std::size_t section_ = 0;                                         ///< that is read
+
+    /// The points of a section, or of the whole job.
+    [[nodiscard]] std::pair<std::size_t, std::size_t> points_of(std::size_t section) const {
+        if (job_.sections.empty()) {
+            return {0, job_.points.size()};
+        }
+        const std::size_t first = gum::first_point_of(job_, section);
+        return {first, first + job_.sections[section].points};
+    }
+    [[nodiscard]] bool has_points() const {
+        const auto [first, end] = points_of(section_);
+        return end > first;
+    }
+    [[nodiscard]] std::size_t section_of(std::size_t point) const {
+        return gum::section_of_point(job_, point).value_or(0);
+    }
 
     /// Columns that state something for people, not limits alone.
     [[nodiscard]] bool wants_table() const {
-        return !job_.points.empty() &&
-               (!job_.point_columns.empty() || !job_.input_parts.empty() || !job_.output_parts.empty());
+        return has_points() && (!job_.sections.empty() || !job_.point_columns.empty() || !job_.input_parts.empty() ||
+                                !job_.output_parts.empty());
+    }
+    /// A column of points that has something at the points of this section.
+    [[nodiscard]] bool is_here(const PointColumn& c) const {
+        const auto [first, end] = points_of(section_);
+        return job_.sections.empty() || std::any_of(c.printed.begin() + static_cast<std::ptrdiff_t>(first),
+                                                    c.printed.begin() + static_cast<std::ptrdiff_t>(end),
+                                                    [](const std::string& text) { return !text.empty(); });
+    }
+    [[nodiscard]] bool is_here(const gum::BudgetInput& i) const {
+        return job_.sections.empty() || inputs_.is_used(i.name, section_);
     }
 
     // ---- names ------------------------------------------------------------------------------------------------------
@@ -88,10 +125,12 @@ private:
         }
         return std::nullopt;
     }
-    [[nodiscard]] const Unit* result(std::string_view name) const {
+    [[nodiscard]] const Unit* result(std::string_view name) const { return result(name, section_); }
+    [[nodiscard]] const Unit* result(std::string_view name, std::size_t section) const {
+        const auto& results = results_[section];
         const auto found =
-            std::find_if(results_.begin(), results_.end(), [&](const auto& known) { return known.first == name; });
-        return found == results_.end() ? nullptr : &found->second;
+            std::find_if(results.begin(), results.end(), [&](const auto& known) { return known.first == name; });
+        return found == results.end() ? nullptr : &found->second;
     }
     [[nodiscard]] QuantityPart part_of_result(const std::string& name) const {
         const auto found = job_.output_parts.find(name);
@@ -102,17 +141,17 @@ private:
     [[nodiscard]] std::vector<std::string> with_role(std::string_view role) const {
         std::vector<std::string> names;
         for (const PointColumn& c : job_.point_columns) {
-            if (c.role == role) {
+            if (c.role == role && is_here(c)) {
                 names.push_back(c.name);
             }
         }
         for (const gum::BudgetInput& i : job_.inputs) {
             if (const auto part = job_.input_parts.find(i.name);
-                part != job_.input_parts.end() && part->second.role == role) {
+                part != job_.input_parts.end() && part->second.role == role && is_here(i)) {
                 names.push_back(i.name);
             }
         }
-        for (const auto& [name, unit] : results_) {
+        for (const auto& [name, unit] : results_[section_]) {
             if (part_of_result(name).role == role) {
                 names.push_back(name);
             }
@@ -125,7 +164,7 @@ private:
         for (const PointColumn& c : job_.point_columns) {
             names.push_back(c.name);
         }
-        for (const auto& [name, unit] : results_) {
+        for (const auto& [name, unit] : results_[section_]) {
             names.push_back(name);
         }
         for (const gum::BudgetInput& i : job_.inputs) {
@@ -185,10 +224,10 @@ private:
                              "write [{\"columns\": [\"reference\", \"indication\", \"error\", \"U\"]}]");
             return;
         }
-        if (job_.points.empty() && document_.value.contains("points")) {
+        if (!has_points() && document_.value.contains("points")) {
             return;  // the table of points was refused
         }
-        if (job_.points.empty()) {
+        if (!has_points()) {
             problems_.refuse(k_table_column, document_.where(pointer), "tables in a job without points",
                              "a table shows the points of a job", "state the points, or remove the tables");
             return;
@@ -407,7 +446,7 @@ private:
 
     void group_by_range(TableRequest& table) const {
         const PointColumn* const range = column(k_range);
-        if (table.group_by.empty() && range != nullptr && has_words(*range)) {
+        if (table.group_by.empty() && range != nullptr && has_words(*range) && is_here(*range)) {
             table.group_by = range->name;
         }
     }
@@ -433,7 +472,7 @@ private:
                 }
             };
             for (const PointColumn& c : job_.point_columns) {
-                if (!is_limit(c.name) && !is_choice(c.name) && c.name != table.group_by && has_words(c)) {
+                if (!is_limit(c.name) && !is_choice(c.name) && c.name != table.group_by && has_words(c) && is_here(c)) {
                     add(c.name);
                 }
             }
@@ -445,11 +484,11 @@ private:
                 }
             }
             for (const PointColumn& c : job_.point_columns) {
-                if (!is_limit(c.name) && !has_words(c)) {
+                if (!is_limit(c.name) && !has_words(c) && is_here(c)) {
                     add(c.name);
                 }
             }
-            for (const auto& [name, unit] : results_) {
+            for (const auto& [name, unit] : results_[section_]) {
                 if (part_of_result(name).stage != stage) {
                     continue;
                 }
@@ -515,6 +554,9 @@ private:
                                                    : "correct the name of the group");
             }
         }
+        if (!job_.sections.empty()) {
+            table.section = job_.sections[section_].name;
+        }
         job_.tables.push_back(std::move(table));
     }
 
@@ -557,6 +599,11 @@ private:
             added.unit = stated.unit.text();
             added.printed_unit = gum::unit_for_people(added.unit);
             for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                if (!job_.sections.empty() && !inputs_.is_used(stated.name, section_of(p))) {
+                    added.values.emplace_back();
+                    added.printed.emplace_back();
+                    continue;
+                }
                 const double value = stated.unit.from_si(gum::input_total(gum::input_at(job_, i, p)).value);
                 added.values.emplace_back(value);
                 const std::optional<int> decimals = inputs_.decimals(stated.name, p);
@@ -601,6 +648,12 @@ private:
             std::vector<std::string> without;
             std::string problem;
             for (std::size_t p = 0; p < points.points.size() && problems_.refusals() == 0; ++p) {
+                const auto& results = results_[section_of(p)];
+                if (!job_.sections.empty() && std::none_of(results.begin(), results.end(), [&](const auto& known) {
+                        return certificate::is_named(s.results, known.first);
+                    })) {
+                    continue;
+                }
                 const certificate::LimitsAt limits = certificate::limits_at(s, certificate::lookup_at(points, p));
                 if (!limits.problem.empty()) {
                     problem = without.empty() ? limits.problem : problem;
@@ -619,6 +672,9 @@ private:
     }
 
     [[nodiscard]] bool holds(const TableRequest& table, std::size_t point) const {
+        if (!table.section.empty() && table.section != job_.sections[section_of(point)].name) {
+            return false;
+        }
         return std::all_of(table.where.begin(), table.where.end(), [&](const TableRequest::RowChoice& choice) {
             const PointColumn* const c = column(choice.column);
             return c != nullptr && point < c->printed.size() && c->printed[point] == choice.is;
@@ -689,7 +745,7 @@ private:
                     }
                     const Unit unit = Unit::parse(stated.unit);
                     for (const ShownColumn& c : table.columns) {
-                        const Unit* const own = c.show == "value" ? result(c.of) : nullptr;
+                        const Unit* const own = c.show == "value" ? result(c.of, section_of(p)) : nullptr;
                         if (own == nullptr || (!stated.of.empty() && stated.of != c.of) ||
                             !(own->dimension() == unit.dimension())) {
                             continue;
@@ -709,17 +765,17 @@ private:
 
 }  // namespace
 
-void read_tables(const JsonObject& root, const JsonDocument& document, const BudgetInputs& inputs, BudgetJob& job,
-                 ProblemList& problems) {
+void read_tables(const std::vector<JsonObject>& parts, const JsonDocument& document, const BudgetInputs& inputs,
+                 BudgetJob& job, ProblemList& problems) {
     const bool has_limits =
         job.certificate && std::any_of(job.certificate->specifications.begin(), job.certificate->specifications.end(),
                                        [](const auto& s) { return s.limits.has_value(); });
-    const bool is_wanted = root.has("tables") || has_limits || !job.point_columns.empty() || !job.input_parts.empty() ||
-                           !job.output_parts.empty();
+    const bool is_wanted = parts.empty() || !job.sections.empty() || parts.front().has("tables") || has_limits ||
+                           !job.point_columns.empty() || !job.input_parts.empty() || !job.output_parts.empty();
     if (!is_wanted || problems.refusals() > 0) {
         return;  // nothing to show; or names and units are not known
     }
-    TableReader(document, inputs, job, problems).read(root);
+    TableReader(document, inputs, job, problems).read(parts);
 }
 
 }  // namespace gumcert::jobs

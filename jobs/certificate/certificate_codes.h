@@ -32,6 +32,7 @@ inline constexpr InputCode k_certificate_placeholder{
     "GC-CERT-0122", "a sentence has a placeholder that is not known, lacks one, or has a number"};
 inline constexpr InputCode k_certificate_contradiction{"GC-CERT-0123", "two statements exclude each other"};
 inline constexpr InputCode k_certificate_any_result{"GC-CERT-0124", "a line of the scope that covers any result"};
+inline constexpr InputCode k_certificate_section{"GC-CERT-0125", "a section names what job or certificate do not have"};
 
 inline constexpr std::array k_certificate_codes{k_certificate_unknown_key,
                                                 k_certificate_missing_key,
@@ -56,6 +57,7 @@ inline constexpr std::array k_certificate_codes{k_certificate_unknown_key,
                                                 k_certificate_profile,
                                                 k_certificate_placeholder,
                                                 k_certificate_contradiction,
-                                                k_certificate_any_result};
+                                                k_certificate_any_result,
+                                                k_certificate_section};
 
 }  // namespace gumcert::jobs

@@ -1,5 +1,8 @@
 #include "jobs/certificate/certificate_statement.h"
 
+#include <algorithm>
+#include <set>
+
 #include "encoding/base64.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
@@ -57,8 +60,44 @@ void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
     accreditation.symbol_base64 = encoding::base64(file->bytes);
 }
 
+/// Sections are those of the job, and their standards rows of the certificate.
+void check_sections(const CertificateData& data, const json& job, const CertificatePlace& place) {
+    const auto known = job.find("sections");
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < data.sections.size(); ++i) {
+        const certificate::SectionData& section = data.sections[i];
+        const CertificatePlace here = place.below("/sections").child(i);
+        if (known == job.end() || !known->is_object() || !known->contains(section.section)) {
+            here.below("/section")
+                .refuse(k_certificate_section, "the job has no section " + text::in_quotes(section.section),
+                        "certificate data name sections by their names in the job",
+                        "correct the name, or remove the entry");
+        }
+        if (!seen.insert(section.section).second) {
+            here.below("/section")
+                .refuse(k_certificate_repeated,
+                        "the section " + text::in_quotes(section.section) + " for the second time",
+                        "a section is stated once", "put the two together");
+        }
+        for (std::size_t s = 0; s < section.standards.size(); ++s) {
+            const bool is_row = std::any_of(data.standards.begin(), data.standards.end(), [&](const auto& row) {
+                return row.identification == section.standards[s];
+            });
+            if (!is_row) {
+                here.below("/standards")
+                    .child(s)
+                    .refuse(k_certificate_section,
+                            "no standard has the identification " + text::in_quotes(section.standards[s]),
+                            "a section names rows of \"standards\" by their identification",
+                            "correct it, or add the row to \"standards\"");
+            }
+        }
+    }
+}
+
+/// \param job        that the data belong to
 /// \param as_stated  of the object
-std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace& as_stated,
+std::optional<CertificateData> read_data(JobFiles& files, const json& job, const CertificatePlace& as_stated,
                                          CertificateCompletion* completion) {
     const std::size_t refusals = as_stated.problems->refusals();
     std::optional<JsonDocument> completed;
@@ -71,6 +110,7 @@ std::optional<CertificateData> read_data(JobFiles& files, const CertificatePlace
     CertificateData data;
     CertificateArchive::read_struct_at(data, place);
     check_lists(data, place);
+    check_sections(data, job, place);
     if (!place.document->value.at(json::json_pointer(place.pointer)).contains("status")) {
         data.status = data.accreditation ? "accredited" : "specimen";
     }
@@ -98,7 +138,7 @@ std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocum
     }
     const CertificatePlace place{&job, "/certificate", &problems};
     if (found->is_object()) {
-        return read_data(files, place, completion);
+        return read_data(files, job.value, place, completion);
     }
     if (!found->is_string()) {
         place.refuse(k_wrong_type, described(*found), "must be an object or the name of a file", "correct the value");
@@ -119,7 +159,7 @@ std::optional<CertificateData> read_certificate(JobFiles& files, const JsonDocum
                     "write { \"key\": value, … }");
         return std::nullopt;
     }
-    return read_data(files, root, completion);
+    return read_data(files, job.value, root, completion);
 }
 
 std::vector<certificate::Waiver> parse_waivers(std::string_view bytes, const std::string& file) {

@@ -132,7 +132,7 @@ std::shared_ptr<const BudgetJob> ComparisonBudgets::read(const std::string& name
         return nullptr;
     }
     try {
-        budget = std::make_shared<const BudgetJob>(read_budget_job(source_, file->problems->file()));
+        budget = std::make_shared<const BudgetJob>(read_undivided_budget_job(source_, file->problems->file()));
         files_.add(budget->files, budget->warnings);
     } catch (const gum::InputError& error) {
         files_.add(error);

@@ -127,7 +127,7 @@ std::vector<ReferencePoint> reference_points(std::span<const engine::ReferenceRe
 
 BudgetJob read_reference_budget(const FileSource& source, const std::string& file,
                                 std::span<const ReferencePoint> points, std::span<const double> angles_deg) {
-    BudgetJob budget = read_budget_job(source, file);
+    BudgetJob budget = read_undivided_budget_job(source, file);
     ProblemList problems(file);
     if (!budget.points.empty()) {
         problems.refuse(k_reference_budget_points, text::visible(file) + "#/points",

@@ -265,7 +265,7 @@ void read_fixture_budget(const RotaryTableReading& reading, const FixtureNames& 
     }
     reading.job().fixture_budget_file = *name;
     try {
-        auto budget = std::make_shared<const BudgetJob>(read_budget_job(source, file->problems->file()));
+        auto budget = std::make_shared<const BudgetJob>(read_undivided_budget_job(source, file->problems->file()));
         reading.files.add(budget->files, budget->warnings);
         if (names.is_whole) {
             check_points(*budget, names, *file->problems);

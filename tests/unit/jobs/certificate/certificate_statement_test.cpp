@@ -56,9 +56,9 @@ using Files = std::map<std::string, std::string>;
 
 /// A length at one point, with what the limits of the complete data refer to.
 const std::string k_length =
-    R"("inputs": {"l": {"value": 1, "u": 0.1}}, "points": {
+    R"("inputs": {"l": {"value": 1, "u": 0.1}}, "sections": {"length": {"outputs": {"l": {}}, "points": {
         "columns": {"range": "text", "nominal": "mm", "V_s": "mm", "L_n": "mm"},
-        "list": [{"l": 1, "range": "10 V", "nominal": 50, "V_s": 50, "L_n": 5}]})";
+        "list": [{"l": 1, "range": "10 V", "nominal": 50, "V_s": 50, "L_n": 5}]}}})";
 
 /// Certificate data in a file beside a small budget job.
 CertificateData read(const std::string& data, Files files = {}) {
@@ -117,6 +117,20 @@ TEST(CertificateStatement, NamesTheFilesOfTheJob) {
                 ElementsAre("job.json", "certificate.json", "symbol.png", "own.json"));
     files.erase("symbol.png");
     EXPECT_THROW(static_cast<void>(read_budget_job(MemoryFileSource(files), "job.json")), gum::StorageError);
+}
+
+TEST(CertificateStatement, KnowsTheSectionsOfTheJob) {
+    const auto told = [](const json& sections) {
+        std::vector<std::string> codes;
+        for (const gum::Diagnostic& one : refusals(json{{"sections", sections}})) {
+            codes.push_back(one.code);
+        }
+        return codes;
+    };
+    EXPECT_THAT(told({{{"section", "length"}}}), testing::IsEmpty());
+    EXPECT_THAT(told({{{"section", "width"}}}), ElementsAre("GC-CERT-0125"));
+    EXPECT_THAT(told({{{"section", "length"}, {"standards", {"STD-9"}}}}), ElementsAre("GC-CERT-0125"));
+    EXPECT_THAT(told({{{"section", "length"}}, {{"section", "length"}}}), ElementsAre("GC-CERT-0114"));
 }
 
 TEST(CertificateStatement, NeedsNothing) {

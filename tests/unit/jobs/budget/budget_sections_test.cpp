@@ -1,0 +1,127 @@
+// Sections of a budget job: what the reader makes of them, and what it refuses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "gum/budget/evaluate_budget.h"
+#include "jobs/budget/budget_job.h"
+#include "jobs/input_codes.h"
+#include "tests/support/budget_campaign.h"
+
+namespace gumcert::jobs {
+namespace {
+
+using test::budget_refusals;
+using test::read_budget;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const std::string k_inputs =
+    R"j("inputs": {"V_x": {"unit": "V", "role": "indication"}, "V_s": {"unit": "V", "constant": true, "role": "reference"},
+                   "R_x": {"unit": "ohm"}, "d": {"value": 0, "u": 0.001}})j";
+const std::string k_voltage =
+    R"j("DC": {"title": {"en": "DC voltage", "de": "Gleichspannung"}, "model": ["E = V_x*(1 + d) - V_s"],
+        "outputs": {"E": {"unit": "mV", "role": "error"}},
+        "points": {"columns": {"range": "text"},
+                   "list": [{"V_x": {"value": 1, "u": 1e-6}, "V_s": 1, "range": "1 V"},
+                            {"V_x": {"value": 2, "u": 1e-6}, "V_s": 2, "range": "10 V"}]}})j";
+const std::string k_resistance =
+    R"j("R": {"model": ["G = 1/(R_x*(1 + d))"],
+        "points": {"columns": {"note": "text", "range": "text"},
+                   "list": [{"R_x": {"value": 10, "u": 0.001}, "note": "warm"}, {"R_x": {"value": 20, "u": 0.002}, "range": "20 ohm"}]}})j";
+const std::string k_constant = R"j("d alone": {"outputs": {"d": {}}})j";
+
+std::string job_with(const std::vector<std::string>& sections) {
+    std::string text = k_inputs + R"j(, "sections": {)j";
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+        text += (i == 0 ? "" : ", ") + sections[i];
+    }
+    return text + "}";
+}
+
+std::vector<std::string> told(const std::string& keys) {
+    std::vector<std::string> codes;
+    for (const gum::Diagnostic& one : budget_refusals(keys)) {
+        codes.push_back(one.code);
+    }
+    return codes;
+}
+
+TEST(BudgetSections, AreReadWithTheirPointsAndTables) {
+    const BudgetJob job = read_budget(job_with({k_voltage, k_resistance, k_constant}));
+    ASSERT_EQ(job.sections.size(), 3U);
+    EXPECT_EQ(job.sections[0].points, 2U);
+    EXPECT_EQ(job.sections[1].equations, 1U);
+    EXPECT_EQ(job.sections[2].equations, 0U);
+    EXPECT_EQ(job.sections[2].outputs, 1U);
+    EXPECT_EQ(job.section_titles[0].in("de"), "Gleichspannung");
+    EXPECT_TRUE(job.section_titles[1].empty());
+    ASSERT_EQ(job.points.size(), 4U);
+    EXPECT_EQ(job.points[2].name, "3") << "numbered through the job";
+    ASSERT_EQ(job.tables.size(), 2U) << "one of each section that has points";
+    EXPECT_EQ(job.tables[1].section, "R");
+    std::vector<std::string> shown;
+    for (const certificate::ShownColumn& column : job.tables[1].columns) {
+        shown.push_back(column.show + ":" + column.of);
+    }
+    EXPECT_THAT(shown, ElementsAre("column:note", "value:G", "U:G")) << "nothing of the other section";
+    const auto range = job.point_columns.front();
+    EXPECT_THAT(range.printed, ElementsAre("1 V", "10 V", "", "20 ohm"));
+    const gum::BudgetResult result = gum::evaluate_budget(job, 1);
+    EXPECT_THAT(gum::budget_result_names(job, result), ElementsAre("E[1]", "E[2]", "G[3]", "G[4]", "d"));
+}
+
+TEST(BudgetSections, ShareColumnsThatAreDeclaredAlike) {
+    EXPECT_THAT(told(job_with({k_voltage, k_resistance})), IsEmpty());
+    std::string other = k_resistance;
+    other.replace(other.find(R"("range": "text")"), 15, R"("range": "ohm")");
+    other.replace(other.find(R"("range": "20 ohm")"), 17, R"("range": 20)");
+    EXPECT_THAT(told(job_with({k_voltage, other})), testing::Contains(k_point_column.code));
+}
+
+TEST(BudgetSections, AnInputIsStatedWhereItIsUsed) {
+    const std::string silent =
+        R"j("R": {"model": ["G = 1/R_x"], "points": {"list": [{"R_x": {"value": 10, "u": 0.1}}, {}]}})j";
+    EXPECT_THAT(told(job_with({k_voltage, silent})), ElementsAre(k_no_statement.code));
+    const std::string alone = R"j("R": {"model": ["G = 1/R_x"]})j";
+    EXPECT_THAT(told(job_with({k_voltage, alone})), ElementsAre(k_no_statement.code))
+        << "no points, and the job says nothing";
+    EXPECT_THAT(told(job_with({k_voltage})), ElementsAre(k_no_statement.code)) << "R_x is stated nowhere";
+}
+
+TEST(BudgetSections, StandInPlaceOfWhatTheJobWouldHave) {
+    for (const char* key : {R"("model": ["y = d"])", R"("outputs": {"d": {}})", R"("points": [{"d": 1}])",
+                            R"("solve_for": {"z": {"start": 1}})", R"("tables": [{}])"}) {
+        EXPECT_THAT(told(job_with({k_voltage, k_resistance}) + ", " + key), testing::Contains(k_two_statements.code))
+            << key;
+    }
+    EXPECT_THAT(told(k_inputs + R"j(, "sections": {})j"), testing::Contains(k_wrong_size.code));
+    EXPECT_THAT(told(k_inputs + R"j(, "sections": [])j"), testing::Contains(k_wrong_type.code));
+    EXPECT_THAT(told(job_with({k_voltage, R"("R": 1)"})), testing::Contains(k_wrong_type.code));
+}
+
+TEST(BudgetSections, AreRefusedWhereOneSetOfResultsIsExpected) {
+    const MemoryFileSource files({{"job.json", test::budget_text(job_with({k_voltage, k_resistance}))},
+                                  {"one.json", test::budget_text(R"("inputs": {"d": {"value": 1, "u": 0.1}})")}});
+    EXPECT_EQ(read_undivided_budget_job(files, "one.json").inputs.size(), 1U);
+    try {
+        (void)read_undivided_budget_job(files, "job.json");
+        FAIL() << "sections are accepted";
+    } catch (const gum::InputError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, k_sections_of_budget.code);
+    }
+}
+
+TEST(BudgetSections, HaveResultsOfDifferentNamesAndNameThemWithoutAModel) {
+    const std::string twin = R"j("AC": {"model": ["E = R_x"], "points": [{"R_x": {"value": 1, "u": 0.1}}]})j";
+    EXPECT_THAT(told(job_with({k_voltage, twin})), ElementsAre(k_name_of_two.code));
+    EXPECT_THAT(told(job_with({k_voltage, k_resistance, R"j("nothing": {})j"})),
+                ElementsAre(k_nothing_to_evaluate.code));
+    EXPECT_THAT(told(job_with({k_voltage, k_resistance, R"j("nothing": {"outputs": {"x": {}}})j"})),
+                ElementsAre(k_output_unknown.code));
+}
+
+}  // namespace
+}  // namespace gumcert::jobs
