@@ -42,12 +42,25 @@ JobStatements::JobStatements(const reports::EvaluationRecord& record) {
     if (const auto inputs = job.find("inputs"); inputs != job.end() && inputs->is_object()) {
         inputs_ = *inputs;
     }
-    const auto points = job.find("points");
-    if (points == job.end()) {
+    read_points(job, record);
+    for (const reports::SectionSummary& section : record.sections) {  // in the order in which their points are numbered
+        const auto sections = job.find("sections");
+        if (sections != job.end() && sections->is_object() && sections->contains(section.name)) {
+            read_points(sections->at(section.name), record);
+        }
+        first_ += static_cast<std::size_t>(std::max<std::int64_t>(section.points, 0));
+    }
+}
+
+void JobStatements::read_points(const json& part, const reports::EvaluationRecord& record) {
+    const auto points = part.is_object() ? part.find("points") : part.end();
+    if (!part.is_object() || points == part.end()) {
         return;
     }
     if (points->is_array()) {
         read_array(*points);
+    } else if (points->is_object() && points->contains("list") && points->at("list").is_array()) {
+        read_array(points->at("list"));
     } else if (points->is_object() && points->contains("file") && points->at("file").is_string()) {
         for (const reports::InputFile& file : record.job_files) {
             const std::optional<std::string> bytes =
@@ -65,7 +78,7 @@ void JobStatements::read_array(const json& points) {
             continue;
         }
         json stated = json::object();
-        std::string name = std::to_string(i + 1);
+        std::string name = std::to_string(first_ + i + 1);
         for (const auto& [key, value] : points[i].items()) {
             if (key == "point") {
                 name = value.is_string() ? value.get<std::string>() : value.dump();
@@ -115,7 +128,7 @@ void JobStatements::read_table(const std::string& bytes) {
         }
     }
     for (auto& [row, point] : rows) {
-        const std::string name = point.first.empty() ? std::to_string(row - 1) : point.first;
+        const std::string name = point.first.empty() ? std::to_string(first_ + row - 1) : point.first;
         by_point_[name] = std::move(point.second);
     }
 }

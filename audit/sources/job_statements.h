@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,6 +25,10 @@ private:
     nlohmann::json inputs_;                           ///< of the job
     std::map<std::string, nlohmann::json> by_point_;  ///< inputs by name, each an object
 
+    std::size_t first_ = 0;  ///< points of the sections before
+
+    /// \param part  the job, or a section of it
+    void read_points(const nlohmann::json& part, const reports::EvaluationRecord& record);
     void read_array(const nlohmann::json& points);
     void read_table(const std::string& bytes);
 };

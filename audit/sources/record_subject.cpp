@@ -19,6 +19,7 @@
 #include "certificate/waiver.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
+#include "reports/record/record_sections.h"
 
 namespace gumcert::audit {
 namespace {
@@ -297,13 +298,18 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.place = "/results/" + result.name;
     budget.evaluated_here = true;
     add_rows(budget, result.budget, budget.place + "/budget", &record, &job, result.point);
-    if (record.model) {
-        for (const std::string& equation : record.model->equations) {
-            budget.equation += (budget.equation.empty() ? "" : "; ") + equation;
-        }
+    const std::string& quantity = result.quantity.empty() ? result.name : result.quantity;
+    for (const std::string& equation : reports::equations_of(record, quantity)) {
+        budget.equation += (budget.equation.empty() ? "" : "; ") + equation;
     }
     if (record.certificate) {
         budget.method = record.certificate->data.method.identification;
+        const reports::SectionSummary* const section = reports::section_of(record, quantity);
+        for (const certificate::SectionData& own : record.certificate->data.sections) {
+            if (section != nullptr && own.section == section->name && own.method) {
+                budget.method = own.method->identification;
+            }
+        }
     }
     if (checklist_of(budget.method) == nullptr) {
         budget.method = method_in_title(budget.method + " " + record.title);

@@ -117,11 +117,9 @@ void core_data(DccWriter& w) {
     w.xml.close();
 }
 
-void item(DccWriter& w) {
-    const certificate::Item& i = w.data().item;
+void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
-    w.xml.open("dcc:items");
-    w.xml.open("dcc:item", {{"id", "item_1"}});
+    w.xml.open("dcc:item", {{"id", id}});
     w.text("dcc:name", words.localised(i.description));
     Text description;
     const auto line = [&](const char* label, const Text& value) {
@@ -156,6 +154,17 @@ void item(DccWriter& w) {
     }
     w.xml.close();
     w.xml.close();
+}
+
+/// The item of the certificate, then those of sections that have one of their own.
+void items(DccWriter& w) {
+    w.xml.open("dcc:items");
+    item(w, w.data().item, "item_1");
+    for (const certificate::SectionData& section : w.data().sections) {
+        if (section.item) {
+            item(w, *section.item, w.item_id(section.section));
+        }
+    }
     w.xml.close();
 }
 
@@ -433,7 +442,7 @@ void write_administrative_data(DccWriter& w) {
     w.xml.close();
     ref_type_definitions(w);
     core_data(w);
-    item(w);
+    items(w);
     laboratory(w);
     persons(w);
     customer(w);

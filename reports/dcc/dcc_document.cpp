@@ -73,11 +73,22 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
                 {"schemaVersion", "3.3.0"}});
     write_administrative_data(w);
     w.xml.open("dcc:measurementResults");
-    w.xml.open("dcc:measurementResult", {{"refId", "item_1"}});
-    w.text("dcc:name", record.title.empty() ? words("dcc", "results") : Text(record.title));
-    write_circumstances(w);
-    write_results(w);
-    w.xml.close();
+    const auto measurement_result = [&](const std::string& item, const Text& name, bool is_last) {
+        w.xml.open("dcc:measurementResult", {{"refId", item}});
+        w.text("dcc:name", name);
+        write_circumstances(w);
+        write_results(w, is_last);
+        w.xml.close();
+    };
+    if (record.sections.empty()) {
+        measurement_result("item_1", record.title.empty() ? words("dcc", "results") : Text(record.title), true);
+    }
+    for (const SectionSummary& section : record.sections) {
+        w.enter_section(section.name);
+        measurement_result(w.item_id(section.name),
+                           section.title.empty() ? Text(section.name) : words.localised(section.title),
+                           &section == &record.sections.back());
+    }
     w.xml.close();
     write_comment(w);
     w.xml.close();

@@ -93,7 +93,7 @@ Region region_of(const EvaluationRecord& record) {
 /// What the certificate states for a result; nullptr where it has no row for it.
 const certificate::CertifiedValue* certified_value(const DccWriter& w, const Result& r) {
     const std::string quantity = r.quantity.empty() ? r.name : r.quantity;
-    for (const certificate::CertifiedTable& table : w.tables()) {
+    for (const certificate::CertifiedTable& table : w.all_tables()) {
         for (const certificate::CertifiedColumn& column : table.columns) {
             if (column.result != quantity) {
                 continue;

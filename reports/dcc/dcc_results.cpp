@@ -425,7 +425,7 @@ void table(DccWriter& w, const CertifiedTable& t) {
 
 }  // namespace
 
-void write_results(DccWriter& w) {
+void write_results(DccWriter& w, bool with_joint) {
     w.xml.open("dcc:results");
     bool any = false;
     for (const CertifiedTable& t : w.tables()) {
@@ -440,7 +440,9 @@ void write_results(DccWriter& w) {
         w.data_sentence(w.not_stated());
         w.xml.close();
     }
-    write_joint_results(w);
+    if (with_joint) {
+        write_joint_results(w);
+    }
     w.xml.close();
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
+#include "certificate/section_data.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "reports/dcc/d_si_unit.h"
@@ -83,6 +85,23 @@ DccWriter::DccWriter(const EvaluationRecord& record, const Wording& words, const
     for (const std::string& language : words.languages()) {
         languages_.push_back(iso_639_1(language));
     }
+}
+
+void DccWriter::enter_section(const std::string& section) {
+    section_ = Section{.data = certificate::data_of_section(data_, section), .tables = {}};
+    std::copy_if(tables_.begin(), tables_.end(), std::back_inserter(section_->tables),
+                 [&](const certificate::CertifiedTable& table) { return table.section == section; });
+}
+
+std::string DccWriter::item_id(const std::string& section) const {
+    std::size_t number = 1;
+    for (const certificate::SectionData& own : data_.sections) {
+        number += own.item ? 1U : 0U;
+        if (own.section == section && own.item) {
+            return "item_" + std::to_string(number);
+        }
+    }
+    return "item_1";
 }
 
 Text DccWriter::not_stated() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +20,17 @@ public:
     [[nodiscard]] const EvaluationRecord& record() const { return record_; }
     [[nodiscard]] const Wording& words() const { return words_; }
     [[nodiscard]] const RefTypes& ref_types() const { return ref_types_; }
-    [[nodiscard]] const std::vector<certificate::CertifiedTable>& tables() const { return tables_; }
-    /// Data of the certificate; empty ones where the record has none.
-    [[nodiscard]] const certificate::CertificateData& data() const { return data_; }
+    /// Of the section that is written, or of all.
+    [[nodiscard]] const std::vector<certificate::CertifiedTable>& tables() const {
+        return section_ ? section_->tables : tables_;
+    }
+    [[nodiscard]] const std::vector<certificate::CertifiedTable>& all_tables() const { return tables_; }
+    /// Data of the certificate, as they hold for the section that is written; empty ones where the record has none.
+    [[nodiscard]] const certificate::CertificateData& data() const { return section_ ? section_->data : data_; }
+    /// From here on data and tables are those of one section of the record.
+    void enter_section(const std::string& section);
+    /// The id of the item that a section is about: its own, or that of the certificate.
+    [[nodiscard]] std::string item_id(const std::string& section) const;
     [[nodiscard]] bool is_specimen() const { return data_.status == "specimen"; }
     /// True where values are marked as within or outside of the scope of accreditation.
     [[nodiscard]] bool has_scope() const { return data_.status == "accredited" && data_.accreditation.has_value(); }
@@ -54,13 +63,19 @@ private:
     const RefTypes& ref_types_;
     certificate::CertificateData data_;
     std::vector<certificate::CertifiedTable> tables_;
+    struct Section {
+        certificate::CertificateData data;
+        std::vector<certificate::CertifiedTable> tables;
+    };
+    std::optional<Section> section_;
     std::vector<std::string> languages_;  ///< ISO 639-1
 };
 
 void write_administrative_data(DccWriter& writer);
-/// Methods, software, equipment and influence conditions of the one measurement result.
+/// Methods, software, equipment and influence conditions of a measurement result.
 void write_circumstances(DccWriter& writer);
-void write_results(DccWriter& writer);
+/// \param with_joint  the covariance of all results of the record stands behind them
+void write_results(DccWriter& writer, bool with_joint);
 
 /// Puts a line behind the lines of a text; nothing for an empty one.
 void append_line(Text& lines, const Text& line);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "certificate/localised_text.h"
+
 namespace gumcert::reports {
 
 // What a record of kind "budget" holds beside the results.
@@ -191,10 +193,20 @@ struct VarianceAnalysis {
     } printed;
 };
 
-/// The model of a budget as the job states it.
+/// The model of a budget as the job states it; of all sections one after the other.
 struct ModelSummary {
     std::vector<std::string> equations;
     std::vector<std::string> unknowns;  ///< of implicit equations
+};
+
+/// Results with equations and points of their own, among others of one budget. Equations, unknowns and points are those
+/// of the record that come next after those of the sections before.
+struct SectionSummary {
+    std::string name;
+    certificate::LocalisedText title;
+    std::int64_t equations = 0, unknowns = 0;
+    std::int64_t points = 0;              ///< 0: one evaluation
+    std::vector<std::string> quantities;  ///< its results
 };
 
 }  // namespace gumcert::reports

@@ -96,9 +96,10 @@ struct Series {
     }
 };
 
-std::vector<Series> series_of(const std::vector<Result>& results) {
+std::vector<Series> series_of(const std::vector<const Result*>& results) {
     std::vector<Series> all;
-    for (const Result& r : results) {
+    for (const Result* const result : results) {
+        const Result& r = *result;
         const std::string quantity = r.quantity.empty() ? r.name : r.quantity;
         const auto found = std::find_if(all.begin(), all.end(), [&](const Series& s) {
             // A quantity without points has one result; a second one of that name is a column of its own.
@@ -109,7 +110,7 @@ std::vector<Series> series_of(const std::vector<Result>& results) {
     return all;
 }
 
-std::vector<CertifiedTable> tables_of_results(const std::vector<Result>& results, const std::string& id) {
+std::vector<CertifiedTable> tables_of_results(const std::vector<const Result*>& results, const std::string& id) {
     std::vector<std::pair<std::vector<std::string>, CertifiedTable>> tables;  // with the points that they share
     for (const Series& series : series_of(results)) {
         const std::vector<std::string> points = series.points();
@@ -246,7 +247,14 @@ CertifiedTable table_of_group(const EvaluationRecord& record, const certificate:
     return table;
 }
 
-std::vector<CertifiedTable> tables_of_points(const EvaluationRecord& record) {
+/// Points that stand one after the other.
+struct PointRange {
+    std::size_t first = 0, end = 0;
+};
+
+/// \param section  whose points these are; "" without sections
+std::vector<CertifiedTable> tables_of_points(const EvaluationRecord& record, const std::string& section,
+                                             const PointRange& range) {
     const certificate::PointTable& points = *record.points;
     const auto word_of = [&](const std::string& name, std::size_t row) -> std::string {
         const auto found = std::find_if(points.columns.begin(), points.columns.end(),
@@ -255,8 +263,11 @@ std::vector<CertifiedTable> tables_of_points(const EvaluationRecord& record) {
     };
     std::vector<CertifiedTable> tables;
     for (const certificate::TableRequest& request : points.tables) {
+        if (request.section != section) {
+            continue;
+        }
         std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;  // in the order of the points
-        for (std::size_t row = 0; row < points.points.size(); ++row) {
+        for (std::size_t row = range.first; row < range.end; ++row) {
             if (!std::all_of(request.where.begin(), request.where.end(),
                              [&](const auto& choice) { return word_of(choice.column, row) == choice.is; })) {
                 continue;
@@ -272,6 +283,42 @@ std::vector<CertifiedTable> tables_of_points(const EvaluationRecord& record) {
         }
     }
     return tables;
+}
+
+std::vector<const Result*> all_of(const std::vector<Result>& results) {
+    std::vector<const Result*> all;
+    for (const Result& r : results) {
+        all.push_back(&r);
+    }
+    return all;
+}
+
+/// Section by section: the tables that the job asks for, else one of its results.
+std::vector<CertifiedTable> tables_of_sections(const EvaluationRecord& record) {
+    std::vector<CertifiedTable> all;
+    PointRange range;
+    for (const SectionSummary& section : record.sections) {
+        range = {.first = range.end, .end = range.end + static_cast<std::size_t>(section.points)};
+        std::vector<CertifiedTable> tables;
+        if (record.points) {
+            tables = tables_of_points(record, section.name, range);
+        }
+        if (tables.empty()) {
+            std::vector<const Result*> own;
+            for (const Result& r : record.results) {
+                if (std::find(section.quantities.begin(), section.quantities.end(), r.quantity) !=
+                    section.quantities.end()) {
+                    own.push_back(&r);
+                }
+            }
+            tables = tables_of_results(own, "results");
+        }
+        for (CertifiedTable& table : tables) {
+            table.section = section.name;
+            all.push_back(std::move(table));
+        }
+    }
+    return all;
 }
 
 /// The points of a circle closure are angles.
@@ -342,17 +389,20 @@ const Result* result_of(const EvaluationRecord& record, const CertifiedTable& ta
 }
 
 std::vector<CertifiedTable> certified_tables(const EvaluationRecord& record) {
+    if (!record.sections.empty()) {
+        return tables_of_sections(record);
+    }
     if (record.points && !record.points->tables.empty()) {
-        return tables_of_points(record);
+        return tables_of_points(record, "", {.first = 0, .end = record.points->points.size()});
     }
     if (!record.rotary) {
-        std::vector<CertifiedTable> tables = tables_of_results(record.results, "results");
+        std::vector<CertifiedTable> tables = tables_of_results(all_of(record.results), "results");
         if (record.circle_closure) {
             put_angles(*record.circle_closure, tables);
         }
         return tables;
     }
-    std::vector<CertifiedTable> tables = tables_of_results(record.results, "set_up");
+    std::vector<CertifiedTable> tables = tables_of_results(all_of(record.results), "set_up");
     add_stated_values(*record.rotary, tables);
     return tables;
 }

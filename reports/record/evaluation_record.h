@@ -532,6 +532,7 @@ struct EvaluationRecord {
     std::vector<ReadingsSummary> readings;
     std::vector<VarianceAnalysis> variance_analyses;
     std::vector<OutlyingReading> outliers;
+    std::vector<SectionSummary> sections;           ///< kind "budget", where the job has several parts
     std::optional<certificate::PointTable> points;  ///< kind "budget", where points have more than their results
     std::optional<RotaryTable> rotary;
     std::optional<CircleClosure> circle_closure;

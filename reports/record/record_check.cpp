@@ -322,6 +322,44 @@ void check_certificate(const certificate::Certificate& c, const RecordBreach& re
     }
 }
 
+/// Equations, unknowns and points belong to sections one after the other; tables name sections.
+void check_sections(const EvaluationRecord& r, const RecordBreach& report) {
+    std::set<std::string> names{""};
+    const auto take = [&](const std::string& at, std::int64_t count, std::size_t& left, const char* what) {
+        if (count < 0 || static_cast<std::size_t>(count) > left) {
+            report(at, std::to_string(count),
+                   "must be from 0 to " + std::to_string(left) + ", the " + what + " that sections before leave");
+            left = 0;
+        } else {
+            left -= static_cast<std::size_t>(count);
+        }
+    };
+    std::size_t equations = r.model ? r.model->equations.size() : 0;
+    std::size_t unknowns = r.model ? r.model->unknowns.size() : 0;
+    std::size_t points = r.points ? r.points->points.size() : 0;
+    for (std::size_t i = 0; i < r.sections.size(); ++i) {
+        const std::string at = "/sections/" + std::to_string(i);
+        const SectionSummary& section = r.sections[i];
+        if (!names.insert(section.name).second) {
+            report(at + "/name", '"' + section.name + '"', "must be a name that no other section has");
+        }
+        take(at + "/equations", section.equations, equations, "equations");
+        take(at + "/unknowns", section.unknowns, unknowns, "unknowns");
+        take(at + "/points", section.points, points, "points");
+    }
+    const auto known = [&](const std::string& at, const std::string& section) {
+        if (!names.contains(section) || (section.empty() && !r.sections.empty())) {
+            report(at + "/section", '"' + section + '"', "must be the name of a section");
+        }
+    };
+    for (std::size_t i = 0; r.points && i < r.points->tables.size(); ++i) {
+        known("/points/tables/" + std::to_string(i), r.points->tables[i].section);
+    }
+    for (std::size_t i = 0; r.certificate && i < r.certificate->tables.size(); ++i) {
+        known("/certificate/tables/" + std::to_string(i), r.certificate->tables[i].section);
+    }
+}
+
 /// Pointers of a part as those of the record.
 RecordBreach inside(const std::string& part, const RecordBreach& report) {
     return [part, &report](const std::string& at, std::string what, std::string rule) {
@@ -347,6 +385,7 @@ void check_record(const EvaluationRecord& record, const RecordBreach& report) {
                "a record of kind comparison holds a comparison of the form \"laboratories\" or \"methods\"");
     }
     check_results(record, report);
+    check_sections(record, report);
     if (record.points) {
         check_columns("/points", record.points->columns, {}, record.points->points.size(), report);
     }

@@ -167,6 +167,16 @@ void describe(Archive& a, Struct& r) {
     a.added("monte_carlo", r.monte_carlo);
 }
 
+template <class Archive, certificate::Described<SectionSummary> Struct>
+void describe(Archive& a, Struct& r) {
+    a("name", r.name);
+    a("title", r.title);
+    a("equations", r.equations);
+    a("unknowns", r.unknowns);
+    a("points", r.points);
+    a("quantities", r.quantities);
+}
+
 template <class Archive, certificate::Described<ModelSummary> Struct>
 void describe(Archive& a, Struct& r) {
     a("equations", r.equations);
@@ -1031,6 +1041,7 @@ void describe(Archive& a, Struct& r) {
     a.added("readings", r.readings);
     a.added("variance_analyses", r.variance_analyses);
     a.added("outliers", r.outliers);
+    a.stated("sections", r.sections);
     a.if_any("points", r.points);
     a("rotary", r.rotary);
     a.added("circle_closure", r.circle_closure);

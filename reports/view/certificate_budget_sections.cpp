@@ -339,10 +339,21 @@ void results(CertificateBuilder& builder, const Wording& words, const Evaluation
     builder.paragraph(words("sentence", "validity"));
 }
 
-void model(CertificateBuilder& builder, const Wording& words, const ModelSummary& m) {
+void model(CertificateBuilder& builder, const Wording& words, const ModelSummary& m,
+           const std::vector<SectionSummary>& sections) {
     builder.section("model");
     builder.paragraph(words("sentence", m.equations.size() == 1 ? "model_one" : "model"));
+    std::size_t section = 0;
+    std::int64_t left = 0;  // equations of the section
     for (const std::string& equation : m.equations) {
+        while (left == 0 && section < sections.size()) {
+            const SectionSummary& next = sections[section++];
+            left = next.equations;
+            if (left > 0) {
+                builder.paragraph((next.title.empty() ? Text(next.name) : words.localised(next.title)) + ":");
+            }
+        }
+        --left;
         builder.formula(equation_for_people(equation));
     }
     if (!m.unknowns.empty()) {
@@ -976,7 +987,7 @@ void budget_tables(CertificateBuilder& builder, const Wording& words, const Eval
 void budget_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     input_quantities(builder, words, record.inputs);
     if (record.model) {
-        model(builder, words, *record.model);
+        model(builder, words, *record.model, record.sections);
     }
     budgets(builder, words, record, false);
     second_order(builder, words, record);

@@ -30,6 +30,12 @@ json line(const Text& text, const Wording& words) {
     return {{"text", printable(text.first())}, {"also", also(text, words.languages())}};
 }
 
+constexpr const char* k_mark = " †";  // of what the customer stated
+
+bool is_marked(const Text& text) {
+    return text.first().ends_with(k_mark);
+}
+
 bool is_draft(const EvaluationRecord& record) {
     return record.certificate && record.certificate->blocked;
 }
@@ -121,26 +127,17 @@ json accreditation_symbol(const Certificate& certificate, const Wording& words) 
 
 namespace {
 
-/// Facts that an assessor looks for stand there even when nothing was stated: "–".
-void item_section(CertificateBuilder& builder, const Wording& words, const certificate::Item& item) {
+void item_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
     builder.section("item");
-    Facts rows;
-    bool marked = false;
-    const auto row = [&](const char* key, const Text& value, bool always) {
-        if (always || !value.empty()) {
-            rows.emplace_back(words("certificate", key), item_text(item, key, value));
-            marked = marked || rows.back().second.first() != value.first();
-        }
-    };
-    row("description", words.localised(item.description), true);
-    row("manufacturer", item.manufacturer, true);
-    row("type", item.type, true);
-    row("serial_number", item.serial_number, item.identification.empty());
-    row("identification", item.identification, false);
-    row("condition", words.localised(item.condition), true);
-    row("owner", item.owner, false);
+    Facts rows = item_facts(words, data.item);
     builder.definitions(rows);
-    if (marked) {
+    for (const certificate::SectionData& section : data.sections) {
+        if (section.item) {
+            const Facts own = item_facts(words, *section.item);
+            rows.insert(rows.end(), own.begin(), own.end());
+        }
+    }
+    if (std::any_of(rows.begin(), rows.end(), [](const auto& row) { return is_marked(row.second); })) {
         builder.paragraph(words("statement", "stated_by_customer"));
     }
 }
@@ -394,10 +391,27 @@ Text side_of_change(const certificate::Change& change, const std::string& side, 
     return change.kind == "text" ? Text(side) : words.number(side);
 }
 
+Facts item_facts(const Wording& words, const certificate::Item& item) {
+    Facts rows;
+    const auto row = [&](const char* key, const Text& value, bool always) {
+        if (always || !value.empty()) {
+            rows.emplace_back(words("certificate", key), item_text(item, key, value));
+        }
+    };
+    row("description", words.localised(item.description), true);
+    row("manufacturer", item.manufacturer, true);
+    row("type", item.type, true);
+    row("serial_number", item.serial_number, item.identification.empty());
+    row("identification", item.identification, false);
+    row("condition", words.localised(item.condition), true);
+    row("owner", item.owner, false);
+    return rows;
+}
+
 Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
     const auto& marked = item.stated_by_customer;
     const bool by_customer = std::find(marked.begin(), marked.end(), key) != marked.end();
-    return by_customer && !text.empty() ? text + " †" : text;
+    return by_customer && !text.empty() ? text + k_mark : text;
 }
 
 std::string from_to(const std::string& from, const std::string& to) {
@@ -412,7 +426,7 @@ Text amendment_sentence(const certificate::Amendment& amendment, const Wording& 
 nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     const CertificateData& data = certificate.data;
-    item_section(builder, words, data.item);
+    item_section(builder, words, data);
     customer_section(builder, words, data.customer);
     dates_section(builder, words, data);
     summary_section(builder, words, record);

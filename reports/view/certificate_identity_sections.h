@@ -45,6 +45,9 @@ namespace gumcert::reports {
 /// \param side  Change::before or after
 [[nodiscard]] Text side_of_change(const certificate::Change& change, const std::string& side, const Wording& words);
 
+/// What a certificate says of an item. Facts that an assessor looks for stand there even when nothing was stated: "–".
+[[nodiscard]] Facts item_facts(const Wording& words, const certificate::Item& item);
+
 /// A text of the certificate data, marked with † where the customer stated it.
 [[nodiscard]] Text item_text(const certificate::Item& item, const std::string& key, const Text& text);
 

@@ -177,21 +177,29 @@ void amendment_section(CertificateBuilder& builder, const Wording& words, const 
     }
 }
 
-void method_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
-    builder.section("method_used");
-    const certificate::Method& m = data.method;
+/// Identification to description of a method.
+Facts method_facts(const Wording& words, const certificate::Method& m) {
     Facts rows = {{words("certificate", "method"), m.identification}};
     add_fact(rows, words("certificate", "version"), m.version);
     add_fact(rows, words("certificate", "title"), words.localised(m.title));
     add_fact(rows, words("certificate", "standard"), m.standard);
     add_fact(rows, words("certificate", "procedure"), words.localised(m.description));
-    std::vector<Text> deviations = deviations_in_words(words, data);
+    return rows;
+}
+
+void add_deviations(Facts& rows, const Wording& words, std::vector<Text> deviations, bool none_stated) {
     if (deviations.empty()) {
-        deviations.push_back(words("certificate", m.no_deviations ? "none" : "not_stated"));
+        deviations.push_back(words("certificate", none_stated ? "none" : "not_stated"));
     }
     for (const Text& deviation : deviations) {
         rows.emplace_back(words("certificate", "deviations"), deviation);
     }
+}
+
+void method_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+    builder.section("method_used");
+    Facts rows = method_facts(words, data.method);
+    add_deviations(rows, words, deviations_in_words(words, data), data.method.no_deviations);
     rows.emplace_back(words("certificate", "sampling"),
                       data.sampling.empty() ? words("certificate", "not_applicable") : words.localised(data.sampling));
     if (data.persons.performed_by) {
@@ -239,14 +247,10 @@ void traceability_section(CertificateBuilder& builder, const Wording& words, con
                   lines);
 }
 
-void conditions_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
-    builder.section("conditions");
-    if (data.conditions.empty()) {
-        builder.paragraph(words("statement", "no_conditions"));
-        return;
-    }
-    const bool limits = std::any_of(data.conditions.begin(), data.conditions.end(),
-                                    [](const auto& c) { return c.lower_limit || c.upper_limit; });
+void conditions_table(CertificateBuilder& builder, const Wording& words, const std::string& id,
+                      const std::vector<certificate::Condition>& conditions) {
+    const bool limits =
+        std::any_of(conditions.begin(), conditions.end(), [](const auto& c) { return c.lower_limit || c.upper_limit; });
     std::vector<Column> columns = {
         {words("certificate", "quantity"), ""},      {words("certificate", "minimum"), "", true},
         {words("certificate", "maximum"), "", true}, {words("certificate", "U_short"), "", true},
@@ -257,7 +261,7 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
     }
     Rows lines;
     const auto number = [](const std::optional<double>& v) { return Text(v ? plain(*v) : std::string()); };
-    for (const certificate::Condition& c : data.conditions) {
+    for (const certificate::Condition& c : conditions) {
         const auto [least, greatest] = with_equal_decimals(c.minimum, c.maximum);
         std::vector<Text> row = {words.localised(c.quantity),  least,   greatest, number(c.U),
                                  gum::unit_for_people(c.unit), c.sensor};
@@ -267,7 +271,49 @@ void conditions_section(CertificateBuilder& builder, const Wording& words, const
         }
         lines.push_back(std::move(row));
     }
-    builder.table("conditions", words("statement", "conditions_table"), columns, lines);
+    builder.table(id, words("statement", "conditions_table"), columns, lines);
+}
+
+void conditions_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+    builder.section("conditions");
+    if (data.conditions.empty()) {
+        builder.paragraph(words("statement", "no_conditions"));
+    } else {
+        conditions_table(builder, words, "conditions", data.conditions);
+    }
+}
+
+/// What a section has that the certificate as a whole has not: item, method, standards, conditions.
+void section_facts(CertificateBuilder& builder, const Wording& words, const CertificateData& data,
+                   const certificate::SectionData& own, const std::string& id) {
+    Facts rows;
+    if (own.item) {
+        rows = item_facts(words, *own.item);
+    }
+    if (own.method) {
+        for (auto& fact : method_facts(words, *own.method)) {
+            rows.push_back(std::move(fact));
+        }
+        std::vector<Text> deviations;
+        for (const certificate::LocalisedText& deviation : own.method->deviations) {
+            deviations.push_back(words.localised(deviation));
+        }
+        add_deviations(rows, words, std::move(deviations), own.method->no_deviations);
+    }
+    Text standards;
+    for (const std::string& identification : own.standards) {
+        const auto row = std::find_if(data.standards.begin(), data.standards.end(),
+                                      [&](const auto& s) { return s.identification == identification; });
+        const Text name = row == data.standards.end() ? Text() : words.localised(row->name);
+        standards += (standards.empty() ? Text() : Text("; ")) + name + (name.empty() ? "" : ", ") + identification;
+    }
+    add_fact(rows, words("certificate", "standard_used"), standards);
+    if (!rows.empty()) {
+        builder.definitions(rows);
+    }
+    if (!own.conditions.empty()) {
+        conditions_table(builder, words, "conditions-" + id, own.conditions);
+    }
 }
 
 /// The tables of a rotary table in the order in which they are read: what it does as a whole, its axis, then angle by
@@ -345,8 +391,31 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
             builder.figure(plot->id, caption, plot->description, svg(*plot));
         }
     };
+    const auto begin_section = [&](std::size_t position) {
+        const SectionSummary& section = record.sections[position];
+        const std::string id = std::to_string(position);
+        builder.section("certified-section-" + id,
+                        section.title.empty() ? Text(section.name) : words.localised(section.title));
+        for (const certificate::SectionData& own : certificate.data.sections) {
+            if (own.section == section.name) {
+                section_facts(builder, words, certificate.data, own, id);
+            }
+        }
+    };
+    std::size_t section = 0;  // sections that were begun
+    std::vector<std::size_t> figures;
+    const auto draw_figures = [&] {
+        for (const std::size_t i : std::exchange(figures, {})) {
+            figure(i);
+        }
+    };
     for (const std::size_t i : reading_order(certificate)) {
         const CertifiedTable& table = certificate.tables[i];
+        while (section < record.sections.size() &&
+               (section == 0 || record.sections[section - 1].name != table.section)) {
+            draw_figures();
+            begin_section(section++);
+        }
         if (record.rotary) {
             figure(i);  // the curves before pages of their numbers
         }
@@ -354,11 +423,15 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
         if (table.argument && !table.layout && !record.rotary) {
             certified_meanings(builder, words, table);
         }
+        if (!record.rotary) {
+            figures.push_back(i);
+        }
+    }
+    if (!record.sections.empty()) {
+        draw_figures();  // of the last section, before what holds for all
     }
     legend(builder, words, overview, builder.absent_cells() > absent_before);
-    for (std::size_t i = 0; i < certificate.tables.size() && !record.rotary; ++i) {
-        figure(i);
-    }
+    draw_figures();
 }
 
 void closing_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {

@@ -93,8 +93,13 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     return row;
 }
 
+/// Whether a symbol has a row in the budgets of a point: of a section, where its equations use it.
+bool has_row(const gum::BudgetPointResult& point, std::size_t symbol) {
+    return !point.section || point.model->is_of_symbols() || point.model->uses(symbol);
+}
+
 /// The budget of one output at one point: a row an input, with rows of its components inside.
-std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult& result, std::optional<std::size_t> at,
+std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult& result,
                                    const gum::BudgetPointResult& point, Eigen::Index output, const Unit& unit) {
     // All quantities of a symbol have its sensitivity.
     std::vector<double> sensitivity(result.symbols.size(), 0.0);
@@ -105,7 +110,10 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
     const double u = point.propagation.standard_uncertainty(output);
     std::vector<BudgetRow> rows;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        const BudgetInput& input = gum::input_at(job, i, at);
+        if (!has_row(point, i)) {
+            continue;
+        }
+        const BudgetInput& input = gum::input_at(job, i, point.point);
         const gum::InputTotal total = gum::input_total(input);
         const StatedQuantity& first = input.components.front();
         RowNumbers numbers{
@@ -138,28 +146,31 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         }
         rows.push_back(std::move(row));
     }
-    const auto own = static_cast<std::size_t>(output);
     std::size_t symbol = job.inputs.size();
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         const auto p = static_cast<Eigen::Index>(job.fits[f].parameters.size());
         const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXd>(sensitivity.data() + symbol, p);
-        const bool holds_output = own >= symbol && own < symbol + static_cast<std::size_t>(p);
-        symbol += static_cast<std::size_t>(p);
-        if (!job.model.empty() || holds_output) {
+        bool is_shown = false;
+        for (Eigen::Index i = 0; i < p; ++i) {
+            is_shown = has_row(point, symbol++) || is_shown;
+        }
+        if (is_shown) {
             rows.push_back(fit_row(job.fits[f], result.fits[f], c, unit, u));
         }
     }
-    if (!job.model.empty()) {
+    if (!point.model->is_of_symbols()) {
         return rows;
     }
     // Without equations a result is one of the inputs, or a parameter: its budget has no other rows.
+    const std::string& own = point.outputs[static_cast<std::size_t>(output)].name;
+    std::erase_if(rows, [&](const BudgetRow& row) { return row.role.empty() && row.input != own; });
     std::erase_if(rows, [&](const BudgetRow& row) {
-        return row.role.empty() && (own >= job.inputs.size() || row.input != result.symbols[own].name);
+        return !row.role.empty() && std::none_of(row.components.begin(), row.components.end(),
+                                                 [&](const BudgetRow& part) { return part.input == own; });
     });
     for (BudgetRow& row : rows) {
-        std::erase_if(row.components, [&](const BudgetRow& part) {
-            return part.role == "fit_parameter" && part.input != result.symbols[own].name;
-        });
+        std::erase_if(row.components,
+                      [&](const BudgetRow& part) { return part.role == "fit_parameter" && part.input != own; });
     }
     return rows;
 }
@@ -173,8 +184,12 @@ std::optional<reports::CorrelationRow> correlation_row(const gum::BudgetPointRes
     bool correlated = false;
     std::size_t first = 0;
     for (const gum::InputGroup& group : point.model->inputs()) {
-        const bool is_fit = point.model->quantities()[first].symbol >= inputs;
-        correlated = correlated || (!is_fit && group.size() > 1 && !group.is_diagonal());
+        const std::size_t symbol = point.model->quantities()[first].symbol;
+        bool is_shown = false;
+        for (std::size_t i = first; i < first + static_cast<std::size_t>(group.size()); ++i) {
+            is_shown = is_shown || has_row(point, point.model->quantities()[i].symbol);
+        }
+        correlated = correlated || (symbol < inputs && is_shown && group.size() > 1 && !group.is_diagonal());
         first += static_cast<std::size_t>(group.size());
     }
     if (!correlated) {
@@ -238,9 +253,9 @@ Eigen::MatrixXd in_units(const Eigen::MatrixXd& si, const std::vector<Unit>& uni
 
 std::vector<Unit> result_units(const BudgetJob& job, const gum::BudgetResult& result) {
     std::vector<Unit> units;
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
-            units.push_back(jobs::result_unit(job, p, result.output_names[i], result.output_units[i]));
+    for (const gum::BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            units.push_back(jobs::result_unit(job, point, i));
         }
     }
     return units;
@@ -296,8 +311,7 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
 }
 
 /// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
-reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointResult& point,
-                                  const std::vector<Unit>& units) {
+reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointResult& point) {
     reports::CoverageRegion region;
     region.coverage_probability = job.coverage_probability;
     if (point.monte_carlo && point.monte_carlo->regions) {
@@ -311,8 +325,8 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
                                       .probability = from.smallest_probability,
                                       .cells = static_cast<std::int64_t>(from.smallest_cells),
                                       .cells_per_axis = {}};
-            for (const Unit& unit : units) {
-                region.smallest_region->volume = unit.difference_from_si(region.smallest_region->volume);
+            for (const gum::BudgetOutputResult& output : point.outputs) {
+                region.smallest_region->volume = output.unit.difference_from_si(region.smallest_region->volume);
             }
             for (const int cells : from.cells_per_axis) {
                 region.smallest_region->cells_per_axis.push_back(cells);
@@ -366,14 +380,14 @@ void warn_of_lost_digits(const gum::BudgetResult& result, reports::EvaluationRec
     std::vector<std::string> inexact;
     std::string worst;
     double most = 0.0;
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const gum::BudgetPointResult& point = result.points[p];
+    auto next = record.results.begin();
+    for (const gum::BudgetPointResult& point : result.points) {
         const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
-        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
             const double lost = roundings(index);
             const double u = point.propagation.standard_uncertainty(index);
-            const std::string& name = record.results[p * result.output_names.size() + i].name;
+            const std::string& name = (next++)->name;
             if (point.outputs[i].coverage_note == gum::k_exact_by_definition &&
                 lost > k_few_digits * std::abs(point.propagation.value(index))) {
                 inexact.push_back(name);
@@ -384,7 +398,7 @@ void warn_of_lost_digits(const gum::BudgetResult& result, reports::EvaluationRec
             names.push_back(name);
             if (lost / u > most) {
                 most = lost / u;
-                const Unit& unit = result.output_units[i];
+                const Unit& unit = point.outputs[i].unit;
                 worst = rounded(unit.difference_from_si(lost), 2) + " of " + name +
                         " beside u = " + rounded(unit.difference_from_si(u), 2) + " " +
                         gum::unit_for_people(unit.text());
@@ -446,6 +460,20 @@ nlohmann::json options_json(const BudgetJob& job, const gum::BudgetResult& resul
     return options;
 }
 
+/// Names of the results of a section.
+std::vector<std::string> quantities_of(const gum::BudgetResult& result, std::size_t section) {
+    std::vector<std::string> names;
+    for (const gum::BudgetPointResult& point : result.points) {
+        if (point.section == section) {
+            for (const gum::BudgetOutputResult& output : point.outputs) {
+                names.push_back(output.name);
+            }
+            break;
+        }
+    }
+    return names;
+}
+
 }  // namespace
 
 reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetResult& result,
@@ -475,7 +503,16 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
         }
     }
 
-    if (!job.point_columns.empty() || !job.tables.empty()) {
+    for (std::size_t i = 0; i < job.sections.size(); ++i) {
+        const gum::BudgetSection& section = job.sections[i];
+        record.sections.push_back({.name = section.name,
+                                   .title = job.section_titles[i],
+                                   .equations = static_cast<std::int64_t>(section.equations),
+                                   .unknowns = static_cast<std::int64_t>(section.unknowns),
+                                   .points = static_cast<std::int64_t>(section.points),
+                                   .quantities = quantities_of(result, i)});
+    }
+    if (!job.point_columns.empty() || !job.tables.empty() || !job.sections.empty()) {
         record.points.emplace();
         for (const gum::BudgetPoint& point : job.points) {
             record.points->points.push_back(point.name);
@@ -487,18 +524,17 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
     const gum::MonteCarloRequest asked =
         job.monte_carlo.value_or(result.automatic_monte_carlo.value_or(gum::MonteCarloRequest{}));
     const std::vector<std::string> names = gum::budget_result_names(job, result);
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const gum::BudgetPointResult& point = result.points[p];
+    auto name = names.begin();
+    for (const gum::BudgetPointResult& point : result.points) {
         const Eigen::VectorXd roundings = point.model->rounding(gum::input_estimates(*point.model));
-        const std::optional<std::size_t> at = job.points.empty() ? std::nullopt : std::optional<std::size_t>(p);
-        for (std::size_t i = 0; i < result.output_names.size(); ++i) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
             const auto index = static_cast<Eigen::Index>(i);
             const gum::BudgetOutputResult& from = point.outputs[i];
-            const Unit& unit = jobs::result_unit(job, p, result.output_names[i], result.output_units[i]);
+            const Unit& unit = jobs::result_unit(job, point, i);
             reports::Result out;
-            out.name = names[p * result.output_names.size() + i];
-            out.quantity = result.output_names[i];
-            out.point = at ? job.points[p].name : "";
+            out.name = *name++;
+            out.quantity = from.name;
+            out.point = point.point ? job.points[*point.point].name : "";
             if (const auto described = job.output_descriptions.find(out.quantity);
                 described != job.output_descriptions.end()) {
                 out.description = described->second.in("en");
@@ -524,10 +560,10 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
             out.coverage_note = from.coverage_note;
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
             out.reported = reported_of(from, out.value, unit, job.rounding);
-            out.budget = budget_rows(job, result, at, point, index, unit);
+            out.budget = budget_rows(job, result, point, index, unit);
             if (i < point.without_derivative.size() && point.without_derivative[i]) {
                 without_sensitivities(out.budget);
-            } else if (!job.model.empty()) {
+            } else if (!point.model->is_of_symbols()) {
                 out.correlation = correlation_row(point, out.budget, job.inputs.size(), index, unit);
             }
             if (from.second_order_matters) {
@@ -560,8 +596,9 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
     // Trials without a variance have no region that is measured by it.
     const bool any_without = std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
                                          [](const gum::BudgetOutputResult& output) { return !output.has_u; });
-    if (result.output_names.size() > 1 && job.points.empty() && !job.model.empty() && !any_without) {
-        record.region = region_of(job, result.points.front(), result.output_units);
+    if (job.sections.empty() && result.points.front().outputs.size() > 1 && job.points.empty() && !job.model.empty() &&
+        !any_without) {
+        record.region = region_of(job, result.points.front());
     }
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gum/budget/budget_model.h"
@@ -15,18 +17,42 @@ namespace gumcert::reports {
 
 namespace {
 
-certificate::InputValues values_of(const jobs::BudgetJob& job, std::size_t input) {
+certificate::InputValues values_of(const jobs::BudgetJob& job, const gum::BudgetResult& result, std::size_t input) {
     certificate::InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
-    const auto add = [&](std::optional<std::size_t> point) {
-        out.values.push_back(job.inputs[input].unit.from_si(gum::input_total(gum::input_at(job, input, point)).value));
+    const auto value_at = [&](std::optional<std::size_t> point) {
+        return job.inputs[input].unit.from_si(gum::input_total(gum::input_at(job, input, point)).value);
     };
     if (job.points.empty()) {
-        add(std::nullopt);
+        out.values.emplace_back(value_at(std::nullopt));
+        return out;
     }
-    for (std::size_t p = 0; p < job.points.size(); ++p) {
-        add(p);
+    for (const gum::BudgetPointResult& point : result.points) {
+        const bool is_used = !point.section || point.model->uses(input);
+        if (point.point) {
+            out.values.push_back(is_used ? std::optional(value_at(point.point)) : std::nullopt);
+        } else if (is_used) {
+            out.without_point = value_at(std::nullopt);
+        }
     }
     return out;
+}
+
+/// A column of numbers, where every point of a section has one, or none.
+std::optional<certificate::InputValues> values_of(const jobs::BudgetJob& job, const certificate::PointColumn& column) {
+    if (column.unit.empty()) {
+        return std::nullopt;
+    }
+    std::map<std::size_t, std::size_t> stated;  // by section
+    for (std::size_t p = 0; p < column.values.size(); ++p) {
+        stated[gum::section_of_point(job, p).value_or(0)] += column.values[p] ? 1U : 0U;
+    }
+    for (const auto& [section, count] : stated) {
+        const std::size_t all = job.sections.empty() ? column.values.size() : job.sections[section].points;
+        if (count != all && (count > 0 || job.sections.empty())) {
+            return std::nullopt;
+        }
+    }
+    return certificate::InputValues{.unit = column.unit, .values = column.values};
 }
 
 /// P(Y ≤ x) and P(Y < x) of an output whose k comes from the convolution, x in its unit.
@@ -60,29 +86,22 @@ certificate::CapabilityInputs capability_inputs(const jobs::BudgetJob& job, cons
     certificate::CapabilityInputs inputs;
     inputs.rounding = job.rounding;
     for (std::size_t i = 0; i < job.inputs.size(); ++i) {
-        inputs.values.emplace(job.inputs[i].name, values_of(job, i));
+        inputs.values.emplace(job.inputs[i].name, values_of(job, result, i));
     }
     for (const certificate::PointColumn& column : job.point_columns) {
-        if (column.unit.empty() || std::any_of(column.values.begin(), column.values.end(),
-                                               [](const auto& value) { return !value.has_value(); })) {
-            continue;
+        if (auto values = values_of(job, column)) {
+            inputs.values.emplace(column.name, std::move(*values));  // those of inputs are there already
         }
-        certificate::InputValues values{.unit = column.unit, .values = {}};
-        for (const std::optional<double>& value : column.values) {
-            values.values.push_back(*value);
-        }
-        inputs.values.emplace(column.name, std::move(values));  // those of inputs are there already
     }
     if (!job.certificate || job.certificate->specifications.empty()) {
         return inputs;
     }
     const std::vector<std::string> names = gum::budget_result_names(job, result);
-    const std::size_t outputs = result.output_names.size();
-    for (std::size_t p = 0; p < result.points.size(); ++p) {
-        const gum::BudgetPointResult& point = result.points[p];
-        for (std::size_t i = 0; i < outputs; ++i) {
-            const std::string& name = names[p * outputs + i];
-            const gum::Unit& unit = jobs::result_unit(job, p, result.output_names[i], result.output_units[i]);
+    auto next = names.begin();
+    for (const gum::BudgetPointResult& point : result.points) {
+        for (std::size_t i = 0; i < point.outputs.size(); ++i) {
+            const std::string& name = *next++;
+            const gum::Unit& unit = jobs::result_unit(job, point, i);
             const auto output = static_cast<Eigen::Index>(i);
             if (point.outputs[i].by_monte_carlo && point.monte_carlo) {
                 inputs.trials.emplace(name, gum::TrialsOfOutput{.model = point.model,

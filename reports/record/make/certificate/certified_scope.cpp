@@ -78,11 +78,13 @@ Found argument_of(const certificate::CertificateData& data, const ScopeEntry& en
         return converted(*of_table->values[place.row], of_table->unit, argument.unit, what);
     }
     if (const auto input = inputs.values.find(argument.of); input != inputs.values.end()) {
-        const std::vector<double>& values = input->second.values;
-        if (!values.empty()) {
-            return converted(values.size() == 1 ? values.front() : values.at(place.point), input->second.unit,
-                             argument.unit, what);
-        }
+        const std::vector<std::optional<double>>& values = input->second.values;
+        const std::optional<double> value = values.size() == 1     ? values.front()
+                                            : place.table.argument ? values.at(place.point)
+                                                                   : input->second.without_point;
+        return value ? converted(*value, input->second.unit, argument.unit, what)
+                     : Found{.value = {},
+                             .why = what + " comes from \"" + argument.of + "\", which this result does not rest on"};
     }
     const auto parameter = std::find_if(data.parameters.begin(), data.parameters.end(),
                                         [&](const certificate::Parameter& p) { return p.name == argument.of; });

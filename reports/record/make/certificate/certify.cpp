@@ -9,6 +9,7 @@
 #include "certificate/gates/gates.h"
 #include "certificate/point_limits.h"
 #include "certificate/result_names.h"
+#include "certificate/section_data.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluation_choice.h"
 #include "gum/coverage.h"
@@ -109,6 +110,7 @@ private:
     const certificate::CapabilityInputs& inputs_;
     PrintRule rule_;
     bool scoped_ = false;
+    std::map<std::string, CertificateData> of_section_;
     std::map<std::string, std::size_t> points_;  ///< of the job, by their names
     std::vector<Finding> findings_;
 
@@ -119,6 +121,17 @@ private:
     }
 
     [[nodiscard]] const CertificateData& data() const { return record_.certificate->data; }
+
+    /// What holds for a section: scope and capability depend on the method.
+    [[nodiscard]] const CertificateData& data_of(const std::string& section) {
+        if (data().sections.empty()) {
+            return data();
+        }
+        const auto known = of_section_.find(section);
+        return known != of_section_.end()
+                   ? known->second
+                   : of_section_.emplace(section, certificate::data_of_section(data(), section)).first->second;
+    }
 
     void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
                        std::size_t row, const Result* result) {
@@ -147,7 +160,7 @@ private:
         if (!scoped_) {
             return;
         }
-        ScopeAnswer answer = scope_of(data(), place, inputs_);
+        ScopeAnswer answer = scope_of(data_of(place.table.section), place, inputs_);
         value.scope_entry = std::move(answer.entry);
         value.outside_because = std::move(answer.outside_because);
         if (value.U || value.interval || value.u > 0.0) {  // by definition without uncertainty: no capability either

@@ -37,6 +37,17 @@ TEST(JobStatements, OfATableAreItsColumns) {
     EXPECT_EQ(job.of("y", "low").at("observations"), json::parse("[5.0, 6.0, 7.0]"));
 }
 
+TEST(JobStatements, OfSectionsAreNumberedThroughTheJob) {
+    reports::EvaluationRecord record;
+    record.job_json = R"({"inputs": {"x": {"unit": "V"}}, "sections": {
+        "a": {"points": {"list": [{"x": 3}]}}, "z": {"points": [{"x": 1}, {"x": 2}]}}})";
+    record.sections = {{.name = "z", .title = {}, .points = 2, .quantities = {}},
+                       {.name = "a", .title = {}, .points = 1, .quantities = {}}};
+    const JobStatements job(record);
+    EXPECT_EQ(job.of("x", "2").at("value"), 2);
+    EXPECT_EQ(job.of("x", "3").at("value"), 3) << "z stands before a in the record";
+}
+
 TEST(JobStatements, HaveComponents) {
     const JobStatements job(record_of("[]"));
     EXPECT_EQ(job.of("z", "", 1), json::parse(R"({"u": 2})"));
