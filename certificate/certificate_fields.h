@@ -505,6 +505,7 @@ void describe(Archive& a, Struct& r) {
     a("where", r.where);
     a("units", r.units);
     a("columns", r.columns);
+    a.stated("plot", r.plot, {"", "none"});
 }
 
 template <class Archive, Described<PointTable> Struct>
@@ -522,6 +523,7 @@ void describe(Archive& a, Struct& r) {
     a("group", r.group);
     a("columns", r.columns);
     a("shown", r.shown);
+    a.stated("plot", r.plot, {"", "none"});
 }
 
 template <class Archive, Described<CertifiedTable> Struct>

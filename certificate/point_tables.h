@@ -62,6 +62,7 @@ struct TableRequest {
     std::vector<RowChoice> where;
     std::vector<GroupUnit> units;
     std::vector<ShownColumn> columns;
+    std::string plot = {};  ///< "": one of each group of rows; "none"
 };
 
 /// The points of a job, what they have beside their results, and the tables that show them.
@@ -79,6 +80,7 @@ struct TableLayout {
     std::string group;                 ///< what all rows have there
     std::vector<PointColumn> columns;  ///< values of the rows, in the units of this group
     std::vector<ShownColumn> shown;
+    std::string plot = {};  ///< as TableRequest::plot
 };
 
 }  // namespace gumcert::certificate

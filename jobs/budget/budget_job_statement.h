@@ -22,6 +22,9 @@ struct UnknownStatement {
     std::string description;
 };
 
+/// Of the plots of a table.
+inline constexpr Words<std::string_view, 2> k_plot_words{{{"each", ""}, {"none", "none"}}};
+
 struct OutputStatement {
     std::optional<double> coverage_probability;
     std::optional<gum::CoverageChoice> coverage;
@@ -86,6 +89,7 @@ void describe(Archive& a, TableStatement&) {
         {"type": "object", "additionalProperties": {"$ref": "#/definitions/name"}}]}})",
               "a unit for each group, or an object of columns and their units",
               "Units of the numbers of a group of rows.");
+    a.by_code("plot", k_plot_words, "Whether each group of rows has a plot of its results; each when left out.");
 }
 
 template <class Archive>

@@ -257,6 +257,7 @@ private:
                               "declare it in the columns of points as \"text\"");
             }
         }
+        table.plot = object.optional_choice<std::string_view>("plot", k_plot_words).value_or("");
         read_where(object, table);
         read_units(object, table);
         const json* columns = object.find("columns");

@@ -41,7 +41,7 @@ const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
     if (!table.layout) {
         return nullptr;
     }
-    for (const char* const role : {"nominal", "setting", "reference", "indication"}) {
+    for (const char* const role : {"nominal", "reference", "setting", "indication"}) {
         for (const certificate::PointColumn& column : table.layout->columns) {
             const bool complete =
                 std::all_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); });

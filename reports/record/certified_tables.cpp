@@ -218,6 +218,7 @@ CertifiedTable table_of_group(const EvaluationRecord& record, const certificate:
         layout.group_role = groups->heading.empty() ? groups->name : "";
     }
     layout.shown = request.columns;
+    layout.plot = request.plot;
     for (const certificate::ShownColumn& shown : request.columns) {
         const auto from = shown.show == "column" ? column_of(shown.of) : points.columns.end();
         if (from != points.columns.end()) {

@@ -381,6 +381,9 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
     const auto shown = [&](const CertifiedValue& v) { return !overview.separates() || !overview.is_outside(v); };
     const std::size_t absent_before = builder.absent_cells();
     const auto figure = [&](std::size_t i) {
+        if (certificate.tables[i].layout && certificate.tables[i].layout->plot == "none") {
+            return;
+        }
         const Text name = certified_table_name(certificate.tables[i], words);
         const std::string id = "plot-certified-" + std::to_string(i);
         if (const auto plot = certified_plot(certificate.tables[i], name.first(), words, id)) {

@@ -56,6 +56,12 @@ std::vector<std::string> shown(const certificate::TableRequest& table) {
     return all;
 }
 
+TEST(BudgetTables, SayWhetherTheirRowsAreDrawn) {
+    EXPECT_EQ(read_budget(meter(k_columns, R"j(, "tables": [{"plot": "none"}])j"), k_points).tables.at(0).plot, "none");
+    EXPECT_EQ(read_budget(meter(k_columns, R"j(, "tables": [{"plot": "each"}])j"), k_points).tables.at(0).plot, "");
+    EXPECT_EQ(read_budget(meter(k_columns), k_points).tables.at(0).plot, "");
+}
+
 TEST(BudgetTables, ReadReadingsAndColumnsOfPoints) {
     const BudgetJob job = read_budget(meter(k_columns), k_points);
     ASSERT_EQ(job.points.size(), 2U);
