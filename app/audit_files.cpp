@@ -20,7 +20,6 @@
 #include "gum/monte_carlo/worker_threads.h"
 #include "imports/foreign_certificate.h"
 #include "jobs/certificate/certificate_statement.h"
-#include "reports/dcc/dcc_element.h"
 #include "reports/dcc/dcc_reader.h"
 #include "signing/verify.h"
 #include "workbook/read_csv.h"
@@ -87,10 +86,9 @@ std::string certificate_in_pdf(const std::string& bytes, const std::string& name
     }
 }
 
-audit::AuditSubject subject_of_certificate(const std::string& bytes, const std::string& name) {
-    const reports::ImportedCertificate certificate = reports::read_dcc(bytes, name);
-    return audit::subject_of(certificate, reports::read_dcc_root(bytes, name),
-                             imports::check_certificate(bytes, name, {}), name);
+audit::AuditSubject subject_of_certificate(std::string bytes, const std::string& name) {
+    const reports::ParsedDcc document = reports::parse_dcc(std::move(bytes), name);
+    return audit::subject_of(document, imports::check_certificate(document, name, {}), name);
 }
 
 /// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that

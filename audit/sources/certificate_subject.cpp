@@ -354,8 +354,9 @@ void take_traceability(const reports::XmlElement& root, AuditSubject& subject) {
 
 }  // namespace
 
-AuditSubject subject_of(const reports::ImportedCertificate& certificate, const reports::XmlElement& root,
-                        std::span<const gum::Diagnostic> checks, const std::string& name) {
+AuditSubject subject_of(const reports::ParsedDcc& document, std::span<const gum::Diagnostic> checks,
+                        const std::string& name) {
+    const reports::XmlElement& root = document.root;
     AuditSubject subject;
     subject.kind = AuditSubject::Kind::certificate;
     subject.name = name;
@@ -363,7 +364,7 @@ AuditSubject subject_of(const reports::ImportedCertificate& certificate, const r
     subject.certificate->data = reports::certificate_data_of(root);
     take_checks(checks, subject);
     take_traceability(root, subject);
-    Results(certificate, reports::statements_of(root), subject).read();
+    Results(document.certificate, reports::statements_of(root), subject).read();
     return subject;
 }
 

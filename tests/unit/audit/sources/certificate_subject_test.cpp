@@ -17,7 +17,7 @@ namespace gumcert::audit {
 namespace {
 
 AuditSubject subject_of_text(const std::string& xml, std::vector<gum::Diagnostic> checks = {}) {
-    return subject_of(reports::read_dcc(xml, "c.xml"), reports::read_dcc_root(xml, "c.xml"), checks, "c.xml");
+    return subject_of(reports::parse_dcc(xml, "c.xml"), checks, "c.xml");
 }
 
 std::string uncertainty(const std::string& U, const std::string& k, const std::string& p) {
