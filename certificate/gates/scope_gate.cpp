@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "certificate/capability.h"
@@ -132,8 +133,10 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
         const Parameter& parameter = *parameter_of(certificate.data, range.argument.of);
         const Unit unit = Unit::parse(range.argument.unit);
         const Unit stated = Unit::parse(parameter.unit);
+        // One finding for all points of a table: that of the first point beyond the range, if there is one.
+        std::optional<std::pair<bool, Measured>> told;
         for (std::size_t v = 0; v < covered.values.size(); ++v) {
-            const Measured measured = covered.measured(v, unit);
+            Measured measured = covered.measured(v, unit);
             const Unit of = Unit::parse(measured.unit);
             if (!of_one_kind(of, unit) || !of_one_kind(stated, unit)) {
                 continue;
@@ -145,12 +148,17 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
                 continue;
             }
             const bool beyond = is_beyond(value, low, range.high);
+            if (!told || (beyond && !told->first)) {
+                told.emplace(beyond, std::move(measured));
+            }
+        }
+        if (told) {
+            const auto& [beyond, measured] = *told;
             found.add(beyond ? FindingSeverity::critical : FindingSeverity::minor, "X12", k_p14, where,
                       "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name + "\" = " +
                           text::shortest(parameter.value) + " " + parameter.unit + ", and " + measured.in_words,
                       beyond ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
                              : "See whether the parameter is the nominal value of what was measured.");
-            break;
         }
     }
 }
