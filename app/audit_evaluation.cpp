@@ -23,8 +23,7 @@ using certificate::FindingSeverity;
 std::vector<Finding> critical_findings(const audit::AuditReport& report, std::span<const audit::Rule> rules) {
     std::vector<Finding> critical;
     for (const audit::AuditFinding& found : report.findings) {
-        if (found.severity != FindingSeverity::critical || found.of_gate ||
-            audit::waiver_of(found, report.subject.waivers) != nullptr) {
+        if (found.of_gate || !audit::is_open_critical(found, report.subject.waivers)) {
             continue;
         }
         std::string clause;
@@ -43,13 +42,11 @@ std::vector<Finding> critical_findings(const audit::AuditReport& report, std::sp
 
 }  // namespace
 
-reports::AuditView audit_view(const audit::AuditReport& report, const std::string& digest) {
-    reports::AuditContext context;
-    context.program = "gumcert " + std::string(k_version);
-    if (!digest.empty()) {
-        context.digests = {digest};
-    }
-    return reports::make_audit_view(std::span(&report, 1), audit::all_rules(), context);
+reports::AuditView audit_view(std::span<const audit::AuditReport> reports, std::vector<std::string> digests,
+                              const reports::TaskRunner& run) {
+    return reports::make_audit_view(reports, audit::all_rules(),
+                                    {.program = "gumcert " + std::string(k_version), .digests = std::move(digests)},
+                                    run);
 }
 
 bool is_refuted_by_audit(const Evaluation& evaluation) {
@@ -67,7 +64,7 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
         }
     }
     auto report = std::make_shared<audit::AuditReport>(audit::audit(std::move(subject), rules));
-    evaluation.record.audit_json = reports::audit_as_json(audit_view(*report));
+    evaluation.record.audit_json = reports::audit_as_json(audit_view(std::span(report.get(), 1)));
     if (evaluation.record.certificate) {
         certificate::add_findings(*evaluation.record.certificate, critical_findings(*report, rules));
         evaluation.blocked = evaluation.record.certificate->blocked;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file);
 /// comparison the scores are the answer, and what the audit says of them is not another one: false.
 [[nodiscard]] bool is_refuted_by_audit(const Evaluation& evaluation);
 
-/// The audit as documents show it.
-/// \param digest  SHA-256 of the audited file; "" it is not printed
-[[nodiscard]] reports::AuditView audit_view(const audit::AuditReport& report, const std::string& digest = {});
+/// Audits as documents of this program show them.
+/// \param digests  SHA-256 of the audited files, in the order of the reports; none, or "": it is not printed
+/// \param run      as of reports::make_audit_view()
+[[nodiscard]] reports::AuditView audit_view(std::span<const audit::AuditReport> reports,
+                                            std::vector<std::string> digests = {}, const reports::TaskRunner& run = {});
 
 }  // namespace gumcert::app

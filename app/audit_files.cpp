@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -20,7 +21,6 @@
 #include "gum/monte_carlo/worker_threads.h"
 #include "imports/foreign_certificate.h"
 #include "jobs/certificate/certificate_statement.h"
-#include "reports/dcc/dcc_element.h"
 #include "reports/dcc/dcc_reader.h"
 #include "signing/verify.h"
 #include "workbook/read_csv.h"
@@ -87,10 +87,77 @@ std::string certificate_in_pdf(const std::string& bytes, const std::string& name
     }
 }
 
-audit::AuditSubject subject_of_certificate(const std::string& bytes, const std::string& name) {
-    const reports::ImportedCertificate certificate = reports::read_dcc(bytes, name);
-    return audit::subject_of(certificate, reports::read_dcc_root(bytes, name),
-                             imports::check_certificate(bytes, name, {}), name);
+audit::AuditSubject subject_of_certificate(std::string bytes, const std::string& name) {
+    const reports::ParsedDcc document = reports::parse_dcc(std::move(bytes), name);
+    return audit::subject_of(document, imports::check_certificate(document, name, {}), name);
+}
+
+bool has_digest(const fs::path& file, const std::string& sha256) {
+    try {
+        return encoding::sha256(read_file(file)) == sha256;
+    } catch (const gum::StorageError&) {  // not there
+        return false;
+    }
+}
+
+/// The record in a file, where it can be held against its own job here.
+std::optional<reports::EvaluationRecord> recomputable_record(const fs::path& file) {
+    try {
+        const std::string bytes = read_file(file);
+        if (contents_of(bytes) != Contents::record) {
+            return std::nullopt;
+        }
+        reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
+        return not_recomputable(record, file.string()) ? std::nullopt : std::optional(std::move(record));
+    } catch (const gum::DiagnosedError&) {  // its audit says what is wrong
+        return std::nullopt;
+    }
+}
+
+/// How many folders two files have in common.
+std::ptrdiff_t common_folders(const fs::path& a, const fs::path& b) {
+    return std::distance(a.begin(), std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first);
+}
+
+/// Puts jobs to the records that were made of them.
+void put_jobs_to_records(std::vector<FileToAudit>& files, const fs::path& laboratory) {
+    std::vector<std::size_t> jobs;
+    std::vector<std::pair<std::size_t, reports::EvaluationRecord>> records;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (audit::in_small_letters(files[i].file.extension().string()) != ".json") {
+            continue;
+        }
+        if (std::optional<reports::EvaluationRecord> record = recomputable_record(files[i].file)) {
+            records.emplace_back(i, std::move(*record));
+        } else {
+            jobs.push_back(i);
+        }
+    }
+    std::vector<bool> is_told(files.size(), false);
+    for (const std::size_t job : jobs) {
+        const fs::path& file = files[job].file;
+        const auto is_of_job = [&](const reports::EvaluationRecord& record) {
+            const std::vector<fs::path> inputs = input_files(file, record, laboratory);
+            return file.filename() == record.job_files.front().name &&
+                   std::equal(inputs.begin(), inputs.end(), record.job_files.begin(), record.job_files.end(),
+                              [](const fs::path& input, const reports::InputFile& held) {
+                                  return has_digest(input, held.sha256);
+                              });
+        };
+        std::optional<std::size_t> nearest;
+        for (const auto& [position, record] : records) {
+            if (is_of_job(record) &&
+                (!nearest || common_folders(files[position].file, file) > common_folders(files[*nearest].file, file))) {
+                nearest = position;
+            }
+        }
+        if (nearest) {
+            files[*nearest].jobs.push_back(file);
+            is_told[job] = true;
+        }
+    }
+    std::size_t position = 0;
+    std::erase_if(files, [&](const FileToAudit&) { return is_told[position++]; });
 }
 
 /// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that
@@ -108,19 +175,19 @@ bool is_audited(const fs::path& file) {
 
 }  // namespace
 
-std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
-    std::vector<fs::path> files;
+std::vector<FileToAudit> files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
+    std::vector<FileToAudit> files;
     for (const fs::path& name : named) {
         std::error_code error;
         if (!fs::is_directory(name, error)) {
-            files.push_back(name);
+            files.push_back({.file = name});
             continue;
         }
-        std::vector<fs::path> found;
+        std::vector<FileToAudit> found;
         for (const fs::directory_entry& entry :
              fs::recursive_directory_iterator(name, fs::directory_options::skip_permission_denied)) {
             if (entry.is_regular_file() && is_audited(entry.path())) {
-                found.push_back(entry.path());
+                found.push_back({.file = entry.path()});
             }
         }
         if (found.empty()) {
@@ -131,8 +198,10 @@ std::vector<fs::path> files_to_audit(const std::vector<fs::path>& named) {
                                                           "workbooks (.xlsx) and digital certificates (XML)",
                                                   .action = "name the files themselves"});
         }
-        std::sort(found.begin(), found.end());
-        files.insert(files.end(), found.begin(), found.end());
+        std::sort(found.begin(), found.end(),
+                  [](const FileToAudit& a, const FileToAudit& b) { return a.file < b.file; });
+        put_jobs_to_records(found, laboratory);
+        files.insert(files.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
     }
     return files;
 }
@@ -167,11 +236,8 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
             audited.report =
                 *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
                      .audit;
-            if (waivers.empty()) {
-                return audited;
-            }
-            subject = audited.report.subject;
-            break;
+            audit::accept_findings(audited.report, waivers);
+            return audited;
         case Contents::record: {
             reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
             subject = audit::subject_of(record, name);
@@ -203,23 +269,24 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
                         "certificates (XML)",
                 .action = "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file"});
     }
-    subject.waivers.insert(subject.waivers.end(), waivers.begin(), waivers.end());
     audited.report = audit::audit(std::move(subject), audit::all_rules());
+    audited.report.subject.workbook.reset();  // no form shows it, and thousands of files are kept until all are audited
+    audit::accept_findings(audited.report, waivers);
     return audited;
 }
 
-std::vector<AuditAttempt> audit_files(const std::vector<fs::path>& files, unsigned threads, const fs::path& templates,
-                                      const gum::Progress& progress, std::span<const certificate::Waiver> waivers,
-                                      const fs::path& laboratory) {
+std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
+                                      const fs::path& templates, const gum::Progress& progress,
+                                      std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string ending = audit::in_small_letters(files[i].extension().string());
+        const std::string ending = audit::in_small_letters(files[i].file.extension().string());
         (ending == ".csv" || ending == ".xlsx" || ending == ".xlsm" ? tables : others).push_back(i);
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            attempts[file].audited = audit_file(files[file], threads, templates, told, waivers, laboratory);
+            attempts[file].audited = audit_file(files[file].file, threads, templates, told, waivers, laboratory);
         } catch (...) {
             attempts[file].failure = std::current_exception();
         }

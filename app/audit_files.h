@@ -26,12 +26,23 @@ struct AuditedFile {
 /// \throws gum::StorageError
 [[nodiscard]] std::vector<certificate::Waiver> waivers_from(const std::filesystem::path& file);
 
+/// A file that an audit looks at.
+struct FileToAudit {
+    std::filesystem::path file;
+    /// Of a record: jobs of the same folder that it was made of, byte for byte. The record is held against its own job,
+    /// so that they need no audit of their own.
+    std::vector<std::filesystem::path> jobs = {};
+};
+
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
 /// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name; a PDF where a digital certificate is attached that does not
-/// lie beside it.
+/// lie beside it. Of a job of a folder and a record that was made of it, by this program and of the same bytes of all
+/// files, the record.
+/// \param laboratory  as of evaluate_job()
 /// \throws gum::InputError    GC-AUDIT-0010 a folder without such a file
 /// \throws gum::StorageError  what cannot be looked at
-[[nodiscard]] std::vector<std::filesystem::path> files_to_audit(const std::vector<std::filesystem::path>& named);
+[[nodiscard]] std::vector<FileToAudit> files_to_audit(const std::vector<std::filesystem::path>& named,
+                                                      const std::filesystem::path& laboratory = {});
 
 /// Audits one file, whatever it is: a job is evaluated first, a record taken as it states itself and held against its own
 /// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
@@ -52,7 +63,7 @@ struct AuditAttempt {
 
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
 /// the other, which use all threads themselves; results are the same for any number of threads.
-[[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<std::filesystem::path>& files, unsigned threads,
+[[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},
                                                     std::span<const certificate::Waiver> waivers = {},

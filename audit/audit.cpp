@@ -108,9 +108,27 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
 }  // namespace
 
 bool AuditReport::has_critical() const {
-    return std::any_of(findings.begin(), findings.end(), [this](const AuditFinding& finding) {
-        return finding.severity == FindingSeverity::critical && waiver_of(finding, subject.waivers) == nullptr;
-    });
+    return std::any_of(findings.begin(), findings.end(),
+                       [this](const AuditFinding& finding) { return is_open_critical(finding, subject.waivers); });
+}
+
+bool is_open_critical(const AuditFinding& finding, std::span<const certificate::Waiver> waivers) {
+    return finding.severity == FindingSeverity::critical && waiver_of(finding, waivers) == nullptr;
+}
+
+void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers) {
+    for (const certificate::Waiver& waiver : waivers) {
+        const bool fits = std::any_of(
+            report.findings.begin(), report.findings.end(),
+            [&waiver](const AuditFinding& finding) { return waiver_of(finding, std::span(&waiver, 1)) != nullptr; });
+        const std::string sentence = "the waiver of " + waiver.finding +
+                                     (waiver.where.empty() ? "" : " at " + waiver.where) + " fits no finding";
+        std::vector<std::string>& said = report.subject.not_read;
+        if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
+            said.push_back(sentence);
+        }
+        report.subject.waivers.push_back(waiver);
+    }
 }
 
 const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<const certificate::Waiver> waivers) {
@@ -198,18 +216,9 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         };
         return key(a) < key(b);
     });
-    for (const certificate::Waiver& waiver : subject.waivers) {
-        const bool fits = std::any_of(
-            report.findings.begin(), report.findings.end(),
-            [&waiver](const AuditFinding& finding) { return waiver_of(finding, std::span(&waiver, 1)) != nullptr; });
-        const std::string sentence = "the waiver of " + waiver.finding +
-                                     (waiver.where.empty() ? "" : " at " + waiver.where) + " fits no finding";
-        std::vector<std::string>& said = subject.not_read;
-        if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
-            said.push_back(sentence);
-        }
-    }
+    const std::vector<certificate::Waiver> waivers = std::exchange(subject.waivers, {});
     report.subject = std::move(subject);
+    accept_findings(report, waivers);
     return report;
 }
 

@@ -52,6 +52,13 @@ struct AuditReport {
 [[nodiscard]] const certificate::Waiver* waiver_of(const AuditFinding& finding,
                                                    std::span<const certificate::Waiver> waivers);
 
+/// Whether a finding is critical, and nobody accepts it: an assessor would not accept the result, and no certificate is
+/// issued.
+[[nodiscard]] bool is_open_critical(const AuditFinding& finding, std::span<const certificate::Waiver> waivers);
+
+/// Takes more waivers into a report. One that fits no finding is told in `not_read`, once.
+void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers);
+
 /// Applies all rules to a subject, and evaluates what each correction does to every result that it touches.
 /// \param rules  audit/rules/registry.h holds them all
 [[nodiscard]] AuditReport audit(AuditSubject subject, std::span<const Rule> rules);

@@ -53,6 +53,8 @@ enum class RelativeTo { not_stated, reading, full_scale };
 struct AuditedRow {
     std::string quantity, unit, source, comment;
     std::string place;  ///< "row 3" or "Budget!A5", for findings
+    /// Of a row that is one part of a quantity that is a sum: that quantity. Its parts have one unit and one sensitivity.
+    std::string part_of;
     std::optional<StatedNumber> estimate;
     std::optional<StatedNumber> stated;   ///< what was divided: half-width, MPE, U of a certificate
     std::optional<StatedNumber> divisor;  ///< k, √3 …

@@ -148,6 +148,11 @@ BudgetOutcome evaluate(const AuditedBudget& budget) {
     return outcome;
 }
 
+Interval student_factors(const CoverageRule& rule, const Interval& nu_eff) {
+    const double fewest = std::max(0.5, nu_eff.low);
+    return {student_factor(rule, std::max(fewest, nu_eff.high)), student_factor(rule, fewest)};
+}
+
 OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
     // What a part of the sum may be at least and at most.
     const auto part = [](const AuditedRow& row) {
@@ -199,9 +204,7 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
         const BudgetOutcome outcome = evaluate(budget);
         intervals.k = {outcome.k, outcome.k};
     } else {
-        const double fewest = std::max(0.5, intervals.nu_eff.low);
-        intervals.k = {student_factor(budget.coverage, std::max(fewest, intervals.nu_eff.high)),
-                       student_factor(budget.coverage, fewest)};
+        intervals.k = student_factors(budget.coverage, intervals.nu_eff);
     }
     intervals.U = {intervals.k.low * intervals.u_c.low, intervals.k.high * intervals.u_c.high};
     if (budget.floor_applied && budget.capability) {

@@ -38,4 +38,7 @@ struct OutcomeIntervals {
 /// of its rounding. Correlated rows: every sign of the products is bounded.
 [[nodiscard]] OutcomeIntervals outcome_intervals(const AuditedBudget& budget);
 
+/// k of t_p(ν_eff) where ν_eff lies in an interval: from its largest to its smallest, no less than 0.5.
+[[nodiscard]] Interval student_factors(const CoverageRule& rule, const Interval& nu_eff);
+
 }  // namespace gumcert::audit

@@ -258,8 +258,10 @@ bool stands_for(const AuditedRow& row, const RequiredContributor& required) {
     if (std::find(required.by.begin(), required.by.end(), row.contributor) != required.by.end()) {
         return true;
     }
-    return WordLine(row.quantity).has_any(required.words) || WordLine(row.comment).has_any(required.words) ||
-           WordLine(row.source).has_any(required.words);
+    const auto names_it = [&required](const std::string& text) {
+        return !text.empty() && WordLine(text).has_any(required.words);
+    };
+    return names_it(row.quantity) || names_it(row.comment) || names_it(row.source);
 }
 
 }  // namespace gumcert::audit

@@ -78,7 +78,11 @@ bool may_be_of_rule(const Claims& claims, const CoverageRule& rule) {
     return !usual || claims.nu_eff || claims.coverage_probability == rule.probability;
 }
 
-Interval allowed_k(const AuditedBudget& budget, const CoverageRule& rule) {
+/// \param nu_eff  what the rows allow of it
+Interval allowed_k(const AuditedBudget& budget, const CoverageRule& rule, const Interval& nu_eff) {
+    if (rule.kind == CoverageRule::Kind::student_t) {
+        return student_factors(rule, nu_eff);
+    }
     if (rule.kind == CoverageRule::Kind::fixed) {
         const bool claimed = budget.claims.k && budget.claims.k->value == rule.k;
         return claimed ? hull(budget.claims.k->interval(), {rule.k, rule.k}) : Interval{rule.k, rule.k};
@@ -135,28 +139,39 @@ Interval printed_interval(const StatedNumber& number) {
     return {number.value - half, number.value + half};
 }
 
-ClaimCheck check_claims(const AuditedBudget& budget) {
-    const Claims& claims = budget.claims;
+ClaimCheck check_u_c(const AuditedBudget& budget) {
     ClaimCheck check;
     check.coverage = budget.coverage;
-    OutcomeIntervals allowed;
     try {
         static_cast<void>(evaluate(budget));
-        allowed = outcome_intervals(budget);
+        check.allowed = outcome_intervals(budget);
     } catch (const gum::DiagnosedError&) {
         return check;
     }
-    check.u_c = wide(allowed.u_c);
-    check.nu_eff = allowed.nu_eff;
+    check.u_c = wide(check.allowed->u_c);
+    check.nu_eff = check.allowed->nu_eff;
+    if (budget.claims.u_c) {
+        const Interval claimed = printed_interval(*budget.claims.u_c);
+        check.u_c_outside = !claimed.meets(check.u_c);
+        check.linear_sum = check.u_c_outside && budget.rows.size() > 1 && claimed.meets(linear_sum_of(budget));
+    }
+    return check;
+}
+
+ClaimCheck check_claims(const AuditedBudget& budget) {
+    const Claims& claims = budget.claims;
+    ClaimCheck check = check_u_c(budget);
+    if (!check.allowed) {
+        return check;
+    }
+    const OutcomeIntervals allowed = *check.allowed;
     Interval u_c = check.u_c;
     if (claims.u_c) {
         const Interval claimed = printed_interval(*claims.u_c);
-        check.u_c_outside = !claimed.meets(check.u_c);
         // Where both hold, u_c is what both allow; U may have been computed from the printed one as well.
         u_c = check.u_c_outside ? claimed
                                 : hull({std::max(claimed.low, check.u_c.low), std::min(claimed.high, check.u_c.high)},
                                        {claims.u_c->value, claims.u_c->value});
-        check.linear_sum = check.u_c_outside && budget.rows.size() > 1 && claimed.meets(linear_sum_of(budget));
     }
     check.U = allowed_U(budget, allowed.k, u_c);
     const auto gives_U = [&](const Interval& k) {
@@ -173,7 +188,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
                           !before_cutting(*claims.nu_eff).meets(wide(allowed.nu_eff));
     for (const CoverageRule& rule : student) {
         if (nu_apart && may_be_of_rule(claims, rule) && gives_k(factors_of(rule, *claims.nu_eff)) &&
-            !gives_k(allowed_k(budget, rule)) && gives_U(claims.k->interval())) {
+            !gives_k(allowed_k(budget, rule, allowed.nu_eff)) && gives_U(claims.k->interval())) {
             take(rule, claims.k->interval());
             check.nu_eff_outside = true;
             return check;
@@ -182,7 +197,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     std::optional<CoverageRule> nearest;  // of those that give k and U, the one that gives k best
     double distance = 0.0;
     for (const CoverageRule& rule : student) {
-        const Interval k = allowed_k(budget, rule);
+        const Interval k = allowed_k(budget, rule, allowed.nu_eff);
         if (!may_be_of_rule(claims, rule) || !gives_k(k) || !gives_U(k)) {
             continue;
         }
@@ -197,7 +212,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
         }
     }
     if (nearest) {
-        take(*nearest, allowed_k(budget, *nearest));
+        take(*nearest, allowed_k(budget, *nearest, allowed.nu_eff));
         return check;
     }
     // A rule that gives the claimed k and U is the one that was used; else one that gives U.
@@ -209,7 +224,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
             break;  // no other k is needed to explain it
         }
         for (const CoverageRule& rule : rules) {
-            const Interval k = allowed_k(budget, rule);
+            const Interval k = allowed_k(budget, rule, allowed.nu_eff);
             if (gives_U(k) && (!with_k || gives_k(k))) {
                 take(rule, k);
                 return check;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "audit/audited_budget.h"
+#include "audit/budget_outcome.h"
 #include "audit/stated_number.h"
 
 namespace gumcert::audit {
@@ -11,7 +14,8 @@ namespace gumcert::audit {
 
 /// The claimed u_c, ν_eff and U against the rows.
 struct ClaimCheck {
-    Interval u_c, nu_eff, U;  ///< what the rows allow of the claims
+    std::optional<OutcomeIntervals> allowed;  ///< by the rule of coverage of the budget; none where it gives no outcome
+    Interval u_c, nu_eff, U;                  ///< what the rows allow of the claims
     bool u_c_outside = false, U_outside = false;
     /// The claimed k is t_p of the claimed ν_eff, and ν_eff of the rows is another one that gives another k.
     bool nu_eff_outside = false;
@@ -24,6 +28,9 @@ struct ClaimCheck {
 /// as stated, ν_eff as it is or cut. A k with decimals that is t_p(ν_eff) within its digits was taken from ν_eff; "2" is
 /// what laboratories take whatever ν_eff. U may be rounded up. Nothing is outside where a budget gives no outcome.
 [[nodiscard]] ClaimCheck check_claims(const AuditedBudget& budget);
+
+/// The part of it that u_c alone decides: `allowed`, `u_c`, `nu_eff`, `u_c_outside` and `linear_sum`.
+[[nodiscard]] ClaimCheck check_u_c(const AuditedBudget& budget);
 
 /// For readers, after rows, claims and coverage are filled: takes over the rule of coverage that the claims show, and
 /// sets what they have beyond the rows, so that the budget evaluates to what it claims: u_c_over_rows where the

@@ -155,11 +155,10 @@ std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
     } catch (const gum::DiagnosedError&) {
         return std::nullopt;
     }
-    const auto with = [&budget](double u) {
-        AuditedBudget more = budget;
-        AuditedRow row;
-        row.used_u = u;
-        more.rows.push_back(row);
+    AuditedBudget more = budget;
+    more.rows.emplace_back();
+    const auto with = [&more](double u) {
+        more.rows.back().used_u = u;
         return evaluate(more);
     };
     /// The smallest u for which something has changed; nothing where even the largest changes nothing.

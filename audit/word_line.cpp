@@ -12,7 +12,11 @@ namespace gumcert::audit {
 WordLine::WordLine(std::string_view text) {
     for (const std::u32string& word : certificate::words_of(cut(text, k_longest_text))) {
         for (const char32_t letter : word) {
-            line_ += text::encode_utf8(letter);
+            if (letter < 0x80) {
+                line_ += static_cast<char>(letter);
+            } else {
+                line_ += text::encode_utf8(letter);
+            }
         }
         line_ += ' ';
     }
@@ -22,7 +26,12 @@ bool WordLine::has(std::string_view beginning) const {
     if (beginning.starts_with('*')) {
         return line_.find(beginning.substr(1)) != std::string::npos;
     }
-    return line_.find(' ' + std::string(beginning)) != std::string::npos;
+    for (std::size_t at = line_.find(beginning, 1); at != std::string::npos; at = line_.find(beginning, at + 1)) {
+        if (line_[at - 1] == ' ') {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool WordLine::has_any(std::initializer_list<std::string_view> beginnings) const {

@@ -15,9 +15,8 @@ namespace gumcert::certificate {
 //   a(key, member, R)         a member; may be missing in a job
 //   a.needed(key, member, R)  a member without which the object around it means nothing
 //   a.filled(key, member)     a member that the program fills in: in records, not in jobs
-//   a.stated(key, member, R)  a member that a later release added: in records only where it is not empty
+//   a.stated(key, member, R)  a member that a later release added: in records only where it holds something, never null
 //   a.named(key, enumerator, { words })   an enumerator by its name, in the order of the words
-//   a.if_any(key, member, R)  a member of a later release: in records only where it holds something
 //   a.group(key, function)    an object that is no struct of its own: calls function(archive of it)
 
 enum class NumberRule { any, not_negative, positive, at_least_one, one_or_two, probability };
@@ -258,7 +257,7 @@ void describe(Archive& a, Struct& r) {
     a.needed("results", r.results);
     a("lower", r.lower);
     a("upper", r.upper);
-    a.if_any("limits", r.limits);
+    a.stated("limits", r.limits);
     a.needed("unit", r.unit, TextForm::unit);
     a("document", r.document);
     a("edition", r.edition);
@@ -531,7 +530,7 @@ void describe(Archive& a, Struct& r) {
     a("id", r.id);
     a.stated("section", r.section);
     a("argument", r.argument);
-    a.if_any("layout", r.layout);
+    a.stated("layout", r.layout);
     a("columns", r.columns);
 }
 

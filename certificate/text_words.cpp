@@ -14,16 +14,32 @@ struct Range {
     char32_t first, last;
 };
 
-/// Code points that are no letter and no digit, of those that stand for one another or for nothing: punctuation,
+/// Code points above ASCII that are no letter and no digit, of those that stand for one another or for nothing: punctuation,
 /// symbols, spaces and letters without an image. What is not listed counts as a letter.
-constexpr std::array<Range, 21> k_no_letters{
-    {{0x00, 0x2F},     {0x3A, 0x40},     {0x5B, 0x60},      {0x7B, 0xA9},     {0xAB, 0xB1},     {0xB4, 0xB4},
-     {0xB6, 0xB8},     {0xBB, 0xBF},     {0x34F, 0x34F},    {0x115F, 0x1160}, {0x1680, 0x1680}, {0x180E, 0x180E},
-     {0x2000, 0x206F}, {0x2190, 0x2BFF}, {0x3000, 0x3004},  {0x3008, 0x3020}, {0x3164, 0x3164}, {0xFE00, 0xFE0F},
-     {0xFF00, 0xFF0F}, {0xFF1A, 0xFF20}, {0xE0000, 0xE0FFF}}};
+constexpr std::array<Range, 18> k_no_letters{{{0x80, 0xA9},
+                                              {0xAB, 0xB1},
+                                              {0xB4, 0xB4},
+                                              {0xB6, 0xB8},
+                                              {0xBB, 0xBF},
+                                              {0x34F, 0x34F},
+                                              {0x115F, 0x1160},
+                                              {0x1680, 0x1680},
+                                              {0x180E, 0x180E},
+                                              {0x2000, 0x206F},
+                                              {0x2190, 0x2BFF},
+                                              {0x3000, 0x3004},
+                                              {0x3008, 0x3020},
+                                              {0x3164, 0x3164},
+                                              {0xFE00, 0xFE0F},
+                                              {0xFF00, 0xFF0F},
+                                              {0xFF1A, 0xFF20},
+                                              {0xE0000, 0xE0FFF}}};
 constexpr std::array<char32_t, 4> k_more{0x3030, 0xFFA0, 0xFFFD, 0xFEFF};
 
 bool is_letter(char32_t point) {
+    if (point < 0x80) {  // what nearly all texts are made of
+        return (point >= 'a' && point <= 'z') || (point >= '0' && point <= '9') || (point >= 'A' && point <= 'Z');
+    }
     return std::none_of(k_no_letters.begin(), k_no_letters.end(),
                         [&](const Range& r) { return r.first <= point && point <= r.last; }) &&
            std::find(k_more.begin(), k_more.end(), point) == k_more.end();
@@ -50,9 +66,11 @@ void add_small(std::u32string& word, char32_t c) {
     if (c >= 0xFF10 && c <= 0xFF5A) {  // full width
         c -= 0xFEE0;
     }
-    if (c >= 'A' && c <= 'Z') {
-        c += 'a' - 'A';
-    } else if (c >= 0x410 && c <= 0x42F) {
+    if (c < 0x80) {
+        word += c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c;
+        return;
+    }
+    if (c >= 0x410 && c <= 0x42F) {
         c += 0x20;
     } else if (c == 0xC6 || c == 0xE6) {
         word += U"ae";

@@ -160,7 +160,7 @@ void add_state(const reports::ImportedCertificate& certificate, const std::strin
 }
 
 /// Elements that stand once below their parent, and twice in a document that says two things.
-void add_repetitions(std::string_view bytes, const std::string& file, std::vector<Diagnostic>& out) {
+void add_repetitions(const reports::XmlElement& root, const std::string& file, std::vector<Diagnostic>& out) {
     static constexpr std::array<std::string_view, 24> k_once = {"si:value",
                                                                 "si:unit",
                                                                 "si:valueXMLList",
@@ -185,7 +185,7 @@ void add_repetitions(std::string_view bytes, const std::string& file, std::vecto
                                                                 "dcc:customer",
                                                                 "dcc:administrativeData",
                                                                 "dcc:measurementResults"};
-    reports::for_each_element(reports::read_dcc_root(bytes, file), [&](const reports::XmlElement& e) {
+    reports::for_each_element(root, [&](const reports::XmlElement& e) {
         for (const std::string_view name : k_once) {
             if (e.children_named(std::string(name)).size() > 1) {
                 out.push_back(told("GC-DCC-0047", reports::place_of(e, file),
@@ -244,21 +244,22 @@ void add_identity(const reports::ImportedCertificate& c, const std::string& file
     }
 }
 
-void add_contents(const reports::ImportedCertificate& c, std::string_view bytes, const std::string& file,
-                  std::int64_t now, std::vector<Diagnostic>& out) {
-    add_identity(c, file, out);
-    add_dates(c, file, now, out);
-    add_repetitions(bytes, file, out);
+void add_contents(const reports::ParsedDcc& document, const std::string& file, std::int64_t now,
+                  std::vector<Diagnostic>& out) {
+    add_identity(document.certificate, file, out);
+    add_dates(document.certificate, file, now, out);
+    add_repetitions(document.root, file, out);
 }
 
 }  // namespace
 
-std::vector<Diagnostic> reservations_on(const reports::ImportedCertificate& certificate, std::string_view bytes,
-                                        const std::string& file, const CertificateTrust& trust) {
+std::vector<Diagnostic> reservations_on(const reports::ParsedDcc& document, const std::string& file,
+                                        const CertificateTrust& trust) {
+    const reports::ImportedCertificate& certificate = document.certificate;
     std::vector<Diagnostic> out;
     add_state(certificate, file, out);
-    add_signatures(bytes, file, trust, out);
-    add_contents(certificate, bytes, file, trust.now, out);
+    add_signatures(document.bytes, file, trust, out);
+    add_contents(document, file, trust.now, out);
     for (const reports::ImportedQuantity& q : certificate.quantities) {
         const std::string fault = q.objection.empty() && q.kind == "coverage_interval" ? fault_of_value(q) : "";
         if (!fault.empty()) {
@@ -267,8 +268,8 @@ std::vector<Diagnostic> reservations_on(const reports::ImportedCertificate& cert
                                Severity::error));
         }
     }
-    std::vector<Diagnostic> breaches = reports::check_dcc_structure(bytes, file);
-    const std::vector<Diagnostic> rules = reports::check_dcc(bytes, file);
+    std::vector<Diagnostic> breaches = reports::check_dcc_structure(document.root, file);
+    const std::vector<Diagnostic> rules = reports::check_dcc(document.root, file);
     breaches.insert(breaches.end(), rules.begin(), rules.end());
     std::erase_if(breaches, [](const Diagnostic& d) { return d.severity != Severity::error; });
     if (!breaches.empty()) {
@@ -280,13 +281,13 @@ std::vector<Diagnostic> reservations_on(const reports::ImportedCertificate& cert
     return out;
 }
 
-std::vector<Diagnostic> check_certificate(std::string_view bytes, const std::string& file,
+std::vector<Diagnostic> check_certificate(const reports::ParsedDcc& document, const std::string& file,
                                           const CertificateTrust& trust) {
-    const reports::ImportedCertificate certificate = reports::read_dcc(bytes, file);
+    const reports::ImportedCertificate& certificate = document.certificate;
     std::vector<Diagnostic> out;
     add_state(certificate, file, out);
-    add_signatures(bytes, file, trust, out);
-    add_contents(certificate, bytes, file, trust.now, out);
+    add_signatures(document.bytes, file, trust, out);
+    add_contents(document, file, trust.now, out);
     out.insert(out.end(), certificate.remarks.begin(), certificate.remarks.end());
     for (const reports::ImportedQuantity& q : certificate.quantities) {
         const std::string fault = q.objection.empty() ? fault_of(q) : q.objection;
@@ -296,11 +297,16 @@ std::vector<Diagnostic> check_certificate(std::string_view bytes, const std::str
                                "correct the statement", Severity::error));
         }
     }
-    const std::vector<Diagnostic> schema = reports::check_dcc_structure(bytes, file);
+    const std::vector<Diagnostic> schema = reports::check_dcc_structure(document.root, file);
     out.insert(out.end(), schema.begin(), schema.end());
-    const std::vector<Diagnostic> breaches = reports::check_dcc(bytes, file);
+    const std::vector<Diagnostic> breaches = reports::check_dcc(document.root, file);
     out.insert(out.end(), breaches.begin(), breaches.end());
     return out;
+}
+
+std::vector<Diagnostic> check_certificate(std::string_view bytes, const std::string& file,
+                                          const CertificateTrust& trust) {
+    return check_certificate(reports::parse_dcc(std::string(bytes), file), file, trust);
 }
 
 }  // namespace gumcert::imports

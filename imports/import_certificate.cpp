@@ -396,8 +396,9 @@ std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inp
 }  // namespace
 
 ImportedJob import_certificate(std::string_view bytes, const std::string& file, const CertificateTrust& trust) {
-    const ImportedCertificate certificate = reports::read_dcc(bytes, file);
-    const std::vector<gum::Diagnostic> reservations = reservations_on(certificate, bytes, file, trust);
+    const reports::ParsedDcc document = reports::parse_dcc(std::string(bytes), file);
+    const ImportedCertificate& certificate = document.certificate;
+    const std::vector<gum::Diagnostic> reservations = reservations_on(document, file, trust);
     bool unreliable = false;
     for (const gum::Diagnostic& reservation : reservations) {
         if (reservation.code == "GC-DCC-0041") {

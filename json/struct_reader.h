@@ -56,15 +56,8 @@ public:
         self().require(key);
     }
 
-    /// A member that is stated only where it holds something.
-    template <class Type, class... Rule>
-    void if_any(std::string_view key, Type& v, const Rule&... rule) {
-        if (object_.contains(key)) {
-            (*this)(key, v, rule...);
-        }
-    }
-
-    /// A member that may be missing without a word, whatever else a missing one means.
+    /// A member that is stated only where it holds something, and may be missing without a word, whatever else a missing
+    /// one means.
     template <class Type, class Rule = NoRule>
     void stated(std::string_view key, Type& v, const Rule& rule = {}) {
         if (object_.contains(key)) {

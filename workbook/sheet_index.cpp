@@ -16,15 +16,17 @@ std::string scoped_name(std::string_view name, std::size_t sheet) {
 }  // namespace
 
 SheetIndex::SheetIndex(const Sheet& sheet) : sheet_(sheet) {
-    std::vector<std::uint32_t> count(k_most_columns + 1, 0);
     for (const Cell& cell : sheet.cells) {
-        ++count[cell.address.column];
         last_used_.row = std::max(last_used_.row, cell.address.row);
         last_used_.column = std::max(last_used_.column, cell.address.column);
     }
+    // As many as are used, not as many as there may be: thousands of small tables are read in one run.
+    std::vector<std::uint32_t> count(last_used_.column + 1, 0), next(last_used_.column + 1, 0);
+    for (const Cell& cell : sheet.cells) {
+        ++count[cell.address.column];
+    }
     std::uint32_t begin = 0;
-    std::vector<std::uint32_t> next(k_most_columns + 1, 0);
-    for (std::uint32_t column = 1; column <= k_most_columns; ++column) {
+    for (std::uint32_t column = 1; column <= last_used_.column; ++column) {
         if (count[column] > 0) {
             columns_.push_back({column, begin, begin + count[column]});
         }

@@ -1,7 +1,6 @@
 #include "app/cli/audit_command.h"
 
 #include <fmt/core.h>
-#include <gumcert_build_info.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/audit_evaluation.h"
 #include "app/audit_files.h"
 #include "app/cli/share_folder.h"
 #include "app/output_files.h"
@@ -114,7 +114,21 @@ std::string rendered(const reports::AuditView& view, const std::string& form, co
 
 ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& options, const CommonOptions& common) {
     const std::vector<fs::path> named(files.begin(), files.end());
-    const std::vector<fs::path> all = app::files_to_audit(named);
+    const std::vector<app::FileToAudit> files_to_audit = app::files_to_audit(named, options.laboratory);
+    std::vector<fs::path> all;
+    for (const app::FileToAudit& one : files_to_audit) {
+        all.push_back(one.file);
+        for (const fs::path& job : one.jobs) {
+            all.push_back(job);
+            print_message({.code = "GC-AUDIT-0013",
+                           .where = job.string(),
+                           .what = "has no audit of its own: " + one.file.string() + " was made of it",
+                           .rule = "a record is audited with its job, which is evaluated again and held against it",
+                           .action = "name the job itself to see it alone",
+                           .severity = gum::Severity::note},
+                          common);
+        }
+    }
     const Destination to = destination_of(options, named.front());
     for (const auto& [form, file] : to.files) {
         app::require_writable(file);
@@ -125,19 +139,19 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
     ExitCode code = done;
     std::vector<audit::AuditReport> reports;
-    reports::AuditContext context;
-    context.program = fmt::format("gumcert {}", k_version);
+    reports.reserve(files_to_audit.size());
+    std::vector<std::string> digests;
     ProgressLine progress(!common.quiet);
     for (app::AuditAttempt& attempt : app::audit_files(
-             all, static_cast<unsigned>(common.threads), templates, [&](const std::string& text) { progress(text); },
-             waivers, options.laboratory)) {
+             files_to_audit, static_cast<unsigned>(common.threads), templates,
+             [&](const std::string& text) { progress(text); }, waivers, options.laboratory)) {
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
                 std::rethrow_exception(attempt.failure);
             }
             const bool critical = attempt.audited->report.has_critical();
             reports.push_back(std::move(attempt.audited->report));
-            context.digests.push_back(std::move(attempt.audited->digest));
+            digests.push_back(std::move(attempt.audited->digest));
             return critical ? negative_answer : done;
         });
         code = std::max(code, one);
@@ -149,7 +163,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     const reports::TaskRunner run = [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
         app::run_in_workers(static_cast<unsigned>(common.threads), n, task);
     };
-    const reports::AuditView view = reports::make_audit_view(reports, audit::all_rules(), context, run);
+    const reports::AuditView view = app::audit_view(reports, std::move(digests), run);
     if (!to.to_stdout.empty()) {
         write_to_stdout(rendered(view, to.to_stdout, options, run));
         return code;

@@ -133,8 +133,7 @@ constexpr const char* k_audit_file = "audit.html";
 void report_audit(const app::Evaluation& evaluation, const CommonOptions& common) {
     const audit::AuditReport& report = *evaluation.audit;
     for (const audit::AuditFinding& finding : report.findings) {
-        if (evaluation.record.certificate || finding.severity != certificate::FindingSeverity::critical ||
-            audit::waiver_of(finding, report.subject.waivers) != nullptr) {
+        if (evaluation.record.certificate || !audit::is_open_critical(finding, report.subject.waivers)) {
             continue;
         }
         print_message({.code = "GC-AUDIT-0020",
@@ -211,9 +210,9 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     if (!evaluation.covariance.empty()) {
         files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
     }
-    files.push_back({folder / k_audit_file,
-                     reports::audit_as_html(app::audit_view(*evaluation.audit, record.job_files.front().sha256),
-                                            issuer.options().assets)});
+    files.push_back({folder / k_audit_file, reports::audit_as_html(app::audit_view(std::span(evaluation.audit.get(), 1),
+                                                                                   {record.job_files.front().sha256}),
+                                                                   issuer.options().assets)});
     const bool held_back = withheld(record, options.draft);
     if (!held_back) {
         progress("documents");

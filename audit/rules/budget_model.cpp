@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -37,12 +38,22 @@ std::vector<gum::EquationText> equations_of(const AuditedBudget& budget) {
     return equations;
 }
 
-/// The row that stands for a quantity: by its whole name, else by the first word of it.
-std::optional<std::size_t> row_of(const AuditedBudget& budget, const std::string& name) {
+/// The row that stands for a quantity: by its whole name, else by the first word of it. All parts of one that is a sum;
+/// none where there is no row, or another one beside it.
+std::vector<std::size_t> rows_of(const AuditedBudget& budget, const std::string& name) {
+    std::vector<std::size_t> parts;
+    for (std::size_t i = 0; i < budget.rows.size(); ++i) {
+        if (!budget.rows[i].part_of.empty() && gum::canonical_name(budget.rows[i].part_of) == name) {
+            parts.push_back(i);
+        }
+    }
+    if (!parts.empty()) {
+        return parts;
+    }
     const auto find = [&](const auto& name_of) -> std::optional<std::size_t> {
         std::optional<std::size_t> found;
         for (std::size_t i = 0; i < budget.rows.size(); ++i) {
-            if (gum::canonical_name(name_of(budget.rows[i].quantity)) == name) {
+            if (budget.rows[i].part_of.empty() && gum::canonical_name(name_of(budget.rows[i].quantity)) == name) {
                 if (found) {
                     return std::nullopt;  // two rows for one name: neither is taken
                 }
@@ -51,11 +62,30 @@ std::optional<std::size_t> row_of(const AuditedBudget& budget, const std::string
         }
         return found;
     };
-    const std::optional<std::size_t> whole = find([](const std::string& quantity) { return trimmed(quantity); });
-    return whole ? whole : find([](const std::string& quantity) {
-        const std::string text = trimmed(quantity);
-        return text.substr(0, text.find_first_of(" (,:"));
-    });
+    std::optional<std::size_t> row = find([](const std::string& quantity) { return trimmed(quantity); });
+    if (!row) {
+        row = find([](const std::string& quantity) {
+            const std::string text = trimmed(quantity);
+            return text.substr(0, text.find_first_of(" (,:"));
+        });
+    }
+    return row ? std::vector{*row} : std::vector<std::size_t>{};
+}
+
+double reach_of(const AuditedRow& row, double k) {
+    if (!row.in_sum) {
+        return 0.0;
+    }
+    switch (row.shape) {
+        case Shape::rectangular:
+            return std::numbers::sqrt3 * row.used_u;
+        case Shape::triangular:
+            return std::sqrt(6.0) * row.used_u;
+        case Shape::arcsine:
+            return std::numbers::sqrt2 * row.used_u;
+        default:
+            return k * row.used_u;
+    }
 }
 
 /// The unit of a row; nothing for a text that is none. "-" stands for one.
@@ -96,18 +126,22 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
         if (defined.contains(name)) {
             continue;
         }
-        const std::optional<std::size_t> row = row_of(budget, name);
-        if (!row) {
+        std::vector<std::size_t> rows = rows_of(budget, name);
+        if (rows.empty()) {
             model.without_row_.push_back(name);
             continue;
         }
-        const AuditedRow& is = budget.rows[*row];
+        const AuditedRow& is = budget.rows[rows.front()];
         const std::optional<gum::Unit> unit = unit_of(is.unit);
         units_known = units_known && unit;
         any_unit = any_unit || !is.unit.empty();
-        estimates_known = estimates_known && is.estimate && std::isfinite(is.estimate->value);
+        for (const std::size_t row : rows) {
+            const std::optional<StatedNumber>& estimate = budget.rows[row].estimate;
+            estimates_known = estimates_known && estimate && std::isfinite(estimate->value);
+        }
         model.quantities_.push_back(name);
-        model.rows_.push_back(*row);
+        model.rows_.push_back(rows.front());
+        model.parts_.push_back(std::move(rows));
         model.units_.push_back(unit.value_or(gum::Unit()));
     }
     if (model.rows_.empty()) {
@@ -178,13 +212,24 @@ bool BudgetModel::gives_value(const AuditedBudget& budget) const {
 }
 
 std::vector<double> BudgetModel::estimates(const AuditedBudget& budget) const {
-    std::vector<double> x(rows_.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> x(parts_.size(), 0.0);
     for (std::size_t i = 0; i < x.size(); ++i) {
-        if (rows_[i] < budget.rows.size() && budget.rows[rows_[i]].estimate) {
-            x[i] = budget.rows[rows_[i]].estimate->value;
+        for (const std::size_t row : parts_[i]) {
+            const bool known = row < budget.rows.size() && budget.rows[row].estimate;
+            x[i] += known ? budget.rows[row].estimate->value : std::numeric_limits<double>::quiet_NaN();
         }
     }
     return x;
+}
+
+std::vector<double> BudgetModel::reach(const AuditedBudget& budget, double k) const {
+    std::vector<double> reach(parts_.size(), 0.0);
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+        for (const std::size_t row : parts_[i]) {
+            reach[i] += reach_of(budget.rows[row], k);
+        }
+    }
+    return reach;
 }
 
 std::optional<std::vector<double>> BudgetModel::derivatives(const std::vector<double>& x) const {

@@ -20,15 +20,20 @@ public:
     /// \return nothing where the equation cannot be read, or no row stands for any of its quantities
     [[nodiscard]] static std::optional<BudgetModel> of(const AuditedBudget& budget);
 
-    /// Quantities of the equation, those without a row, and the position of the row of each of the others.
+    /// Quantities of the equation, those without a row, and the position of the row of each of the others; of a quantity
+    /// that is a sum the first of its parts.
     [[nodiscard]] const std::vector<std::string>& without_row() const { return without_row_; }
     [[nodiscard]] const std::vector<std::string>& quantities() const { return quantities_; }
     [[nodiscard]] const std::vector<std::size_t>& rows() const { return rows_; }
     /// Whether numbers can be computed: every quantity has a row with an estimate, and units balance, or none is stated.
     [[nodiscard]] bool can_be_evaluated() const { return system_.has_value(); }
 
-    /// The estimates of the rows, in their units; NaN for one that a budget does not have.
+    /// The estimates of the quantities, in the units of their rows; NaN for one that a budget does not have.
     [[nodiscard]] std::vector<double> estimates(const AuditedBudget& budget) const;
+    /// How far from their estimates the quantities are looked at: bounded ones (rectangular, triangular, arcsine) to their
+    /// limits, others ±k u. The parts of a sum may all be at their ends at once: their reaches add up. What is not in the
+    /// sum of the budget does not vary.
+    [[nodiscard]] std::vector<double> reach(const AuditedBudget& budget, double k) const;
     /// ∂y/∂x_i at x, [unit of the result / unit of the row i].
     /// \return nothing where the equation has no finite derivative there
     [[nodiscard]] std::optional<std::vector<double>> derivatives(const std::vector<double>& x) const;
@@ -44,7 +49,8 @@ private:
     [[nodiscard]] bool gives_value(const AuditedBudget& budget) const;
 
     std::vector<std::string> quantities_, without_row_;
-    std::vector<std::size_t> rows_;
+    std::vector<std::size_t> rows_;                ///< the first of `parts_` each
+    std::vector<std::vector<std::size_t>> parts_;  ///< of each quantity: its row, or those of its parts
     std::vector<gum::Unit> units_;
     gum::Unit result_unit_;
     std::size_t output_ = 0;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,23 +15,6 @@
 
 namespace gumcert::audit {
 namespace {
-
-/// How far from its estimate a quantity is looked at: to the limits of a bounded one, else k u.
-double reach_of(const AuditedRow& row, double k) {
-    if (!row.in_sum) {
-        return 0.0;
-    }
-    switch (row.shape) {
-        case Shape::rectangular:
-            return std::numbers::sqrt3 * row.used_u;
-        case Shape::triangular:
-            return std::sqrt(6.0) * row.used_u;
-        case Shape::arcsine:
-            return std::numbers::sqrt2 * row.used_u;
-        default:
-            return k * row.used_u;
-    }
-}
 
 // Four digits are printed: a bound is made larger, and what is certain smaller, than they may be off.
 constexpr double k_of_digits = 6e-4;
@@ -73,11 +55,7 @@ BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
                                    : "no row, or more than one, stands for " + text::listed(model->without_row(), 4);
         return result;
     }
-    std::vector<double> reach;
-    for (const std::size_t row : model->rows()) {
-        reach.push_back(reach_of(budget.rows[row], outcome->k));
-    }
-    result.bound = model->tangent_bound(model->estimates(budget), reach);
+    result.bound = model->tangent_bound(model->estimates(budget), model->reach(budget, outcome->k));
     return result;
 }
 

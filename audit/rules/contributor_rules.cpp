@@ -31,8 +31,9 @@ enum class Presence { missing, without_number, with_number };
 Presence presence_of(const AuditedBudget& budget, const RequiredContributor& required) {
     Presence presence = Presence::missing;
     for (const AuditedRow& row : budget.rows) {
-        if (stands_for(row, required)) {
-            presence = std::max(presence, row.used_u > 0.0 ? Presence::with_number : Presence::without_number);
+        const Presence of_row = row.used_u > 0.0 ? Presence::with_number : Presence::without_number;
+        if (of_row > presence && stands_for(row, required)) {
+            presence = of_row;
         }
     }
     return presence;

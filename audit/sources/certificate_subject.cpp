@@ -10,10 +10,12 @@
 
 #include "audit/finding.h"
 #include "audit/word_line.h"
+#include "certificate/text_words.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
 #include "reports/dcc/dcc_certificate_data.h"
+#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -352,10 +354,63 @@ void take_traceability(const reports::XmlElement& root, AuditSubject& subject) {
     }
 }
 
+bool is_same_person(const std::optional<certificate::Person>& a, const std::optional<certificate::Person>& b) {
+    return a && b && certificate::letters_of(a->name) == certificate::letters_of(b->name);
+}
+
+/// Who did what, as far as the document says; the days of authorisations are in no such document.
+void take_persons(const reports::XmlElement& root, AuditSubject& subject) {
+    std::vector<certificate::Finding>& findings = subject.certificate->findings;
+    const auto& [performed_by, reviewed_by, authorised_by] = subject.certificate->data.persons;
+    const reports::XmlElement* const administrative = root.child("dcc:administrativeData");
+    if (!authorised_by && administrative != nullptr && administrative->child("dcc:respPersons") != nullptr) {
+        findings.push_back({.id = "R07-o",
+                            .clause = "ISO/IEC 17025:2017, 7.8.2.1 o",
+                            .severity = FindingSeverity::minor,
+                            .where = "administrativeData / respPersons",
+                            .what = "the document does not say which person authorised it",
+                            .action = "Mark the main signer, or state a role that authorises."});
+    }
+    if (is_same_person(performed_by, reviewed_by)) {
+        findings.push_back(
+            {.id = "P07",
+             .clause = "ISO/IEC 17025:2017, 7.8.1.1",
+             .severity = FindingSeverity::major,
+             .where = "administrativeData / respPersons",
+             .what = performed_by->name + " did the work and reviewed it" +
+                     (is_same_person(performed_by, authorised_by) ? ", and authorised the document" : ""),
+             .action = "Let another person review."});
+    }
+}
+
+/// Texts that no rule looks at: silence about them is no judgement.
+void tell_what_is_not_read(std::span<const reports::DccStatement> statements, AuditSubject& subject) {
+    std::vector<std::string> kinds;
+    for (const reports::DccStatement& statement : statements) {
+        const WordLine kind(statement.ref_type);
+        if (kind.has_any({"*conformity", "*accreditation", "*remark", "*opinion", "*draft", "*specimen"})) {
+            continue;
+        }
+        const std::string name = statement.ref_type.empty() ? "of no stated kind" : statement.ref_type;
+        if (std::find(kinds.begin(), kinds.end(), name) == kinds.end()) {
+            kinds.push_back(name);
+        }
+    }
+    constexpr std::size_t k_shown = 6;
+    if (!kinds.empty()) {
+        subject.not_read.push_back("statements in words were not read: " + text::listed(kinds, k_shown));
+    }
+    if (!subject.certificate->data.method.description.empty()) {
+        subject.not_read.emplace_back(
+            "the description of the method is free text: whether it names deviations was not read");
+    }
+}
+
 }  // namespace
 
-AuditSubject subject_of(const reports::ImportedCertificate& certificate, const reports::XmlElement& root,
-                        std::span<const gum::Diagnostic> checks, const std::string& name) {
+AuditSubject subject_of(const reports::ParsedDcc& document, std::span<const gum::Diagnostic> checks,
+                        const std::string& name) {
+    const reports::XmlElement& root = document.root;
     AuditSubject subject;
     subject.kind = AuditSubject::Kind::certificate;
     subject.name = name;
@@ -363,7 +418,10 @@ AuditSubject subject_of(const reports::ImportedCertificate& certificate, const r
     subject.certificate->data = reports::certificate_data_of(root);
     take_checks(checks, subject);
     take_traceability(root, subject);
-    Results(certificate, reports::statements_of(root), subject).read();
+    take_persons(root, subject);
+    std::vector<reports::DccStatement> statements = reports::statements_of(root);
+    tell_what_is_not_read(statements, subject);
+    Results(document.certificate, std::move(statements), subject).read();
     return subject;
 }
 

@@ -6,7 +6,6 @@
 #include "audit/subject.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/dcc/dcc_reader.h"
-#include "reports/dcc/xml_document.h"
 
 namespace gumcert::audit {
 
@@ -18,12 +17,10 @@ inline constexpr std::size_t k_most_certified_results = 2000;
 /// rule; and the data of the certificate as far as the format states them. A decision rule that is stated in words only
 /// cannot be applied here: the sentence about it is in `not_read`, and the verdict is not held against it. Where acceptance
 /// limits stand beside a verdict, it is decided by them.
-/// \param certificate  of reports::read_dcc()
-/// \param root         of reports::read_dcc_root(), of the same bytes
-/// \param checks       what is wrong with the document: of imports::check_certificate(). What has a rule of the audit
-///                     becomes a finding of it, what could not be read a sentence
-/// \param name         of the file
-[[nodiscard]] AuditSubject subject_of(const reports::ImportedCertificate& certificate, const reports::XmlElement& root,
-                                      std::span<const gum::Diagnostic> checks, const std::string& name);
+/// \param checks  what is wrong with the document: of imports::check_certificate(). What has a rule of the audit
+///                becomes a finding of it, what could not be read a sentence
+/// \param name    of the file
+[[nodiscard]] AuditSubject subject_of(const reports::ParsedDcc& document, std::span<const gum::Diagnostic> checks,
+                                      const std::string& name);
 
 }  // namespace gumcert::audit

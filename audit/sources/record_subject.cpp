@@ -153,6 +153,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
                 const reports::BudgetRow& part = stated.components[c];
                 budget.rows.push_back(row_of(part, name + ": " + part.input, place + "/components/" + std::to_string(c),
                                              budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
+                budget.rows.back().part_of = stated.input;
             }
             continue;
         }

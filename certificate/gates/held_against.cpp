@@ -1,7 +1,9 @@
 #include "certificate/gates/held_against.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "gum/argument_check.h"
 #include "text/numbers.h"
@@ -14,9 +16,50 @@ bool of_one_kind(const Unit& a, const Unit& b) {
     return a.dimension() == b.dimension() && a.is_celsius_temperature() == b.is_celsius_temperature();
 }
 
-double value_for_scope(const CertifiedValue& value, const Unit& column, const Unit& unit) {
-    const double in_unit = unit.from_si(column.to_si(value.value));
+double value_for_scope(double value, const Unit& of, const Unit& unit) {
+    const double in_unit = unit.from_si(of.to_si(value));
     return unit.is_celsius_temperature() ? in_unit : std::abs(in_unit);
+}
+
+namespace {
+
+/// Roles of columns at whose values an error is measured, the one that says it best first.
+constexpr std::array<std::string_view, 5> k_places{"nominal", "setting", "reference", "indication", "measured_value"};
+
+/// The column of a result as its table shows it; nullptr where it is not shown, or is no error, deviation or correction.
+const ShownColumn* error_column(const CertifiedTable& table, const std::string& result) {
+    if (!table.layout) {
+        return nullptr;
+    }
+    const auto& shown = table.layout->shown;
+    const auto found = std::find_if(shown.begin(), shown.end(), [&](const ShownColumn& one) {
+        return one.show == "value" && one.of == result &&
+               (one.role == "error" || one.role == "deviation" || one.role == "correction");
+    });
+    return found == shown.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Measured measured_at(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row, const Unit& unit) {
+    if (const ShownColumn* error = error_column(table, column.result)) {
+        for (const std::string_view role : k_places) {
+            for (const PointColumn& place : table.layout->columns) {
+                if (place.role != role || (!place.stage.empty() && place.stage != error->stage) ||
+                    row >= place.values.size() || !place.values[row] || !of_one_kind(Unit::parse(place.unit), unit)) {
+                    continue;
+                }
+                const std::string shown =
+                    row < place.printed.size() ? place.printed[row] : text::shortest(*place.values[row]);
+                return {{.name = place.name, .value = *place.values[row], .unit = place.unit},
+                        "the result \"" + column.result + "\" was measured at \"" + place.name + "\" = " + shown + " " +
+                            place.unit};
+            }
+        }
+    }
+    const CertifiedValue& value = column.values[row];
+    return {{.name = column.result, .value = value.value, .unit = column.unit},
+            "the result \"" + column.result + "\" is " + value.printed_value + " " + column.unit};
 }
 
 bool is_nominal_of(double claimed, double value) {
@@ -31,25 +74,23 @@ bool is_beyond(double value, double low, double high) {
 }
 
 bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
-                                const CapabilityArgument& argument, const HeldAgainst& held,
-                                const CertifiedColumn& column, const CertifiedValue& value) {
+                                const CapabilityArgument& argument, const HeldAgainst& held, const Measured& measured) {
     const Unit unit = Unit::parse(argument.unit);
-    const Unit result = Unit::parse(column.unit);
+    const Unit result = Unit::parse(measured.unit);
     const Unit stated = Unit::parse(held.unit);
     if (!of_one_kind(result, unit) || !of_one_kind(stated, unit)) {
         return false;
     }
-    const double measured = value_for_scope(value, result, unit);
-    const double claimed = unit.from_si(stated.to_si(held.value));
-    if (is_nominal_of(claimed, measured)) {
+    const double value = value_for_scope(measured.value, result, unit);
+    const double claimed = value_for_scope(held.value, stated, unit);
+    if (is_nominal_of(claimed, value)) {
         return false;
     }
-    const bool larger = std::abs(measured) > std::abs(claimed);
+    const bool larger = std::abs(value) > std::abs(claimed);
     found.add(larger ? FindingSeverity::critical : FindingSeverity::minor, "X12", "ILAC-P14:09/2020",
               place_in("/accreditation/scope", i, "capability"),
               "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
-                  "\" = " + text::shortest(held.value) + " " + held.unit + ", and the result \"" + column.result +
-                  "\" is " + value.printed_value + " " + column.unit,
+                  "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
               "Take it at the result (\"of\": \"value\"), or state the true parameter.");
     return true;
 }

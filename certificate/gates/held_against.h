@@ -11,7 +11,8 @@
 namespace gumcert::certificate {
 
 // A scope may hold its ranges and take its capabilities against a number that is not the result itself: a nominal
-// value, an input of the budget. That number has to be the one of what was measured.
+// value, an input of the budget. That number has to be the one of what was measured: the result, or, of an error, a
+// deviation or a correction, the value at which it was measured.
 
 /// A number that the author of a certificate or of a budget states.
 struct HeldAgainst {
@@ -23,21 +24,31 @@ struct HeldAgainst {
 /// Same dimension, and both or neither a Celsius temperature.
 [[nodiscard]] bool of_one_kind(const gum::Unit& a, const gum::Unit& b);
 
-/// A result in the unit of a scope: its magnitude, or the temperature itself in degrees Celsius.
-[[nodiscard]] double value_for_scope(const CertifiedValue& value, const gum::Unit& column, const gum::Unit& unit);
+/// A number in the unit of a scope: its magnitude, or the temperature itself in degrees Celsius.
+[[nodiscard]] double value_for_scope(double value, const gum::Unit& of, const gum::Unit& unit);
+
+/// What was measured where a result stands.
+struct Measured : HeldAgainst {
+    std::string in_words;  ///< "the result "l" is 50000838 nm", "the result "E" was measured at "V_s" = 10.0 mV"
+};
+/// The result itself. Of one whose column is an error, a deviation or a correction by its role, what its row has of the
+/// kind of a scope: the nominal value, else the setting, the reference, the indication or the measured value, in this
+/// order, before and after an adjustment each its own.
+/// \param unit  of the scope
+[[nodiscard]] Measured measured_at(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row,
+                                   const gum::Unit& unit);
 
 /// Whether a number can be the nominal value of what was measured: within a tenth.
 [[nodiscard]] bool is_nominal_of(double claimed, double value);
 
-/// Whether a result lies beyond a range that its nominal value keeps. What is measured may lie a little beyond its
+/// Whether what was measured lies beyond a range that its nominal value keeps. What is measured may lie a little beyond its
 /// nominal value at the end of a range: a hundredth of the range.
 [[nodiscard]] bool is_beyond(double value, double low, double high);
 
-/// Tells of a capability that is taken at another number than the result (X12): critical where the result is the larger
+/// Tells of a capability that is taken at another number than what was measured (X12): critical where that is the larger
 /// one.
 /// \return whether it reported something
 bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
-                                const CapabilityArgument& argument, const HeldAgainst& held,
-                                const CertifiedColumn& column, const CertifiedValue& value);
+                                const CapabilityArgument& argument, const HeldAgainst& held, const Measured& measured);
 
 }  // namespace gumcert::certificate

@@ -49,10 +49,6 @@ public:
     template <class Type>
     void filled(const char*, const Type&) {}
     template <class Type>
-    void if_any(const char* key, const Type& member) {
-        (*this)(key, member);
-    }
-    template <class Type>
     void named(const char*, const Type&, std::initializer_list<const char*>) {}
     template <class Function>
     void group(const char*, const Function&) {}

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "certificate/capability.h"
@@ -61,16 +62,25 @@ void signatories(FindingList& found, const Accreditation& a) {
 struct Covered {
     std::vector<const CertifiedValue*> values;
     std::vector<const CertifiedColumn*> columns;  ///< of each value
+    std::vector<const CertifiedTable*> tables;
+    std::vector<std::size_t> rows;
+
+    [[nodiscard]] Measured measured(std::size_t v, const Unit& unit) const {
+        return measured_at(*tables[v], *columns[v], rows[v], unit);
+    }
 };
 
 Covered covered_by(const Certificate& certificate, const ScopeEntry& entry) {
     Covered covered;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
-            for (const CertifiedValue& value : column.values) {
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                const CertifiedValue& value = column.values[row];
                 if (value.scope_entry == entry.id && !value.external) {
                     covered.values.push_back(&value);
                     covered.columns.push_back(&column);
+                    covered.tables.push_back(&table);
+                    covered.rows.push_back(row);
                 }
             }
         }
@@ -123,26 +133,32 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
         const Parameter& parameter = *parameter_of(certificate.data, range.argument.of);
         const Unit unit = Unit::parse(range.argument.unit);
         const Unit stated = Unit::parse(parameter.unit);
+        // One finding for all points of a table: that of the first point beyond the range, if there is one.
+        std::optional<std::pair<bool, Measured>> told;
         for (std::size_t v = 0; v < covered.values.size(); ++v) {
-            const Unit column = Unit::parse(covered.columns[v]->unit);
-            if (!of_one_kind(column, unit) || !of_one_kind(stated, unit)) {
+            Measured measured = covered.measured(v, unit);
+            const Unit of = Unit::parse(measured.unit);
+            if (!of_one_kind(of, unit) || !of_one_kind(stated, unit)) {
                 continue;
             }
-            const double value = value_for_scope(*covered.values[v], column, unit);
-            const double claimed = unit.from_si(stated.to_si(parameter.value));
+            const double value = value_for_scope(measured.value, of, unit);
+            const double claimed = value_for_scope(parameter.value, stated, unit);
             const double low = unit.is_celsius_temperature() ? range.low : 0.0;
             if (is_nominal_of(claimed, value) && !is_beyond(value, low, range.high)) {
                 continue;
             }
             const bool beyond = is_beyond(value, low, range.high);
+            if (!told || (beyond && !told->first)) {
+                told.emplace(beyond, std::move(measured));
+            }
+        }
+        if (told) {
+            const auto& [beyond, measured] = *told;
             found.add(beyond ? FindingSeverity::critical : FindingSeverity::minor, "X12", k_p14, where,
-                      "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name +
-                          "\" = " + text::shortest(parameter.value) + " " + parameter.unit + ", and the result \"" +
-                          covered.columns[v]->result + "\" is " + covered.values[v]->printed_value + " " +
-                          covered.columns[v]->unit,
+                      "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name + "\" = " +
+                          text::shortest(parameter.value) + " " + parameter.unit + ", and " + measured.in_words,
                       beyond ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
                              : "See whether the parameter is the nominal value of what was measured.");
-            break;
         }
     }
 }
@@ -156,7 +172,8 @@ void parameters_of_capability(FindingList& found, const Certificate& certificate
         const Parameter& parameter = *parameter_of(certificate.data, argument.of);
         for (std::size_t v = 0; v < covered.values.size(); ++v) {
             const HeldAgainst held{.name = parameter.name, .value = parameter.value, .unit = parameter.unit};
-            if (capability_taken_elsewhere(found, entry, i, argument, held, *covered.columns[v], *covered.values[v])) {
+            if (capability_taken_elsewhere(found, entry, i, argument, held,
+                                           covered.measured(v, Unit::parse(argument.unit)))) {
                 break;
             }
         }

@@ -152,6 +152,43 @@ std::optional<certificate::Condition> condition_of(const XmlElement& stated) {
     return condition;
 }
 
+bool has_any_word(const std::string& text, std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(),
+                       [&text](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+/// Persons by what the document says that they did. The main signer authorises; so does the only one that there is.
+void read_persons(const XmlElement* all, certificate::Persons& persons) {
+    if (all == nullptr) {
+        return;
+    }
+    const std::vector<const XmlElement*> stated = all->children_named("dcc:respPerson");
+    const auto take = [](std::optional<certificate::Person>& into, const XmlElement& one) {
+        const std::string name = content_in(below(&one, {"dcc:person", "dcc:name"}), "en");
+        if (!into && !name.empty()) {
+            into = certificate::Person{};
+            into->name = name;
+            into->function = content_in(one.child("dcc:description"), "en");
+        }
+    };
+    for (const XmlElement* one : stated) {
+        const std::string signer = one->child_text("dcc:mainSigner");
+        if (signer == "true" || signer == "1" || stated.size() == 1) {
+            take(persons.authorised_by, *one);
+        }
+    }
+    for (const XmlElement* one : stated) {
+        const std::string role = in_small(one->child_text("dcc:role"));
+        if (has_any_word(role, {"approv", "authori", "freigabe", "releas"})) {
+            take(persons.authorised_by, *one);
+        } else if (has_any_word(role, {"review", "verif", "prüf"})) {
+            take(persons.reviewed_by, *one);
+        } else if (has_any_word(role, {"calibrat", "kalibrier", "perform", "operator", "durchgef"})) {
+            take(persons.performed_by, *one);
+        }
+    }
+}
+
 void read_circumstances(const XmlElement& root, certificate::CertificateData& data) {
     for_each_element(root, [&](const XmlElement& e) {
         if (e.name == "dcc:measuringEquipment") {
@@ -162,6 +199,7 @@ void read_circumstances(const XmlElement& root, certificate::CertificateData& da
             }
         } else if (e.name == "dcc:usedMethod" && data.method.title.empty() && !has_ref_type(e, "basic_uncertainty")) {
             data.method.title = content_in(e.child("dcc:name"), "en");
+            data.method.description = content_in(e.child("dcc:description"), "en");
             data.method.standard = e.child_text("dcc:norm");
             data.method.identification = e.child_text("dcc:reference");
         }
@@ -213,8 +251,15 @@ certificate::CertificateData certificate_data_of(const XmlElement& root) {
     data.item.description = content_in(below(item, {"dcc:name"}), "en");
     data.item.type = trimmed_text(below(item, {"dcc:model"}));
     data.item.manufacturer = content_in(below(item, {"dcc:manufacturer", "dcc:name"}), "en");
+    read_persons(below(administrative, {"dcc:respPersons"}), data.persons);
     for (const DccStatement& statement : statements_of(root)) {
-        if (!data.accreditation && in_small(statement.ref_type).find("accreditation") != std::string::npos) {
+        const std::string kind = in_small(statement.ref_type);
+        if (has_any_word(kind, {"remark", "bemerkung"}) && !statement.declaration.empty()) {
+            data.remarks.emplace_back(statement.declaration);
+        } else if (has_any_word(kind, {"opinion"}) && !statement.declaration.empty()) {
+            data.opinions.push_back({.text = statement.declaration, .basis = {}, .author = {}});
+        }
+        if (!data.accreditation && kind.find("accreditation") != std::string::npos) {
             data.accreditation = certificate::Accreditation{};
             data.accreditation->body = statement.declaration;
             data.accreditation->number = statement.reference;

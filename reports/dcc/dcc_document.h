@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/dcc/xml_document.h"
 #include "reports/forms/render.h"
 #include "reports/record/evaluation_record.h"
 
@@ -22,9 +23,12 @@ namespace gumcert::reports {
 /// The business rules above the schema, and contradicting_statements(), on any DCC from 3.0 on.
 /// \throws gum::InputError  GC-DCC-0001 … if the bytes are not a well-formed DCC, or hold a DOCTYPE
 [[nodiscard]] std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file);
+/// The same of one that is parsed already.
+[[nodiscard]] std::vector<gum::Diagnostic> check_dcc(const XmlElement& root, const std::string& file);
 
 /// What the schema refuses, as schema_breaches(); of version 3.0 what missing_parts() finds.
 /// \throws gum::InputError  as check_dcc()
 [[nodiscard]] std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file);
+[[nodiscard]] std::vector<gum::Diagnostic> check_dcc_structure(const XmlElement& root, const std::string& file);
 
 }  // namespace gumcert::reports

@@ -687,10 +687,7 @@ std::string trimmed_or_empty(const XmlElement* element) {
     return element == nullptr ? "" : element->trimmed();
 }
 
-}  // namespace
-
-ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
-    const XmlElement root = read_dcc_root(bytes, file);
+ImportedCertificate certificate_of(const XmlElement& root, std::string_view bytes, const std::string& file) {
     ImportedCertificate out;
     out.schema_version = root.attribute("schemaVersion");
     const XmlElement* const administrative = root.child("dcc:administrativeData");
@@ -706,6 +703,18 @@ ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
     Reader reader(file, out);
     reader.walk(root, {});
     return out;
+}
+
+}  // namespace
+
+ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
+    return certificate_of(read_dcc_root(bytes, file), bytes, file);
+}
+
+ParsedDcc parse_dcc(std::string bytes, const std::string& file) {
+    XmlElement root = read_dcc_root(bytes, file);
+    ImportedCertificate certificate = certificate_of(root, bytes, file);
+    return {.bytes = std::move(bytes), .root = std::move(root), .certificate = std::move(certificate)};
 }
 
 }  // namespace gumcert::reports

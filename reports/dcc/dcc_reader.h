@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/dcc/xml_document.h"
 
 namespace gumcert::reports {
 
@@ -65,5 +66,16 @@ struct ImportedCertificate {
 /// \throws gum::InputError  GC-DCC-0001 … -0004 as read_xml(), -0004 also for more than 100 000 numbers, -0005 another
 ///                          root element, -0006 another version
 [[nodiscard]] ImportedCertificate read_dcc(std::string_view bytes, const std::string& file);
+
+/// A DCC that was parsed once, for whoever looks at more of it than its numbers.
+struct ParsedDcc {
+    std::string bytes;
+    XmlElement root;
+    ImportedCertificate certificate;
+};
+
+/// read_dcc(), with the elements that it was read from.
+/// \throws gum::InputError  as read_dcc()
+[[nodiscard]] ParsedDcc parse_dcc(std::string bytes, const std::string& file);
 
 }  // namespace gumcert::reports

@@ -528,13 +528,19 @@ std::vector<gum::Diagnostic> missing_parts(const XmlElement& root, const std::st
 }
 
 std::vector<gum::Diagnostic> check_dcc_structure(std::string_view bytes, const std::string& file) {
-    const XmlElement root = read_dcc_root(bytes, file);
+    return check_dcc_structure(read_dcc_root(bytes, file), file);
+}
+
+std::vector<gum::Diagnostic> check_dcc_structure(const XmlElement& root, const std::string& file) {
     return root.attribute("schemaVersion").starts_with("3.0.") ? missing_parts(root, file)
                                                                : schema_breaches(root, file);
 }
 
 std::vector<gum::Diagnostic> check_dcc(std::string_view bytes, const std::string& file) {
-    const XmlElement root = read_dcc_root(bytes, file);
+    return check_dcc(read_dcc_root(bytes, file), file);
+}
+
+std::vector<gum::Diagnostic> check_dcc(const XmlElement& root, const std::string& file) {
     std::vector<gum::Diagnostic> found = business_rule_breaches(root, file);
     const std::vector<gum::Diagnostic> statements = contradicting_statements(root, file);
     found.insert(found.end(), statements.begin(), statements.end());

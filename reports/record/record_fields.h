@@ -1042,7 +1042,7 @@ void describe(Archive& a, Struct& r) {
     a.added("variance_analyses", r.variance_analyses);
     a.added("outliers", r.outliers);
     a.stated("sections", r.sections);
-    a.if_any("points", r.points);
+    a.stated("points", r.points);
     a("rotary", r.rotary);
     a.added("circle_closure", r.circle_closure);
     a("comparison", r.comparison);

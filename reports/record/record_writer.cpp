@@ -119,14 +119,6 @@ public:
         (*this)(key, v, allowed);
     }
 
-    /// A key that a later release added, and that earlier records do without where there is nothing to say.
-    template <class Type, class... Rule>
-    void if_any(const char* key, const Type& v, const Rule&... rule) {
-        if (v.has_value()) {
-            (*this)(key, *v, rule...);
-        }
-    }
-
     /// A key that a later release added, and that is written only where there is something to say: records without it
     /// keep their bytes.
     template <class Type, class... Rule>

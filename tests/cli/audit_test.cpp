@@ -1,4 +1,6 @@
 // The audit as a user meets it: tables, workbooks, jobs, records and folders; forms and places; exit codes.
+#include <functional>
+
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
 #include "tests/support/json_schema.h"
@@ -118,6 +120,78 @@ TEST_F(AuditProgram, ARecordIsHeldAgainstItsOwnJob) {
     changed.erase("digest");
     write_bytes(record, changed.dump());
     EXPECT_NE(audit_json(record)["not_read"].dump().find("was not held against its own job"), std::string::npos);
+}
+
+TEST_F(AuditProgram, OfAJobAndItsRecordInAFolderTheRecordIsAudited) {
+    const fs::path budgets = folder() / "budgets", job = budgets / "job.json";
+    fs::create_directories(budgets / "out");
+    fs::copy_file(fs::path(GUMCERT_SOURCE_DIR) / "examples/gauge_block/job.json", job);
+    const auto audited_files = [&] {
+        const Ended ended = audit({budgets.string(), "--format", "json"});
+        const json report = json::parse(ended.out);
+        std::string names = ended.err.find("GC-AUDIT-0013") == std::string::npos ? "" : "told: ";
+        for (const json& file : report.contains("files") ? report["files"] : json::array({report})) {
+            names += file["file"].get<std::string>() + " ";
+        }
+        return names;
+    };
+    EXPECT_EQ(audited_files(), "job.json ");
+    ASSERT_EQ(gumcert({"evaluate", job.string(), "-o", (budgets / "out" / "record.json").string(), "--share",
+                       GUMCERT_SOURCE_DIR})
+                  .code,
+              0);
+    EXPECT_EQ(audited_files(), "told: record.json ");
+    const json named =
+        json::parse(audit({job.string(), (budgets / "out" / "record.json").string(), "--format", "json"}).out);
+    EXPECT_EQ(named["files"].size(), 2U) << "both are named";
+    // A job that was changed since is another job.
+    write_bytes(job, bytes_of(job) + "\n");
+    EXPECT_EQ(audited_files(), "job.json record.json ");
+}
+
+TEST_F(AuditProgram, AnErrorIsHeldAgainstTheScopeWhereItWasMeasured) {
+    const fs::path everyday = fs::path(GUMCERT_SOURCE_DIR) / "examples" / "everyday";
+    for (const char* const name : {"gauge_blocks", "mass_set", "multimeter", "torque_wrench"}) {
+        EXPECT_EQ(finding(audit_json(everyday / name / "job.json"), "X02"), nullptr) << name;
+    }
+    // The scope of the multimeter, whose errors of some microvolts were measured from 10 mV to 100 V.
+    const auto found_with = [&](const std::function<void(json&)>& change) {
+        fs::copy(everyday / "multimeter", folder() / "multimeter",
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+        const fs::path file = folder() / "multimeter" / "certificate.json";
+        json data = json::parse(bytes_of(file));
+        data["accreditation"].erase("symbol_file");  // it lies elsewhere
+        change(data);
+        write_bytes(file, data.dump());
+        const json report = audit_json(folder() / "multimeter" / "job.json");
+        std::string scope;
+        for (const json& one : report["findings"]) {
+            const auto text = one["what"].get<std::string>();
+            if (one["id"] == "X02" || text.find("outside of the accreditation") != std::string::npos) {
+                scope += one["severity"].get<std::string>() + ": " + text;
+            }
+        }
+        return scope;
+    };
+    const auto of_value = [](double high) {
+        return [high](json& data) {
+            json& entry = data["accreditation"]["scope"][0];
+            entry["ranges"][0] = {
+                {"argument", {{"name", "V"}, {"unit", "V"}, {"of", "value"}}}, {"low", -high}, {"high", high}};
+            entry["capability"]["arguments"][0]["of"] = "value";
+        };
+    };
+    EXPECT_EQ(found_with([](json&) {}), "");
+    EXPECT_EQ(found_with(of_value(1000.0)), "") << "the value of an error is that of its point";
+    EXPECT_NE(found_with(of_value(50.0)).find("V = 100 V is not in -50 V to 50 V"), std::string::npos);
+    const std::string elsewhere = found_with([](json& data) {
+        data["parameters"] = json::array({{{"name", "nominal"}, {"unit", "V"}, {"value", 0.5}}});
+        data["accreditation"]["scope"][0]["ranges"][0]["argument"]["of"] = "nominal";
+        data["accreditation"]["scope"][0]["ranges"][0]["high"] = 1;
+        data["accreditation"]["scope"][0]["ranges"][0]["low"] = -1;
+    });
+    EXPECT_TRUE(elsewhere.starts_with("critical")) << elsewhere;
+    EXPECT_NE(elsewhere.find("was measured at \"V_s\""), std::string::npos) << elsewhere;
 }
 
 TEST_F(AuditProgram, WaiversAreShownAndDecideOnTheExitCode) {

@@ -49,10 +49,6 @@ public:
     }
     template <class Type>
     void filled(const char*, const Type&) {}
-    template <class Type>
-    void if_any(const char* key, const Type& v) {
-        (*this)(key, v);
-    }
 
     template <class Struct>
     static nlohmann::json structure(const Struct& v) {

@@ -55,10 +55,6 @@ public:
     void added(const std::string& key, const Type& v) {
         (*this)(key, v);
     }
-    template <class Type>
-    void if_any(const std::string& key, const Type& v) {
-        (*this)(key, v);
-    }
     template <class Type, class... Rule>
     void stated(const std::string& key, const Type& v, Rule... rule) {
         (*this)(key, v, rule...);

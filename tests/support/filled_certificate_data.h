@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -42,9 +43,12 @@ public:
     void added(const char* key, Type& member, const Rule&... rule) {
         key_of(key, false, [&] { value(member, rule...); });
     }
+    /// Limits of points replace those of the specification: what they give is in the verdicts.
     template <class Type, class... Rule>
     void stated(const char* key, Type& member, const Rule&... rule) {
-        (*this)(key, member, rule...);
+        if (std::string_view(key) != "limits") {
+            (*this)(key, member, rule...);
+        }
     }
     template <class Type>
     void stated(const char* key, Type& member, std::initializer_list<const char*> words) {
@@ -52,9 +56,6 @@ public:
     }
     template <class Type>
     void filled(const char*, Type&) {}
-    /// Limits of points replace those of the specification: what they give is in the verdicts.
-    template <class Type>
-    void if_any(const char*, Type&) {}
 
     [[nodiscard]] std::size_t count() const { return at_; }
     [[nodiscard]] const std::string& stated() const { return stated_; }  ///< its place: "/item/owner"

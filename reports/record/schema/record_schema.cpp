@@ -120,9 +120,14 @@ public:
         (*this)(key, v, allowed);
         required_.erase(required_.size() - 1);
     }
+    /// Absent, and never null or empty, where there is nothing to say.
     template <class Type, class... Rule>
     void stated(const char* key, const Type& v, const Rule&... rule) {
         added(key, v, rule...);
+    }
+    template <class Type, class... Rule>
+    void stated(const char* key, const std::optional<Type>&, const Rule&... rule) {
+        added(key, Type{}, rule...);
     }
     void stated(const char* key, const std::string& v, std::initializer_list<const char*> allowed) {
         added(key, v, allowed);
@@ -131,11 +136,6 @@ public:
     void added(const char* key, const Shown<Number>& v, const Rule&... rule) {
         added(key, v.number, rule...);
         text_added(key, v.text);
-    }
-    /// Absent, and never null, where there is nothing to say.
-    template <class Type, class... Rule>
-    void if_any(const char* key, const Type&, const Rule&... rule) {
-        added(key, typename Type::value_type{}, rule...);
     }
     void text(const char* key, const std::string&) { texts_.emplace_back(key, false); }
     void text_added(const char* key, const std::string&) { texts_.emplace_back(key, true); }

@@ -110,10 +110,10 @@ TEST(AuditOfAnEvaluation, NoCertificateIsIssuedAgainstItsOwnAudit) {
 
 TEST(AuditOfAnEvaluation, ADocumentShowsTheDigest) {
     const Evaluation evaluation = evaluated(job_with(0.3, nullptr));
-    const reports::AuditView view = audit_view(*evaluation.audit, std::string(64, 'a'));
+    const reports::AuditView view = audit_view(std::span(evaluation.audit.get(), 1), {std::string(64, 'a')});
     ASSERT_EQ(view.files.size(), 1U);
     EXPECT_EQ(view.files.front().sha256, std::string(64, 'a'));
-    EXPECT_EQ(audit_view(*evaluation.audit).files.front().sha256, "");
+    EXPECT_EQ(audit_view(std::span(evaluation.audit.get(), 1)).files.front().sha256, "");
 }
 
 }  // namespace

@@ -92,10 +92,23 @@ TEST(Audit, KnowsWhatSomebodyAccepts) {
     ASSERT_EQ(half.severity, FindingSeverity::critical);
     EXPECT_EQ(waiver_of(half, report.subject.waivers), &report.subject.waivers[0]);
     EXPECT_EQ(waiver_of(report.findings[1], report.subject.waivers), nullptr);
+    EXPECT_FALSE(is_open_critical(half, report.subject.waivers)) << "critical, and accepted";
+    EXPECT_TRUE(is_open_critical(half, {}));
+    EXPECT_FALSE(is_open_critical(report.findings[1], {})) << "open, and minor";
     EXPECT_FALSE(report.has_critical());
     ASSERT_EQ(report.subject.not_read.size(), 1U);
     EXPECT_EQ(report.subject.not_read[0], "the waiver of Z09 fits no finding");
     EXPECT_EQ(audit(report.subject, rules).subject.not_read.size(), 1U) << "said once";
+
+    // The same waivers behind the audit: the same report.
+    AuditSubject bare = subject;
+    bare.waivers.clear();
+    AuditReport accepted = audit(bare, rules);
+    EXPECT_TRUE(accepted.has_critical());
+    accept_findings(accepted, subject.waivers);
+    EXPECT_FALSE(accepted.has_critical());
+    EXPECT_EQ(accepted.subject.waivers.size(), 2U);
+    EXPECT_EQ(accepted.subject.not_read, report.subject.not_read);
 
     AuditFinding of_gate = half;
     of_gate.of_gate = true;

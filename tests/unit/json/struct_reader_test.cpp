@@ -29,6 +29,7 @@ struct Balance {
     std::array<double, 2> range{};
     std::vector<Standard> standards = {{.name = "default"}};
     std::string kind = "none";
+    std::optional<Standard> spare;  ///< of a later release
 };
 
 template <class Archive>
@@ -43,6 +44,7 @@ void describe(Archive& a, Balance& v) {
     a("range", v.range);
     a("standards", v.standards);
     a("kind", v.kind, {"mechanical", "electronic"});
+    a.stated("spare", v.spare);
 }
 
 using Told = std::vector<std::string>;
@@ -134,6 +136,63 @@ TEST(StructReader, LeavesWhatIsMissingAsItIs) {
     EXPECT_TRUE(told.empty());
     EXPECT_EQ(read.kind, "none");
     EXPECT_EQ(read.standards.size(), 1U);
+}
+
+/// One that tells every missing member, as the reader of records does.
+class Demanding : public StructReader<Demanding, Step> {
+public:
+    Demanding(const nlohmann::json& object, Told& told) : StructReader(object, {}), told_(told) {}
+
+private:
+    friend StructReader<Demanding, Step>;
+    static constexpr bool k_null_is_none = true;
+    Told& told_;
+
+    const nlohmann::json* find(std::string_view key) {
+        if (!object_.contains(key)) {
+            told_.push_back(std::string(key) + " missing");
+        }
+        return find_if_there(key);
+    }
+    void require(std::string_view) {}
+    void unknown_key(const std::string& key) { told_.push_back(key + " unknown"); }
+    void wrong_type(const nlohmann::json&, const std::string& expected, const Step&) { told_.push_back(expected); }
+    void wrong_size(const nlohmann::json&, std::size_t, const Step&) {}
+    template <class Rule>
+    void read_value(const nlohmann::json& value, double& v, const Step&, const Rule&) {
+        v = value.get<double>();
+    }
+    template <class Rule>
+    void read_value(const nlohmann::json& value, std::string& v, const Step&, const Rule&) {
+        v = value.get<std::string>();
+    }
+    template <class Struct>
+    void read_struct(const nlohmann::json& object, Struct& v, const Step&) {
+        Demanding inner(object, told_);
+        describe(inner, v);
+        inner.finish();
+    }
+};
+
+TEST(StructReader, AStatedMemberMayBeMissingWithoutAWord) {
+    const auto read = [](const char* text, Told& told) {
+        const nlohmann::json object = nlohmann::json::parse(text);
+        Balance balance;
+        Demanding reader(object, told);
+        describe(reader, balance);
+        reader.finish();
+        return balance.spare;
+    };
+    Told told;
+    const std::string others = R"("calibrated": true, "u": 1, "range": [1, 2], "standards": [], "kind": "none")";
+    EXPECT_FALSE(read(("{" + others + "}").c_str(), told));
+    EXPECT_EQ(told, Told{});
+    const std::optional<Standard> spare = read(("{" + others + R"(, "spare": {"name": "E2", "U": 3}})").c_str(), told);
+    ASSERT_TRUE(spare);
+    EXPECT_EQ(spare->name, "E2");
+    EXPECT_EQ(told, Told{});
+    (void)read("{}", told);
+    EXPECT_EQ(told.size(), 5U) << "every other one is told";
 }
 
 TEST(StructReader, TellsEveryBreachWithItsPlace) {

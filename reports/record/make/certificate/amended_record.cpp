@@ -62,10 +62,6 @@ public:
     void added(const char* key, const Type& v, const Rule&...) {
         look(at_ + "/" + key, v);
     }
-    template <class Type, class... Rule>
-    void if_any(const char* key, const Type& v, const Rule&...) {
-        look(at_ + "/" + key, v);
-    }
     template <class Type>
     void filled(const char*, const Type&) {}
 

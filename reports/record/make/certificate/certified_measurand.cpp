@@ -18,7 +18,6 @@ namespace {
 using certificate::CapabilityArgument;
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
-using certificate::CertifiedValue;
 using certificate::Finding;
 using certificate::FindingList;
 using certificate::FindingSeverity;
@@ -27,9 +26,14 @@ using gum::Unit;
 
 /// One value of the results of a budget, with the rows of its budget.
 struct Budgeted {
+    const CertifiedTable& table;
     const CertifiedColumn& column;
-    const CertifiedValue& value;
+    std::size_t row;
     const reports::Result& result;
+
+    [[nodiscard]] certificate::Measured measured(const Unit& unit) const {
+        return certificate::measured_at(table, column, row, unit);
+    }
 };
 
 std::vector<Budgeted> values_in_scope(const reports::EvaluationRecord& record, const ScopeEntry& entry) {
@@ -39,7 +43,7 @@ std::vector<Budgeted> values_in_scope(const reports::EvaluationRecord& record, c
             for (std::size_t row = 0; table.id == "results" && row < column.values.size(); ++row) {
                 const reports::Result* result = reports::result_of(record, table, column.result, row);
                 if (result != nullptr && column.values[row].scope_entry == entry.id) {
-                    all.push_back({.column = column, .value = column.values[row], .result = *result});
+                    all.push_back({.table = table, .column = column, .row = row, .result = *result});
                 }
             }
         }
@@ -69,15 +73,16 @@ bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const Sco
         return false;
     }
     const Unit unit = Unit::parse(range.argument.unit);
-    const Unit column = Unit::parse(budgeted.column.unit);
+    const certificate::Measured measured = budgeted.measured(unit);
+    const Unit of = Unit::parse(measured.unit);
     const Unit stated = Unit::parse(row->unit);
-    if (!certificate::of_one_kind(column, unit) || !certificate::of_one_kind(stated, unit)) {
+    if (!certificate::of_one_kind(of, unit) || !certificate::of_one_kind(stated, unit)) {
         return false;
     }
-    const double value = certificate::value_for_scope(budgeted.value, column, unit);
+    const double value = certificate::value_for_scope(measured.value, of, unit);
     const double low = unit.is_celsius_temperature() ? range.low : 0.0;
     const bool beyond = certificate::is_beyond(value, low, range.high);
-    const bool nominal = certificate::is_nominal_of(unit.from_si(stated.to_si(*row->value)), value);
+    const bool nominal = certificate::is_nominal_of(certificate::value_for_scope(*row->value, stated, unit), value);
     if (!beyond && (nominal || row->u > 0.0)) {
         return false;
     }
@@ -86,8 +91,7 @@ bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const Sco
                               : FindingSeverity::major,
               "X12", "ILAC-P14:09/2020", certificate::place_in("/accreditation/scope", i, "ranges"),
               "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
-                  "\" = " + text::shortest(*row->value) + " " + row->unit + ", and the result \"" +
-                  budgeted.column.result + "\" is " + budgeted.value.printed_value + " " + budgeted.column.unit,
+                  "\" = " + text::shortest(*row->value) + " " + row->unit + ", and " + measured.in_words,
               "Hold the range against the result (\"of\": \"value\"), or state the true parameter.");
     return true;
 }
@@ -95,10 +99,13 @@ bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const Sco
 bool capability(FindingList& found, const ScopeEntry& entry, std::size_t i, const CapabilityArgument& argument,
                 const Budgeted& budgeted) {
     const reports::BudgetRow* row = row_of(budgeted, argument);
-    const bool larger = row != nullptr && budgeted.value.value != 0.0;
-    return larger && certificate::capability_taken_elsewhere(
-                         found, entry, i, argument, {.name = row->input, .value = *row->value, .unit = row->unit},
-                         budgeted.column, budgeted.value);
+    if (row == nullptr) {
+        return false;
+    }
+    const certificate::Measured measured = budgeted.measured(Unit::parse(argument.unit));
+    return measured.value != 0.0 &&
+           certificate::capability_taken_elsewhere(
+               found, entry, i, argument, {.name = row->input, .value = *row->value, .unit = row->unit}, measured);
 }
 
 }  // namespace

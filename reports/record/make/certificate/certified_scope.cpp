@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "certificate/capability.h"
+#include "certificate/gates/held_against.h"
 #include "certificate/result_names.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
@@ -61,8 +62,9 @@ Found argument_of(const certificate::CertificateData& data, const ScopeEntry& en
                   const certificate::CapabilityInputs& inputs, const CapabilityArgument& argument) {
     const std::string what = "the argument \"" + argument.name + "\"";
     if (argument.of == "value") {
-        const double value = place.column.values[place.row].value;
-        Found found = converted(value, place.column.unit, argument.unit, what);
+        const certificate::Measured measured =
+            certificate::measured_at(place.table, place.column, place.row, Unit::parse(argument.unit));
+        Found found = converted(measured.value, measured.unit, argument.unit, what);
         // A Celsius temperature has no magnitude: −30 °C is not the 30 °C of a scope.
         const bool signed_value = Unit::parse(argument.unit).is_celsius_temperature();
         if (found.value && !signed_value && !has_negative(entry, argument.name)) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "tests/support/audited_budgets.h"
 
 namespace gumcert::audit {
@@ -76,6 +80,76 @@ TEST(BudgetModel, HasNoDerivativeWhereThereIsNone) {
     EXPECT_FALSE(model.derivatives({0.0}));
     EXPECT_FALSE(model.second_derivatives({0.0}));
     EXPECT_TRUE(model.derivatives({1.0}));
+}
+
+/// An input that is a sum, as a job states it: three parts, each with a distribution of its own.
+AuditedBudget with_parts() {
+    AuditedBudget budget =
+        test::budget_of({quantity("a, length: certificate", "1.2", "1"), quantity("b", "2.0", "1"),
+                         quantity("a, length: drift", "-0.2", "1"), quantity("a, length: resolution", "0.0", "1")});
+    budget.unit = "1";
+    budget.equation = "y = a*b + exp(a)/b";
+    const std::vector<double> u{0.02, 0.1, 0.03, 0.01};
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        budget.rows[i].used_u = u[i];
+        budget.rows[i].part_of = i == 1 ? "" : "a";
+    }
+    budget.rows[2].shape = Shape::rectangular;
+    budget.rows[3].shape = Shape::triangular;
+    return budget;
+}
+
+TEST(BudgetModel, TakesAllPartsOfAQuantity) {
+    AuditedBudget budget = with_parts();
+    const std::optional<BudgetModel> model = BudgetModel::of(budget);
+    ASSERT_TRUE(model && model->can_be_evaluated());
+    ASSERT_EQ(model->quantities(), (std::vector<std::string>{"a", "b"}));
+    EXPECT_DOUBLE_EQ(model->estimates(budget)[0], 1.0);
+    const std::vector<double> reach = model->reach(budget, 2.0);
+    EXPECT_DOUBLE_EQ(reach[0], 2.0 * 0.02 + std::sqrt(3.0) * 0.03 + std::sqrt(6.0) * 0.01);
+    EXPECT_DOUBLE_EQ(reach[1], 0.2);
+    budget.rows[3].in_sum = false;
+    EXPECT_DOUBLE_EQ(model->reach(budget, 2.0)[0], 2.0 * 0.02 + std::sqrt(3.0) * 0.03);
+    budget.rows[2].estimate.reset();
+    EXPECT_TRUE(std::isnan(model->estimates(budget)[0]));
+}
+
+/// Wherever the parts are within their own limits, the equation leaves its tangent by no more than the bound.
+TEST(BudgetModel, BoundHoldsForEveryPlaceOfTheParts) {
+    std::mt19937 random(20261124);
+    std::uniform_real_distribution<double> part(-1.0, 1.0), size(0.2, 5.0);
+    for (int trial = 0; trial < 40; ++trial) {
+        AuditedBudget budget = with_parts();
+        for (AuditedRow& one : budget.rows) {
+            one.used_u *= size(random);
+            one.estimate->value += 0.1 * part(random);
+        }
+        const std::optional<BudgetModel> model = BudgetModel::of(budget);
+        ASSERT_TRUE(model && model->can_be_evaluated());
+        const std::vector<double> x = model->estimates(budget), reach = model->reach(budget, 2.0);
+        const gum::OutputBound bound = model->tangent_bound(x, reach);
+        ASSERT_TRUE(bound.bound) << bound.why_not;
+        const auto f = [](double a, double b) { return a * b + std::exp(a) / b; };
+        const std::vector<double> c = *model->derivatives(x);
+        const double rounding = 1e-12 * (1.0 + bound.bound->largest());
+        double largest = 0.0;
+        for (int sample = 0; sample < 500; ++sample) {
+            // Each part within its own limits; every fourth time all at an end.
+            const auto place = [&] {
+                const double at = part(random);
+                return sample % 4 == 0 ? std::copysign(1.0, at) : at;
+            };
+            const double d_a = 2.0 * budget.rows[0].used_u * place() +
+                               std::sqrt(3.0) * budget.rows[2].used_u * place() +
+                               std::sqrt(6.0) * budget.rows[3].used_u * place();
+            const double d_b = 2.0 * budget.rows[1].used_u * place();
+            const double left = f(x[0] + d_a, x[1] + d_b) - f(x[0], x[1]) - c[0] * d_a - c[1] * d_b;
+            EXPECT_GE(left, bound.bound->low - rounding);
+            EXPECT_LE(left, bound.bound->high + rounding);
+            largest = std::max(largest, std::abs(left));
+        }
+        EXPECT_GE(largest, 0.05 * bound.bound->largest()) << "the bound is one of this size";
+    }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace gumcert::audit {
 namespace {
 
 AuditSubject subject_of_text(const std::string& xml, std::vector<gum::Diagnostic> checks = {}) {
-    return subject_of(reports::read_dcc(xml, "c.xml"), reports::read_dcc_root(xml, "c.xml"), checks, "c.xml");
+    return subject_of(reports::parse_dcc(xml, "c.xml"), checks, "c.xml");
 }
 
 std::string uncertainty(const std::string& U, const std::string& k, const std::string& p) {
@@ -216,6 +216,30 @@ TEST(SubjectOfCertificate, TakesOneLimitForAllRowsAndNamesPoints) {
                                       [](const AuditFinding& finding) { return finding.rule == "D04"; });
     ASSERT_NE(verdict, report.findings.end());
     EXPECT_EQ(verdict->budgets, std::vector<std::size_t>{1}) << "0.10 K passes, 0.90 K does not";
+}
+
+TEST(SubjectOfCertificate, SeesPersonsAndSaysWhichTextsItDoesNotRead) {
+    const auto with_persons = [](const std::string& persons) {
+        std::string xml =
+            document(uncertainty("0.31", "2.00", "0.9545"), "",
+                     "<dcc:statement refType=\"basic_recalibration\"><dcc:declaration><dcc:content>Again in a "
+                     "year</dcc:content></dcc:declaration></dcc:statement>");
+        xml.insert(xml.find("<dcc:statements>"), "<dcc:respPersons>" + persons + "</dcc:respPersons>");
+        return subject_of_text(xml);
+    };
+    const auto person = [](const std::string& name, const std::string& role) {
+        return "<dcc:respPerson><dcc:person><dcc:name><dcc:content>" + name + "</dcc:content></dcc:name></dcc:person>" +
+               (role.empty() ? "" : "<dcc:role>" + role + "</dcc:role>") + "</dcc:respPerson>";
+    };
+    const AuditSubject sound =
+        with_persons(person("A. N.", "calibration") + person("B. M.", "review") + person("C. O.", "approval"));
+    EXPECT_EQ(sound.certificate->data.persons.authorised_by->name, "C. O.");
+    EXPECT_FALSE(finds(sound, "P04"));
+    EXPECT_FALSE(finds(sound, "R07"));
+    EXPECT_EQ(sound.not_read, std::vector<std::string>{"statements in words were not read: basic_recalibration"});
+    EXPECT_TRUE(finds(with_persons(person("A. N.", "calibration") + person("A.N.", "review")), "P04"));
+    EXPECT_TRUE(finds(with_persons(person("A. N.", "") + person("B. M.", "")), "R07")) << "who authorised it?";
+    EXPECT_FALSE(finds(with_persons(person("A. N.", "")), "R07")) << "the only one";
 }
 
 TEST(SubjectOfCertificate, CriticisesNoGoodExampleOfOthers) {

@@ -21,12 +21,9 @@ TEST(HeldAgainst, KindsAreTold) {
 }
 
 TEST(HeldAgainst, ScopeSeesTheMagnitudeOrTheTemperatureItself) {
-    CertifiedValue value;
-    value.value = -2500.0;
-    EXPECT_DOUBLE_EQ(value_for_scope(value, Unit::parse("um"), Unit::parse("mm")), 2.5);
-    value.value = -40.0;
-    EXPECT_DOUBLE_EQ(value_for_scope(value, Unit::parse("degC"), Unit::parse("degC")), -40.0);
-    EXPECT_NEAR(value_for_scope(value, Unit::parse("degF"), Unit::parse("degC")), -40.0, 1e-12);
+    EXPECT_DOUBLE_EQ(value_for_scope(-2500.0, Unit::parse("um"), Unit::parse("mm")), 2.5);
+    EXPECT_DOUBLE_EQ(value_for_scope(-40.0, Unit::parse("degC"), Unit::parse("degC")), -40.0);
+    EXPECT_NEAR(value_for_scope(-40.0, Unit::parse("degF"), Unit::parse("degC")), -40.0, 1e-12);
 }
 
 TEST(HeldAgainst, NominalValueIsWithinATenth) {
@@ -45,6 +42,51 @@ TEST(HeldAgainst, RangeReachesAHundredthFurther) {
     EXPECT_TRUE(is_beyond(-1.5, 0.0, 100.0));
 }
 
+/// Errors of indication at 10 mV and at -1 V, before and after an adjustment.
+CertifiedTable errors() {
+    CertifiedTable table{.id = "results", .argument = {}, .layout = TableLayout{}, .columns = {}};
+    const auto column = [](const char* name, const char* role, const char* stage, double first, double second) {
+        return PointColumn{.name = name,
+                           .heading = {},
+                           .role = role,
+                           .stage = stage,
+                           .unit = "mV",
+                           .printed_unit = "mV",
+                           .values = {first, second},
+                           .printed = {"10.0", "-1000.0"}};
+    };
+    table.layout->columns = {column("V_x", "indication", "", 10.1, -1001.0),
+                             column("V_f", "reference", "as_found", 9.0, 9.0),
+                             column("V_l", "reference", "as_left", 10.0, -1000.0)};
+    table.layout->shown = {{.show = "value", .of = "E", .heading = {}, .role = "error", .stage = "as_left"},
+                           {.show = "value", .of = "V", .heading = {}, .role = "measured_value", .stage = ""}};
+    CertifiedColumn error;
+    error.result = "E";
+    error.unit = "uV";
+    error.values.resize(2);
+    error.values[0].value = 3.0;
+    error.values[0].printed_value = "3.0";
+    table.columns = {error, error};
+    table.columns[1].result = "V";
+    return table;
+}
+
+TEST(HeldAgainst, AnErrorWasMeasuredAtItsPoint) {
+    const CertifiedTable table = errors();
+    const Measured first = measured_at(table, table.columns[0], 0, Unit::parse("V"));
+    EXPECT_EQ(first.name, "V_l") << "the reference before the indication, of its own stage";
+    EXPECT_EQ(first.value, 10.0);
+    EXPECT_EQ(first.unit, "mV");
+    EXPECT_EQ(first.in_words, "the result \"E\" was measured at \"V_l\" = 10.0 mV");
+    EXPECT_EQ(measured_at(table, table.columns[0], 1, Unit::parse("V")).value, -1000.0);
+    // What is no error was measured itself, and so was one beside which nothing of the kind of the scope stands.
+    EXPECT_EQ(measured_at(table, table.columns[1], 0, Unit::parse("V")).in_words, "the result \"V\" is 3.0 uV");
+    EXPECT_EQ(measured_at(table, table.columns[0], 0, Unit::parse("Hz")).name, "E");
+    CertifiedTable bare = table;
+    bare.layout.reset();
+    EXPECT_EQ(measured_at(bare, bare.columns[0], 0, Unit::parse("V")).name, "E");
+}
+
 class TakenElsewhere : public testing::Test {
 protected:
     /// Whether a capability in mm that is taken at `held` is told of for a result of 50.000838 mm.
@@ -54,8 +96,9 @@ protected:
         FindingList list(certificate.data);
         ScopeEntry entry;
         entry.id = "L1";
-        const bool tells = capability_taken_elsewhere(list, entry, 2, {.name = "L", .unit = "mm", .of = "nominal"},
-                                                      held, column, column.values[0]);
+        const bool tells =
+            capability_taken_elsewhere(list, entry, 2, {.name = "L", .unit = "mm", .of = "nominal"}, held,
+                                       measured_at(certificate.tables[0], column, 0, Unit::parse("mm")));
         found = list.take();
         return tells;
     }

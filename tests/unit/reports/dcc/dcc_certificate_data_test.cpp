@@ -97,6 +97,13 @@ TEST(DccCertificateData, GivesBackWhatTheProgramWrote) {
     const certificate::CertificateData& own = record.certificate->data;
     EXPECT_EQ(data.number, own.number);
     EXPECT_EQ(data.dates.performed_from, own.dates.performed_from);
+    ASSERT_TRUE(own.persons.authorised_by && data.persons.authorised_by);
+    EXPECT_EQ(data.persons.authorised_by->name, own.persons.authorised_by->name);
+    ASSERT_EQ(data.persons.performed_by.has_value(), own.persons.performed_by.has_value());
+    if (own.persons.performed_by) {
+        EXPECT_EQ(data.persons.performed_by->name, own.persons.performed_by->name);
+    }
+    EXPECT_EQ(data.remarks.size(), own.remarks.size());
     ASSERT_EQ(data.standards.size(), own.standards.size());
     ASSERT_EQ(data.conditions.size(), own.conditions.size());
     for (std::size_t i = 0; i < own.conditions.size(); ++i) {

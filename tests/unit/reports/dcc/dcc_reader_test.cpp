@@ -232,7 +232,10 @@ TEST(DccReader, LosesNoNumberOfThePublishedExamples) {
         ++files;
         const std::string file = entry.path().filename().string();
         const std::string bytes = content_of(entry.path());
-        const ImportedCertificate c = read_dcc(bytes, file);
+        const ParsedDcc document = parse_dcc(bytes, file);
+        const ImportedCertificate& c = document.certificate;
+        EXPECT_EQ(document.bytes, bytes);
+        EXPECT_EQ(read_dcc(bytes, file).sha256, c.sha256);
         std::multiset<std::string> imported;
         std::set<std::string> names;
         for (const ImportedQuantity& q : c.quantities) {
@@ -244,7 +247,7 @@ TEST(DccReader, LosesNoNumberOfThePublishedExamples) {
             }
         }
         std::multiset<std::string> values;
-        for_each_element(read_dcc_root(bytes, file), [&](const XmlElement& e) {
+        for_each_element(document.root, [&](const XmlElement& e) {
             if (e.name.starts_with("si:value")) {
                 for (const std::string& word : xml_list(e.text)) {
                     values.insert(word);
