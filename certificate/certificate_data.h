@@ -14,9 +14,11 @@ namespace gumcert::certificate {
 // `certificate` of a job, or a file of its own. docs/certificate_data.md explains every key to users. Dates are texts
 // "2026-11-21" (ISO 8601), checked by the reader; "" where none is given. Texts are UTF-8, never markup.
 
+/// In one form or the other, or both: parts by name, and lines as they are printed (certificate/address_lines.h).
 struct Address {
-    std::vector<std::string> lines;
-    std::string country;  ///< ISO 3166-1, two letters
+    std::vector<std::string> lines = {};  ///< the whole address, or what stands above its named parts
+    std::string country = {};             ///< ISO 3166-1, two letters
+    std::string street = {}, street_no = {}, post_office_box = {}, postcode = {}, city = {}, state = {};
     friend bool operator==(const Address&, const Address&) = default;
 };
 

@@ -34,6 +34,12 @@ void describe(Archive& a, Struct& r) {
     a("lines", r.lines);
     a("country", r.country, TextForm::country);
 }
+    a.stated("street", r.street);
+    a.stated("street_no", r.street_no);
+    a.stated("post_office_box", r.post_office_box);
+    a.stated("postcode", r.postcode);
+    a.stated("city", r.city);
+    a.stated("state", r.state);
 
 template <class Archive, Described<CapabilityArgument> Struct>
 void describe(Archive& a, Struct& r) {

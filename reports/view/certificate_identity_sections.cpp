@@ -1,5 +1,6 @@
 #include "reports/view/certificate_identity_sections.h"
 
+#include "certificate/address_lines.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
@@ -57,7 +58,7 @@ bool is_position(const std::string& token) {
 /// Lines of an address with the country, joined by commas.
 std::string in_one_line(const certificate::Address& address) {
     std::string text;
-    for (const std::string& part : address.lines) {
+    for (const std::string& part : certificate::address_lines(address)) {
         text += (text.empty() ? "" : ", ") + part;
     }
     if (!address.country.empty()) {
@@ -66,7 +67,7 @@ std::string in_one_line(const certificate::Address& address) {
     return text;
 }
 
-json address_lines(const certificate::Laboratory& laboratory, const Wording& words) {
+json contact_lines(const certificate::Laboratory& laboratory, const Wording& words) {
     json lines = json::array();
     if (const std::string address = in_one_line(laboratory.address); !address.empty()) {
         lines.push_back(line(address, words));
@@ -158,9 +159,9 @@ void customer_section(CertificateBuilder& builder, const Wording& words, const c
 
 Text place_text(const CertificateData& data, const Wording& words) {
     Text text = words("place_kind", data.place.kind);
-    const certificate::Address& address = data.place.address.lines.empty() && data.place.kind == "laboratory"
-                                              ? data.laboratory.address
-                                              : data.place.address;
+    const bool is_elsewhere = !certificate::address_lines(data.place.address).empty();
+    const certificate::Address& address =
+        !is_elsewhere && data.place.kind == "laboratory" ? data.laboratory.address : data.place.address;
     if (!data.place.description.empty()) {
         text += ", " + words.localised(data.place.description);
     }
@@ -421,7 +422,7 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
     const Text number = words("certificate", "number");
     return {{"laboratory", printable(name.first())},
             {"laboratory_also", also(name, words.languages())},
-            {"address", address_lines(data.laboratory, words)},
+            {"address", contact_lines(data.laboratory, words)},
             {"accreditation", accreditation_lines(certificate, words)},
             {"symbol", accreditation_symbol(certificate, words)},
             {"number_label", number.first()},
