@@ -26,7 +26,11 @@ struct Laboratory {
     LocalisedText name;
     Address address;
     std::string email, telephone, web;
-    std::string code;  ///< calibration laboratory code, if the national body gives one
+    std::string code;             ///< calibration laboratory code, if the national body gives one
+    std::string logo;             ///< PNG, JPEG or SVG, name beside the job; "": none
+    std::string logo_sha256;      ///< of the file, filled by the reader
+    std::string logo_media_type;  ///< "image/png", "image/jpeg", "image/svg+xml"
+    std::string logo_base64;      ///< its bytes, as of the symbol of an accreditation
 };
 
 /// One line of the scope of accreditation.
@@ -50,9 +54,9 @@ struct Accreditation {
     std::string number;
     std::string standard = "ISO/IEC 17025:2017";
     std::string valid_from, valid_to;        ///< of the scope
-    std::optional<std::string> symbol_file;  ///< PNG or JPEG supplied by the laboratory, name beside the job
+    std::optional<std::string> symbol_file;  ///< PNG, JPEG or SVG supplied by the laboratory, name beside the job
     std::string symbol_sha256;               ///< of the file, filled by the reader
-    std::string symbol_media_type;           ///< "image/png", "image/jpeg"
+    std::string symbol_media_type;           ///< "image/png", "image/jpeg", "image/svg+xml"
     std::string symbol_base64;               ///< its bytes, so that a record can be printed again by itself
     std::vector<ScopeEntry> scope;
     std::vector<std::string> signatories;  ///< persons who may authorise accredited certificates; empty: see persons

@@ -15,6 +15,7 @@ namespace gumcert::certificate {
 //   a(key, member, R)         a member; may be missing in a job
 //   a.needed(key, member, R)  a member without which the object around it means nothing
 //   a.filled(key, member)     a member that the program fills in: in records, not in jobs
+//   a.filled_if_any(key, member)  the same of a later release: in records only where it is not empty
 //   a.stated(key, member, R)  a member that a later release added: in records only where it is not empty
 //   a.named(key, enumerator, { words })   an enumerator by its name, in the order of the words
 //   a.if_any(key, member, R)  a member of a later release: in records only where it holds something
@@ -33,13 +34,13 @@ template <class Archive, Described<Address> Struct>
 void describe(Archive& a, Struct& r) {
     a("lines", r.lines);
     a("country", r.country, TextForm::country);
-}
     a.stated("street", r.street);
     a.stated("street_no", r.street_no);
     a.stated("post_office_box", r.post_office_box);
     a.stated("postcode", r.postcode);
     a.stated("city", r.city);
     a.stated("state", r.state);
+}
 
 template <class Archive, Described<CapabilityArgument> Struct>
 void describe(Archive& a, Struct& r) {
@@ -78,6 +79,10 @@ void describe(Archive& a, Struct& r) {
     a("telephone", r.telephone);
     a("web", r.web);
     a("code", r.code);
+    a.stated("logo", r.logo, TextForm::file);
+    a.filled_if_any("logo_sha256", r.logo_sha256);
+    a.filled_if_any("logo_media_type", r.logo_media_type);
+    a.filled_if_any("logo_base64", r.logo_base64);
 }
 
 template <class Archive, Described<ScopeEntry::Range> Struct>

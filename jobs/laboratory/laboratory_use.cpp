@@ -496,7 +496,9 @@ void LaboratoryUse::complete(JsonDocument& document, const CertificatePlace& pla
     }
     if (const LaboratoryFile* file = folder_->laboratory()) {
         if (file->laboratory.is_object()) {
-            complete_object(data, "laboratory", file->laboratory, "the laboratory", "");
+            json registered = file->laboratory;
+            name_in_folder(registered, "logo");
+            complete_object(data, "laboratory", registered, "the laboratory", "");
         }
         if (file->accreditation.is_object() && text_in(data, "status") != "not_accredited") {
             complete_accreditation(data, *file);
@@ -618,11 +620,16 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
     complete_object(data, key, other, std::string("the ") + key, "");
 }
 
+/// Names of files are relative to the folder there, and to the job here.
+void LaboratoryUse::name_in_folder(json& object, const char* key) const {
+    if (const std::string file = text_in(object, key); !file.empty()) {
+        object[key] = folder_->name_of(file);
+    }
+}
+
 void LaboratoryUse::complete_accreditation(json& data, const LaboratoryFile& file) {
     json registered = file.accreditation;
-    if (const std::string symbol = text_in(registered, "symbol_file"); !symbol.empty()) {
-        registered["symbol_file"] = folder_->name_of(symbol);
-    }
+    name_in_folder(registered, "symbol_file");
     if (!registered.contains("signatories")) {
         json names = json::array();
         for (const SignatoryStatement& person : file.signatories) {

@@ -103,21 +103,34 @@ json accreditation_lines(const Certificate& certificate, const Wording& words) {
     return lines;
 }
 
+/// \param name  of the file in the workspace of the PDF, without its ending
+/// \return an array of none or one {data_uri, base64, file, alt}
+json picture(const std::string& name, const std::string& media_type, const std::string& base64, const Text& alt) {
+    if (base64.empty()) {
+        return json::array();
+    }
+    const bool png = media_type == "image/png";
+    const bool svg = media_type == "image/svg+xml";
+    return json::array({{{"data_uri", "data:" +
+                                          std::string(png   ? "image/png"
+                                                      : svg ? "image/svg+xml"
+                                                            : "image/jpeg") +
+                                          ";base64," + base64},
+                         {"base64", base64},
+                         {"file", name + (png   ? ".png"
+                                          : svg ? ".svg"
+                                                : ".jpg")},
+                         {"alt", printable(alt.first())}}});
+}
+
 }  // namespace
 
 json accreditation_symbol(const Certificate& certificate, const Wording& words) {
-    if (!certificate.symbol || !certificate.data.accreditation ||
-        certificate.data.accreditation->symbol_base64.empty()) {
+    if (!certificate.symbol || !certificate.data.accreditation) {
         return json::array();
     }
     const certificate::Accreditation& a = *certificate.data.accreditation;
-    const bool png = a.symbol_media_type == "image/png";
-    const Text alt = words.localised(a.body) + ", " + a.number;
-    return json::array(
-        {{{"data_uri", std::string("data:") + (png ? "image/png" : "image/jpeg") + ";base64," + a.symbol_base64},
-          {"base64", a.symbol_base64},
-          {"file", png ? "symbol.png" : "symbol.jpg"},
-          {"alt", printable(alt.first())}}});
+    return picture("symbol", a.symbol_media_type, a.symbol_base64, words.localised(a.body) + ", " + a.number);
 }
 
 namespace {
@@ -425,6 +438,8 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
             {"address", contact_lines(data.laboratory, words)},
             {"accreditation", accreditation_lines(certificate, words)},
             {"symbol", accreditation_symbol(certificate, words)},
+            {"logo", picture("laboratory-logo", data.laboratory.logo_media_type, data.laboratory.logo_base64,
+                             words.filled("certificate", "logo", {{"laboratory", name.first()}}))},
             {"number_label", number.first()},
             {"number_label_also", also(number, words.languages())},
             {"number", printable(data.number)},

@@ -50,6 +50,8 @@ public:
     template <class Type>
     void filled(const char*, const Type&) {}
     template <class Type>
+    void filled_if_any(const char*, const Type&) {}
+    template <class Type>
     void if_any(const char* key, const Type& v) {
         (*this)(key, v);
     }

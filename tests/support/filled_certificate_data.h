@@ -52,6 +52,8 @@ public:
     }
     template <class Type>
     void filled(const char*, Type&) {}
+    template <class Type>
+    void filled_if_any(const char*, Type&) {}
     /// Limits of points replace those of the specification: what they give is in the verdicts.
     template <class Type>
     void if_any(const char*, Type&) {}
