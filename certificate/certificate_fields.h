@@ -331,6 +331,13 @@ void describe(Archive& a, Struct& r) {
     a.needed("value", r.value);
 }
 
+template <class Archive, Described<Profile::Term> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("language", r.language, TextForm::language);
+    a.needed("word", r.word);
+    a.needed("term", r.term);
+}
+
 template <class Archive, Described<Profile> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("id", r.id);
@@ -349,6 +356,7 @@ void describe(Archive& a, Struct& r) {
     a("required_languages", r.required_languages, TextForm::language);
     a("first_page_sentences", r.first_page_sentences);
     a("uncertainty_sentence", r.uncertainty_sentence, TextForm::text_or_none);
+    a.stated("terms", r.terms);
 }
 
 template <class Archive, Described<CertificateData> Struct>

@@ -419,7 +419,9 @@ void statements(DccWriter& w) {
     w.statement("validity", words("sentence", "validity"));
     if (w.record().certificate) {
         w.statement("only_item", words("statement", "only_item"));
-        w.statement("reproduction", words("statement", "reproduction"));
+        if (w.record().certificate->profile.reproduction_sentence_mandatory) {
+            w.statement("reproduction", words("statement", "reproduction"));
+        }
         for (const LocalisedText& sentence : w.record().certificate->profile.first_page_sentences) {
             w.statement("profile_sentence", words.localised(sentence));
         }

@@ -337,8 +337,10 @@ void authorisation_section(CertificateBuilder& builder, const Wording& words, co
 }
 
 json foot(const Certificate& certificate, const Wording& words) {
-    json lines = json::array({line(words("statement", "only_item"), words),  //
-                              line(words("statement", "reproduction"), words)});
+    json lines = json::array({line(words("statement", "only_item"), words)});
+    if (certificate.profile.reproduction_sentence_mandatory) {
+        lines.push_back(line(words("statement", "reproduction"), words));
+    }
     // The sentences of an accreditation body speak of its accreditation: they stand only where the symbol may stand.
     if (certificate.symbol) {
         for (const certificate::LocalisedText& sentence : certificate.profile.first_page_sentences) {

@@ -358,7 +358,8 @@ TEST(ParseProfile, ReadsEveryKey) {
         "plus_minus_in_tables": false, "k_position": "column", "opinions_with_symbol": true,
         "reproduction_sentence_mandatory": false, "receipt_date_mandatory": true, "reviewer_may_be_performer": false,
         "required_languages": ["zh-Hant", "en"], "first_page_sentences": ["A", {"de": "B"}],
-        "uncertainty_sentence": {"en": "k = {k} gives {coverage}."}})",
+        "uncertainty_sentence": {"en": "k = {k} gives {coverage}."},
+        "terms": [{"language": "es", "word": "medición", "term": "medida"}]})",
                                                        "own.json");
     EXPECT_EQ(profile.id, "own");
     EXPECT_THAT(profile.sources, ElementsAre("D 1:2020"));
@@ -372,6 +373,8 @@ TEST(ParseProfile, ReadsEveryKey) {
     EXPECT_FALSE(profile.reproduction_sentence_mandatory);
     EXPECT_TRUE(profile.receipt_date_mandatory);
     EXPECT_FALSE(profile.reviewer_may_be_performer);
+    ASSERT_EQ(profile.terms.size(), 1U);
+    EXPECT_EQ(profile.terms[0].language + profile.terms[0].word + profile.terms[0].term, "esmediciónmedida");
     EXPECT_THAT(profile.required_languages, ElementsAre("zh-Hant", "en"));
     ASSERT_EQ(profile.first_page_sentences.size(), 2U);
     EXPECT_EQ(profile.first_page_sentences[1].in("de"), "B");
