@@ -1,6 +1,7 @@
 #include "app/certificate_profile.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,11 +54,25 @@ void refuse_a_name_of_the_program(const certificate::Profile& own, const fs::pat
     }
 }
 
+/// A word in place of another one may turn a sentence of the program round: "outside of the accreditation".
+void refuse_terms_of_its_own(const certificate::Profile& own) {
+    if (!own.terms.empty()) {
+        throw gum::InputError(gum::Diagnostic{
+            .code = "GC-CERT-0302",
+            .where = "certificate/profile/terms",
+            .what = "a profile of your own has " + text::count_of(static_cast<std::int64_t>(own.terms.size()), "term") +
+                    " in place of words of the program",
+            .rule = "what documents state is worded by the program and by its profiles",
+            .action = "remove them; labels of your own stand in templates/wording/LANGUAGE.own.json"});
+    }
+}
+
 }  // namespace
 
 certificate::Profile certificate_profile(const certificate::CertificateData& data, const fs::path& templates) {
     const fs::path folder = templates / "profiles";
     if (data.own_profile) {
+        refuse_terms_of_its_own(*data.own_profile);
         refuse_a_name_of_the_program(*data.own_profile, folder);
         return *data.own_profile;
     }

@@ -14,9 +14,11 @@ namespace gumcert::certificate {
 // `certificate` of a job, or a file of its own. docs/certificate_data.md explains every key to users. Dates are texts
 // "2026-11-21" (ISO 8601), checked by the reader; "" where none is given. Texts are UTF-8, never markup.
 
+/// In one form or the other, or both: parts by name, and lines as they are printed (certificate/address_lines.h).
 struct Address {
-    std::vector<std::string> lines;
-    std::string country;  ///< ISO 3166-1, two letters
+    std::vector<std::string> lines = {};  ///< the whole address, or what stands above its named parts
+    std::string country = {};             ///< ISO 3166-1, two letters
+    std::string street = {}, street_no = {}, post_office_box = {}, postcode = {}, city = {}, state = {};
     friend bool operator==(const Address&, const Address&) = default;
 };
 
@@ -24,7 +26,11 @@ struct Laboratory {
     LocalisedText name;
     Address address;
     std::string email, telephone, web;
-    std::string code;  ///< calibration laboratory code, if the national body gives one
+    std::string code;             ///< calibration laboratory code, if the national body gives one
+    std::string logo;             ///< PNG, JPEG or SVG, name beside the job; "": none
+    std::string logo_sha256;      ///< of the file, filled by the reader
+    std::string logo_media_type;  ///< "image/png", "image/jpeg", "image/svg+xml"
+    std::string logo_base64;      ///< its bytes, as of the symbol of an accreditation
 };
 
 /// One line of the scope of accreditation.
@@ -48,9 +54,9 @@ struct Accreditation {
     std::string number;
     std::string standard = "ISO/IEC 17025:2017";
     std::string valid_from, valid_to;        ///< of the scope
-    std::optional<std::string> symbol_file;  ///< PNG or JPEG supplied by the laboratory, name beside the job
+    std::optional<std::string> symbol_file;  ///< PNG, JPEG or SVG supplied by the laboratory, name beside the job
     std::string symbol_sha256;               ///< of the file, filled by the reader
-    std::string symbol_media_type;           ///< "image/png", "image/jpeg"
+    std::string symbol_media_type;           ///< "image/png", "image/jpeg", "image/svg+xml"
     std::string symbol_base64;               ///< its bytes, so that a record can be printed again by itself
     std::vector<ScopeEntry> scope;
     std::vector<std::string> signatories;  ///< persons who may authorise accredited certificates; empty: see persons

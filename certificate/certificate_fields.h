@@ -15,6 +15,7 @@ namespace gumcert::certificate {
 //   a(key, member, R)         a member; may be missing in a job
 //   a.needed(key, member, R)  a member without which the object around it means nothing
 //   a.filled(key, member)     a member that the program fills in: in records, not in jobs
+//   a.filled_if_any(key, member)  the same of a later release: in records only where it is not empty
 //   a.stated(key, member, R)  a member that a later release added: in records only where it holds something, never null
 //   a.named(key, enumerator, { words })   an enumerator by its name, in the order of the words
 //   a.group(key, function)    an object that is no struct of its own: calls function(archive of it)
@@ -32,6 +33,12 @@ template <class Archive, Described<Address> Struct>
 void describe(Archive& a, Struct& r) {
     a("lines", r.lines);
     a("country", r.country, TextForm::country);
+    a.stated("street", r.street);
+    a.stated("street_no", r.street_no);
+    a.stated("post_office_box", r.post_office_box);
+    a.stated("postcode", r.postcode);
+    a.stated("city", r.city);
+    a.stated("state", r.state);
 }
 
 template <class Archive, Described<CapabilityArgument> Struct>
@@ -71,6 +78,10 @@ void describe(Archive& a, Struct& r) {
     a("telephone", r.telephone);
     a("web", r.web);
     a("code", r.code);
+    a.stated("logo", r.logo, TextForm::file);
+    a.filled_if_any("logo_sha256", r.logo_sha256);
+    a.filled_if_any("logo_media_type", r.logo_media_type);
+    a.filled_if_any("logo_base64", r.logo_base64);
 }
 
 template <class Archive, Described<ScopeEntry::Range> Struct>
@@ -319,6 +330,13 @@ void describe(Archive& a, Struct& r) {
     a.needed("value", r.value);
 }
 
+template <class Archive, Described<Profile::Term> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("language", r.language, TextForm::language);
+    a.needed("word", r.word);
+    a.needed("term", r.term);
+}
+
 template <class Archive, Described<Profile> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("id", r.id);
@@ -337,6 +355,7 @@ void describe(Archive& a, Struct& r) {
     a("required_languages", r.required_languages, TextForm::language);
     a("first_page_sentences", r.first_page_sentences);
     a("uncertainty_sentence", r.uncertainty_sentence, TextForm::text_or_none);
+    a.stated("terms", r.terms);
 }
 
 template <class Archive, Described<SectionData> Struct>

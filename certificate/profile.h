@@ -28,6 +28,15 @@ struct Profile {
     std::vector<LocalisedText> first_page_sentences;  ///< permanent sentences at the foot of the first page
     LocalisedText uncertainty_sentence;  ///< "" = the sentence of the record's case; has {k} and {coverage}
 
+    /// Words of the program that laboratories of this body say otherwise. Profiles of the program only.
+    struct Term {
+        std::string language;  ///< "es"
+        std::string word;      ///< as the wording of the program has it: "capacidad de medición y calibración"
+        std::string term;      ///< as it is printed: "capacidad de medida y calibración"
+        friend bool operator==(const Term&, const Term&) = default;
+    };
+    std::vector<Term> terms;
+
     friend bool operator==(const Profile&, const Profile&) = default;
 };
 

@@ -4,6 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
+
+#include "jobs/svg_image.h"
 
 namespace gumcert::jobs {
 
@@ -108,9 +111,9 @@ ImageFormat image_format(std::string_view bytes) {
     if (bytes.starts_with("\xFF\xD8\xFF")) {
         return jpeg_format(bytes);
     }
-    // An SVG may begin with a byte order mark, a declaration or a comment.
-    if (bytes.substr(0, 4096).find("<svg") != std::string_view::npos || bytes.starts_with("<?xml")) {
-        return {"", "an SVG drawing, which may hold scripts and references to other files"};
+    if (looks_like_svg(bytes)) {
+        std::string objection = svg_objection(bytes);
+        return {objection.empty() ? "image/svg+xml" : "", std::move(objection)};
     }
     return {"", bytes.empty() ? "an empty file" : "a file of another format"};
 }

@@ -11,6 +11,9 @@ namespace gumcert::json {
 std::string JsonDocument::where(const std::string& pointer) const {
     std::string shown = text::visible(file) + "#" + text::visible(pointer);
     if (const auto place = places.find(pointer); place != places.end()) {
+        if (is_table) {
+            return text::where_in_text(file, place->second);
+        }
         shown += " (" + text::line_and_column(place->second) + ")";
     }
     return shown;

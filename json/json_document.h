@@ -13,10 +13,13 @@ struct JsonDocument {
     nlohmann::json value;
     Places places;
 
-    /// `job.json#/fixture/coordinates (line 12, column 5)`; without a place when the pointer has none.
+    /// `job.json#/fixture/coordinates (line 12, column 5)`, of a table `points.csv:12:5`; without a place when the pointer
+    /// has none.
     [[nodiscard]] std::string where(const std::string& pointer) const;
 
     std::string text;  ///< as it was read
+    /// Its values come from a table: a message names the cell, and not the pointer, which no reader of the table knows.
+    bool is_table = false;
 
     /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there. One pass of the
     /// text.

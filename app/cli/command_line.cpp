@@ -325,6 +325,27 @@ void add_plan(CLI::App& program, Arguments& a) {
         "positions inside the region that the job allows. docs/planning.md");
 }
 
+void add_laboratory_command(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand(
+        "laboratory", "What runs out in the folder of a laboratory: standards, signatories, accreditation");
+    command.add_option("FOLDER", a.file, "Folder of the laboratory, docs/laboratory.md")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    command.add_option("--date", a.date, "Day of the overview, such as 2026-11-21; default: today by UTC")
+        ->type_name("DAY");
+    command.add_option("--format", a.format, "text (for people), json or csv (for programs). Default: text")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "json", "csv"}));
+    command.footer(
+        "Example: gumcert laboratory examples/laboratory/laboratory --date 2026-11-21\n"
+        "Of every standard: last calibration and certificate up to that day, the last day of use, the next "
+        "calibration\n"
+        "by the plan in its file and what it follows from, and whether it is overdue. What the register does not say "
+        "is\n"
+        "unknown, and not valid. Exit code 1 where a standard is overdue, or a signatory or the accreditation has run\n"
+        "out. docs/laboratory.md");
+}
+
 void add_explain(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("explain", "What the code of a message means, and what to do about it");
     command.add_option("CODE", a.codes,
@@ -359,6 +380,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_verify(*program, a);
     add_simulate(*program, a);
     add_plan(*program, a);
+    add_laboratory_command(*program, a);
     add_explain(*program, a);
     add_common(*program, a.common);
     for (CLI::App* command : program->get_subcommands({})) {

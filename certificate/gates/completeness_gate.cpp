@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "certificate/address_lines.h"
 #include "certificate/dates.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
@@ -19,10 +20,10 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
         found.item(k_critical, 'b', "/laboratory/name", "the name of the laboratory is missing",
                    "State it as the accreditation does.");
     }
-    if (!is_postal_address(data.laboratory.address.lines)) {
+    if (!is_postal_address(address_lines(data.laboratory.address))) {
         found.item(k_critical, 'b', "/laboratory/address", "the address of the laboratory is missing", "State it.");
     }
-    if (data.place.kind != "laboratory" && !is_postal_address(data.place.address.lines)) {
+    if (data.place.kind != "laboratory" && !is_postal_address(address_lines(data.place.address))) {
         found.item(k_critical, 'c', "/place/address", "the place where the work was done is missing",
                    "State its address: the work was not done in the laboratory.");
     }
@@ -34,7 +35,7 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
         found.item(k_critical, 'e', "/customer/name", "the name of the customer is missing", "State it.");
     }
     // ISO/IEC 17025:2017, 7.8.2.1 e asks for contact information, not for a postal address.
-    const bool reachable = is_postal_address(data.customer.address.lines) || is_name(data.customer.contact) ||
+    const bool reachable = is_postal_address(address_lines(data.customer.address)) || is_name(data.customer.contact) ||
                            is_email(data.customer.email) || is_email(data.customer.contact);
     if (!reachable) {
         found.item(k_critical, 'e', "/customer/address", "the contact information of the customer is missing",

@@ -49,6 +49,8 @@ public:
     template <class Type>
     void filled(const char*, const Type&) {}
     template <class Type>
+    void filled_if_any(const char*, const Type&) {}
+    template <class Type>
     void named(const char*, const Type&, std::initializer_list<const char*>) {}
     template <class Function>
     void group(const char*, const Function&) {}

@@ -91,8 +91,8 @@ double value_in_si(const gum::BudgetInput& input) {
 }  // namespace
 
 BudgetInputs::BudgetInputs(const JsonDocument& document, const std::optional<StatedCovariance>& covariance,
-                           JobFiles& files, ProblemList& problems)
-    : document_(document), covariance_(covariance), files_(files), problems_(problems) {}
+                           JobFiles& files, LaboratoryUse& laboratory, ProblemList& problems)
+    : document_(document), covariance_(covariance), files_(files), laboratory_(laboratory), problems_(problems) {}
 
 void BudgetInputs::read(const JsonObject& root) {
     const json* inputs = root.find("inputs");
@@ -937,6 +937,12 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             columns.push_back({.name = field.name, .input = index, .key = "observations", .is_reading = true});
             continue;
         }
+        if (const auto [of_input, word] = LaboratoryUse::reference_column(field.name); !word.empty()) {
+            const auto index = point_input(std::string(of_input), where, job, *file->problems);
+            is_known = is_known && index;
+            columns.push_back({.name = field.name, .input = index, .key = word, .is_reference = true});
+            continue;
+        }
         const std::string_view key =
             dot == std::string::npos ? std::string_view{"value"} : std::string_view{field.name}.substr(dot + 1);
         const auto known = std::find(keys.begin(), keys.end(), key);
@@ -945,7 +951,8 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             const auto nearest = nearest_word(key, keys);
             file->problems->refuse(k_unknown_key, where,
                                    "the key " + text::in_quotes(key) + " of the column " + text::in_quotes(field.name),
-                                   "the keys of a column are " + text::any_of(keys),
+                                   "the keys of a column are " + text::any_of(keys) + ", and of a standard " +
+                                       text::any_of(LaboratoryUse::reference_keys()),
                                    nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "remove the column");
         }
         if (!index || known == keys.end()) {
@@ -957,11 +964,25 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
     std::vector<std::string_view> wanted;
     for (const FileColumn& column : columns) {
         wanted.emplace_back(column.name);
+        const bool is_alone = column.is_reference && column.key != "standard" &&
+                              std::none_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
+                                  return other.is_reference && other.input == column.input && other.key == "standard";
+                              });
+        if (is_alone) {
+            const std::string standard = column.name.substr(0, column.name.rfind('.')) + ".standard";
+            file->problems->refuse(
+                k_unknown_key, name + ":1",
+                "the column " + text::in_quotes(column.name) + " without " + text::in_quotes(standard),
+                "it says how a standard is used, and a row names the standard itself",
+                "add the column " + text::in_quotes(standard));
+            is_known = false;
+        }
     }
     const auto table = read_csv_table(std::move(file->bytes), wanted, {}, *file->problems, {.rows = k_most_points});
     if (!table || !is_known) {
         return;
     }
+    laboratory_.fill_rows(document_, *table, wanted, *file->problems);
     for (std::size_t row = 0; row < table->rows(); ++row) {
         gum::BudgetPoint point;
         std::optional<std::string> point_name;
@@ -980,6 +1001,9 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             const CsvCell& cell = table->cell(row, c);
+            if (column.is_reference && column.key != "standard") {
+                continue;  // read with the standard
+            }
             if (cell.text.empty()) {
                 file->problems->refuse(
                     k_empty_cell, table->where(cell),
@@ -987,6 +1011,20 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                     "a missing value is neither 0 nor that of another row",
                     "state it; leave the column out where all points take what the job states", "empty " + column.name);
                 told.insert(*column.input);
+                continue;
+            }
+            if (column.is_reference) {
+                const LaboratoryUse::Row of_standard = laboratory_.row(row, stated_[*column.input].name);
+                if (of_standard.document == nullptr) {
+                    told.insert(*column.input);
+                    continue;
+                }
+                const auto found = overrides.find(*column.input);
+                const StatementKeys& before = found == overrides.end() ? *stated_[*column.input].keys : found->second;
+                overrides.insert_or_assign(*column.input,
+                                           before.with(StatementKeys(*of_standard.document, of_standard.pointer,
+                                                                     keys_of<OverrideStatement>(), *file->problems)));
+                ++stated_[*column.input].overridden["components"];
                 continue;
             }
             if (const auto number = table->number(row, c, {})) {

@@ -12,6 +12,7 @@
 #include "jobs/budget/budget_job.h"
 #include "jobs/budget/budget_statement.h"
 #include "jobs/job_files.h"
+#include "jobs/laboratory/laboratory_use.h"
 
 namespace gumcert::jobs {
 
@@ -22,8 +23,9 @@ namespace gumcert::jobs {
 class BudgetInputs {
 public:
     /// \param covariance  of the job, for the inputs that take their variance from it; must outlive this
+    /// \param laboratory  for the rows of a table that name standards; must outlive this
     BudgetInputs(const JsonDocument& document, const std::optional<StatedCovariance>& covariance, JobFiles& files,
-                 ProblemList& problems);
+                 LaboratoryUse& laboratory, ProblemList& problems);
 
     /// Reads the key `inputs`; the names of all of them are known then, those with problems included.
     void read(const JsonObject& root);
@@ -104,6 +106,7 @@ private:
         std::string_view key = {};
         std::optional<std::size_t> information = {};  ///< in BudgetJob::point_columns
         bool is_reading = false;
+        bool is_reference = false;  ///< to a standard of the laboratory: NAME.standard, NAME.at …
     };
     void read_columns(const JsonObject& points, BudgetJob& job);
     [[nodiscard]] std::optional<std::size_t> information(const std::string& name, BudgetJob& job);
@@ -127,6 +130,7 @@ private:
     const JsonDocument& document_;
     const std::optional<StatedCovariance>& covariance_;
     JobFiles& files_;
+    LaboratoryUse& laboratory_;
     ProblemList& problems_;
     std::vector<std::string> names_;
     std::vector<Stated> stated_;                     ///< those whose name and unit could be read

@@ -66,7 +66,7 @@ private:
             read_equations(parts[i], i);
         }
         const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
-        BudgetInputs inputs(*document_, covariance, files_, *problems_);
+        BudgetInputs inputs(*document_, covariance, files_, laboratory, *problems_);
         inputs.read(*root);
         std::map<std::string, std::size_t> positions;
         job_.inputs = inputs.inputs(positions);

@@ -90,6 +90,8 @@ public:
     /// The program fills it in: no key of a job.
     template <class Type>
     void filled(std::string_view, Type&) {}
+    template <class Type>
+    void filled_if_any(std::string_view, Type&) {}
 
     /// A whole struct.
     /// \param place  of any value

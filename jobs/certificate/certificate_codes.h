@@ -26,7 +26,7 @@ inline constexpr InputCode k_certificate_no_limit{"GC-CERT-0116", "a specificati
 inline constexpr InputCode k_certificate_empty_list{"GC-CERT-0117", "a list is empty that must not be"};
 inline constexpr InputCode k_certificate_capability{"GC-CERT-0118", "a capability that cannot be used"};
 inline constexpr InputCode k_certificate_file{"GC-CERT-0119", "a file name is not a path relative to the job file"};
-inline constexpr InputCode k_certificate_symbol{"GC-CERT-0120", "the symbol is not a PNG or JPEG image"};
+inline constexpr InputCode k_certificate_symbol{"GC-CERT-0120", "a symbol or logo that is no picture"};
 inline constexpr InputCode k_certificate_profile{"GC-CERT-0121", "not the name of a profile"};
 inline constexpr InputCode k_certificate_placeholder{
     "GC-CERT-0122", "a sentence has a placeholder that is not known, lacks one, or has a number"};

@@ -19,7 +19,7 @@ using certificate::CertificateData;
 using certificate::Profile;
 using nlohmann::json;
 
-constexpr std::size_t k_largest_symbol = std::size_t{1} << 20U;  // [byte]
+constexpr std::size_t k_largest_picture = std::size_t{1} << 20U;  // [byte]
 
 /// \return nothing when it was refused, with the problems in the list of the file
 std::optional<Profile> read_profile(std::string_view bytes, ProblemList& problems) {
@@ -32,32 +32,55 @@ std::optional<Profile> read_profile(std::string_view bytes, ProblemList& problem
     return problems.refusals() == 0 ? std::optional{std::move(profile)} : std::nullopt;
 }
 
-/// The picture goes into the record as it is, so that a record can be printed by itself.
-void read_symbol(JobFiles& files, certificate::Accreditation& accreditation) {
-    const std::string& name = *accreditation.symbol_file;
+/// A picture as it goes into the record, which can be printed by itself then.
+struct Picture {
+    std::string sha256, media_type, base64;
+};
+
+/// \param what  it is, for messages: "the logo of a laboratory"
+/// \return nothing when it was refused
+std::optional<Picture> read_picture(JobFiles& files, const std::string& name, const std::string& what) {
     const std::optional<JobFiles::File> file = files.open(name);
     if (!file) {
-        return;
+        return std::nullopt;
     }
-    const auto refuse = [&](std::string what, std::string rule, std::string action) {
-        file->problems->refuse(k_certificate_symbol, text::visible(file->problems->file()), std::move(what),
+    const auto refuse = [&](std::string found, std::string rule, std::string action) {
+        file->problems->refuse(k_certificate_symbol, text::visible(file->problems->file()), std::move(found),
                                std::move(rule), std::move(action));
+        return std::nullopt;
     };
-    if (file->bytes.size() > k_largest_symbol) {
-        refuse(file->bytes.size() > k_file_limit ? "more than 64 MiB" : std::to_string(file->bytes.size()) + " bytes",
-               "the symbol of an accreditation has at most 1 MiB (1048576 bytes)", "use a smaller picture");
-        return;
+    if (file->bytes.size() > k_largest_picture) {
+        return refuse(
+            file->bytes.size() > k_file_limit ? "more than 64 MiB" : std::to_string(file->bytes.size()) + " bytes",
+            what + " has at most 1 MiB (1048576 bytes)", "use a smaller picture");
     }
     ImageFormat format = image_format(file->bytes);
     if (format.media_type.empty()) {
-        refuse(std::move(format.objection),
-               "the symbol of an accreditation is a whole PNG or JPEG picture of 1 to 10000 pixels a side",
-               "export the symbol of the accreditation body as PNG");
-        return;
+        return refuse(std::move(format.objection),
+                      what +
+                          " is a whole PNG or JPEG picture of 1 to 10000 pixels a side, or an SVG drawing of plain "
+                          "shapes that needs nothing outside of its file",
+                      "export it as plain SVG with texts turned into paths, or as PNG");
     }
-    accreditation.symbol_sha256 = encoding::sha256(file->bytes);
-    accreditation.symbol_media_type = std::move(format.media_type);
-    accreditation.symbol_base64 = encoding::base64(file->bytes);
+    return Picture{encoding::sha256(file->bytes), std::move(format.media_type), encoding::base64(file->bytes)};
+}
+
+void read_pictures(JobFiles& files, CertificateData& data) {
+    if (data.accreditation && data.accreditation->symbol_file && !data.accreditation->symbol_file->empty()) {
+        certificate::Accreditation& a = *data.accreditation;
+        if (auto picture = read_picture(files, *a.symbol_file, "the symbol of an accreditation")) {
+            a.symbol_sha256 = std::move(picture->sha256);
+            a.symbol_media_type = std::move(picture->media_type);
+            a.symbol_base64 = std::move(picture->base64);
+        }
+    }
+    if (certificate::Laboratory& l = data.laboratory; !l.logo.empty()) {
+        if (auto picture = read_picture(files, l.logo, "the logo of a laboratory")) {
+            l.logo_sha256 = std::move(picture->sha256);
+            l.logo_media_type = std::move(picture->media_type);
+            l.logo_base64 = std::move(picture->base64);
+        }
+    }
 }
 
 /// Sections are those of the job, and their standards rows of the certificate.
@@ -114,9 +137,7 @@ std::optional<CertificateData> read_data(JobFiles& files, const json& job, const
     if (!place.document->value.at(json::json_pointer(place.pointer)).contains("status")) {
         data.status = data.accreditation ? "accredited" : "specimen";
     }
-    if (data.accreditation && data.accreditation->symbol_file && !data.accreditation->symbol_file->empty()) {
-        read_symbol(files, *data.accreditation);
-    }
+    read_pictures(files, data);
     if (data.amendment && !data.amendment->record.empty()) {
         (void)files.open(data.amendment->record);  // it is read as a record where the certificate is made
     }

@@ -61,7 +61,8 @@ void describe(Archive& a, LaboratoryStatement& r) {
     a.by_hand("$schema", R"({"type": "string"})", "a text", "For editors; the program does not look at it.");
     a.constant("schema", k_laboratory_schema_word, "The form of the file.");
     a.by_hand("laboratory", R"({"$ref": "#/definitions/certificate_laboratory"})",
-              "an object, as in [certificate_data.md](certificate_data.md)", "Name and address.");
+              "an object, as in [certificate_data.md](certificate_data.md)",
+              "Name and address; logo is relative to the folder.");
     a.by_hand("accreditation", R"({"$ref": "#/definitions/certificate_accreditation"})",
               "an object, as in [certificate_data.md](certificate_data.md)",
               "Accreditation with its scope (CMC); symbol_file is relative to the folder.");

@@ -41,6 +41,20 @@ std::string text_in(const json& object, const char* key) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// As the job writes it; "" where it does not.
+std::string stated_unit(const JsonDocument& job, const std::string& name) {
+    const auto inputs = job.value.find("inputs");
+    if (inputs == job.value.end() || !inputs->is_object()) {
+        return {};
+    }
+    const auto input = inputs->find(name);
+    return input != inputs->end() && input->is_object() ? text_in(*input, "unit") : std::string();
+}
+
+std::string row_pointer(std::size_t row, const std::string& input) {
+    return child_pointer(child_pointer("/points", row), input);
+}
+
 /// Numbers of one unit in another one, and as they are where the two are one text.
 class UnitChange {
 public:
@@ -135,7 +149,7 @@ void LaboratoryUse::fill_inputs(JsonDocument& job) {
     const auto refers = [](const json& statement) { return statement.is_object() && statement.contains("standard"); };
     for (const std::string& name : keys_in_order(job, "/inputs")) {
         if (refers((*inputs)[name])) {
-            fill_statement(job, child_pointer("/inputs", name), name, text_in((*inputs)[name], "unit"));
+            fill_statement(job, child_pointer("/inputs", name), name, text_in((*inputs)[name], "unit"), problems_);
         }
     }
     const auto points = job.value.find("points");
@@ -146,19 +160,86 @@ void LaboratoryUse::fill_inputs(JsonDocument& job) {
         const std::string pointer = child_pointer("/points", i);
         for (const std::string& name : keys_in_order(job, pointer)) {
             if (refers((*points)[i][name])) {
-                const auto input = inputs->find(name);
-                const bool is_input = input != inputs->end() && input->is_object();
-                fill_statement(job, child_pointer(pointer, name), name, is_input ? text_in(*input, "unit") : "");
+                fill_statement(job, child_pointer(pointer, name), name, stated_unit(job, name), problems_);
             }
         }
     }
     warn_of_shared_standards(job);
 }
 
+void LaboratoryUse::fill_rows(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
+                              ProblemList& problems) {
+    rows_.clear();
+    for (std::size_t of_standard = 0; of_standard < columns.size(); ++of_standard) {
+        const auto [input, key] = reference_column(columns[of_standard]);
+        if (key != "standard") {
+            continue;
+        }
+        if (!folder_) {
+            problems.refuse(k_laboratory_missing, table.where(table.cell(0, of_standard)),
+                            "the standard " + text::in_quotes(table.cell(0, of_standard).text) + ", and no laboratory",
+                            "standards stand in the register of the laboratory",
+                            "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
+            continue;
+        }
+        const std::string unit = stated_unit(job, std::string(input));
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            JsonDocument& document = rows_[{row, std::string(input)}];
+            const std::string pointer = row_pointer(row, std::string(input));
+            document.file = problems.file();
+            document.is_table = true;
+            json statement = json::object();
+            bool is_read = !table.cell(row, of_standard).text.empty();
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                const auto [of_input, word] = reference_column(columns[c]);
+                const CsvCell& cell = table.cell(row, c);
+                if (of_input != input || word.empty() || cell.text.empty()) {
+                    continue;  // an empty cell says nothing
+                }
+                document.places[child_pointer(pointer, word)] = {cell.line, cell.column};
+                if (word == "at") {
+                    const std::optional<double> number = table.number(row, c, {});
+                    is_read = is_read && number;
+                    statement[std::string(word)] = number.value_or(0.0);
+                } else {
+                    const auto name = table.name(row, c);
+                    is_read = is_read && name;
+                    statement[std::string(word)] = std::string(name.value_or(""));
+                }
+            }
+            document.places[pointer] = document.places[child_pointer(pointer, "standard")];
+            document.value = json{{"points", {{std::to_string(row), {{std::string(input), statement}}}}}};
+            if (is_read) {
+                fill_statement(document, pointer, std::string(input), unit, problems);
+            }
+            if (!is_read || document.value.at(json::json_pointer(pointer)).is_discarded()) {
+                rows_.erase({row, std::string(input)});
+            }
+        }
+    }
+}
+
+LaboratoryUse::Row LaboratoryUse::row(std::size_t row, const std::string& input) const {
+    const auto found = rows_.find({row, input});
+    return found == rows_.end() ? Row{} : Row{&found->second, row_pointer(row, input)};
+}
+
+std::pair<std::string_view, std::string_view> LaboratoryUse::reference_column(std::string_view column) {
+    const std::size_t dot = column.rfind('.');
+    const std::string_view word = dot == std::string_view::npos ? std::string_view() : column.substr(dot + 1);
+    const auto key = std::find(k_reference_keys.begin(), k_reference_keys.end(), word);
+    return key == k_reference_keys.end() ? std::pair<std::string_view, std::string_view>()
+                                         : std::pair(column.substr(0, dot), *key);
+}
+
+std::span<const std::string_view> LaboratoryUse::reference_keys() {
+    return k_reference_keys;
+}
+
 void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
-                                   const std::string& unit_of_input) {
+                                   const std::string& unit_of_input, ProblemList& problems) {
     json& statement = job.value.at(json::json_pointer(pointer));
-    const CertificatePlace place{&job, child_pointer(pointer, "standard"), &problems_};
+    const CertificatePlace place{&job, child_pointer(pointer, "standard"), &problems};
     const json id = statement["standard"];
     if (!id.is_string()) {
         refuse_type(id, "the identification of a standard", place);
@@ -178,11 +259,12 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
     }
     const StandardRecord* record =
         folder_ && LaboratoryFolder::is_identification(name) ? folder_->standard(name) : nullptr;
-    const std::optional<StandardUse> use = record != nullptr ? read_use(job, statement, pointer) : std::nullopt;
+    const std::optional<StandardUse> use =
+        record != nullptr ? read_use(job, statement, pointer, problems) : std::nullopt;
     const std::string take = text_in(statement, "take");
     bool is_accepted = use.has_value();
     if (statement.contains("take")) {
-        const CertificatePlace at{&job, child_pointer(pointer, "take"), &problems_};
+        const CertificatePlace at{&job, child_pointer(pointer, "take"), &problems};
         if (!statement["take"].is_string()) {
             refuse_type(statement["take"], "a text", at);
             is_accepted = false;
@@ -228,7 +310,7 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
 }
 
 std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, const json& statement,
-                                                   const std::string& pointer) {
+                                                   const std::string& pointer, ProblemList& problems) {
     StandardUse use;
     bool is_read = true;
     const auto read_text = [&](const char* key, std::string& text, TextForm form) {
@@ -236,7 +318,7 @@ std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, cons
         if (found == statement.end()) {
             return;
         }
-        const CertificatePlace place{&job, child_pointer(pointer, key), &problems_};
+        const CertificatePlace place{&job, child_pointer(pointer, key), &problems};
         if (!found->is_string()) {
             refuse_type(*found, "a text", place);
             is_read = false;
@@ -255,7 +337,7 @@ std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, cons
             use.at = at->get<double>();
         } else {
             if (!at->is_discarded()) {
-                refuse_type(*at, "a number", {&job, child_pointer(pointer, "at"), &problems_});
+                refuse_type(*at, "a number", {&job, child_pointer(pointer, "at"), &problems});
             }
             is_read = false;
         }
@@ -281,8 +363,8 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
         value = laboratory::value_of_standard(record, use);
     } catch (const gum::InputError& error) {
         for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
-            problems_.refuse({diagnostic.code, {}}, place.document->where(place.pointer),
-                             diagnostic.where + ": " + diagnostic.what, diagnostic.rule, diagnostic.action);
+            place.problems->refuse({diagnostic.code, {}}, place.document->where(place.pointer),
+                                   diagnostic.where + ": " + diagnostic.what, diagnostic.rule, diagnostic.action);
         }
         return std::nullopt;
     }
@@ -414,7 +496,9 @@ void LaboratoryUse::complete(JsonDocument& document, const CertificatePlace& pla
     }
     if (const LaboratoryFile* file = folder_->laboratory()) {
         if (file->laboratory.is_object()) {
-            complete_object(data, "laboratory", file->laboratory, "the laboratory", "");
+            json registered = file->laboratory;
+            name_in_folder(registered, "logo");
+            complete_object(data, "laboratory", registered, "the laboratory", "");
         }
         if (file->accreditation.is_object() && text_in(data, "status") != "not_accredited") {
             complete_accreditation(data, *file);
@@ -536,11 +620,16 @@ void LaboratoryUse::complete_by_id(json& data, const char* key, const Certificat
     complete_object(data, key, other, std::string("the ") + key, "");
 }
 
+/// Names of files are relative to the folder there, and to the job here.
+void LaboratoryUse::name_in_folder(json& object, const char* key) const {
+    if (const std::string file = text_in(object, key); !file.empty()) {
+        object[key] = folder_->name_of(file);
+    }
+}
+
 void LaboratoryUse::complete_accreditation(json& data, const LaboratoryFile& file) {
     json registered = file.accreditation;
-    if (const std::string symbol = text_in(registered, "symbol_file"); !symbol.empty()) {
-        registered["symbol_file"] = folder_->name_of(symbol);
-    }
+    name_in_folder(registered, "symbol_file");
     if (!registered.contains("signatories")) {
         json names = json::array();
         for (const SignatoryStatement& person : file.signatories) {
@@ -703,6 +792,19 @@ std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource&
     LaboratoryUse use(files, *document, *file.problems);
     JsonDocument filled = *document;
     use.fill_inputs(filled);
+    if (const auto points = document->value.find("points");
+        points != document->value.end() && points->is_object() && points->contains("file")) {
+        if (const std::optional<JobFiles::File> table_file = files.open(text_in(*points, "file"))) {
+            std::vector<CsvHeaderField> header = csv_header(table_file->bytes);
+            std::vector<std::string_view> columns;
+            for (const CsvHeaderField& field : header) {
+                columns.emplace_back(field.name);
+            }
+            if (const auto table = read_csv_table(table_file->bytes, columns, {}, *table_file->problems)) {
+                use.fill_rows(*document, *table, columns, *table_file->problems);
+            }
+        }
+    }
     (void)read_certificate(files, *document, *file.problems, &use);
     return use.registered();
 }

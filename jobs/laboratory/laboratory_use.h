@@ -3,11 +3,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "certificate/laboratory_register.h"
 #include "jobs/certificate/certificate_statement.h"
+#include "jobs/csv_table.h"
 #include "jobs/job_files.h"
 #include "jobs/json_object.h"
 #include "jobs/laboratory/laboratory_folder.h"
@@ -29,6 +33,22 @@ public:
     /// \param job  the same document
     void fill_inputs(JsonDocument& job);
 
+    /// What the rows of a table of points take from the register: columns NAME.standard and, as in an input, NAME.at,
+    /// NAME.range … An empty cell says nothing. What is wrong goes to the problems of the table.
+    /// \param job      for the units of the inputs
+    /// \param columns  all that the table was asked for, in its order
+    void fill_rows(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
+                   ProblemList& problems);
+    /// What a row states of an input, {"components": …}, in a document whose messages name the cell.
+    struct Row {
+        const JsonDocument* document = nullptr;  ///< null: nothing, or it was refused; lives as long as this
+        std::string pointer;
+    };
+    [[nodiscard]] Row row(std::size_t row, const std::string& input) const;
+    /// "V_s.at" is {"V_s", "at"}; two empty texts where a column is none of these. The first one lives as long as the column.
+    [[nodiscard]] static std::pair<std::string_view, std::string_view> reference_column(std::string_view column);
+    [[nodiscard]] static std::span<const std::string_view> reference_keys();
+
     void complete(JsonDocument& document, const CertificatePlace& place) override;
 
     /// What the gates hold against the certificate; none without a folder.
@@ -38,9 +58,9 @@ private:
     using Json = nlohmann::json;
 
     void fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
-                        const std::string& unit_of_input);
+                        const std::string& unit_of_input, ProblemList& problems);
     [[nodiscard]] std::optional<laboratory::StandardUse> read_use(const JsonDocument& job, const Json& statement,
-                                                                  const std::string& pointer);
+                                                                  const std::string& pointer, ProblemList& problems);
     [[nodiscard]] std::optional<Json> components_of(const laboratory::StandardRecord& record,
                                                     const laboratory::StandardUse& use, const std::string& unit,
                                                     bool is_deviation, const CertificatePlace& place);
@@ -51,6 +71,7 @@ private:
     void complete_object(Json& data, const std::string& key, const Json& registered, const std::string& subject,
                          const std::string& pointer);
     void complete_by_id(Json& data, const char* key, const CertificatePlace& place, bool is_customer);
+    void name_in_folder(Json& object, const char* key) const;
     void complete_accreditation(Json& data, const LaboratoryFile& file);
     void complete_persons(Json& data, const LaboratoryFile& file, const CertificatePlace& place);
     void complete_standards(Json& data, const CertificatePlace& place);
@@ -67,6 +88,7 @@ private:
     std::vector<std::string> used_;                                        ///< standards, in the order of the inputs
     std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
     std::map<std::string, const laboratory::CalibrationResult*> line_of_;  ///< the first line that an input takes
+    std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;     ///< by row and input
 };
 
 /// What the register says of a job that was read and accepted; none where the job names no laboratory.

@@ -2,6 +2,7 @@
 #include <array>
 #include <utility>
 
+#include "certificate/address_lines.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
 #include "reports/view/certificate_identity_sections.h"
@@ -178,6 +179,14 @@ void location(DccWriter& w, const certificate::Address& address, const std::stri
             any = true;
         }
     }
+    using Part = std::pair<const char*, const std::string*>;
+    for (const auto& [element, part] :
+         {Part{"dcc:street", &address.street}, Part{"dcc:streetNo", &address.street_no},
+          Part{"dcc:postOfficeBox", &address.post_office_box}, Part{"dcc:postCode", &address.postcode},
+          Part{"dcc:city", &address.city}, Part{"dcc:state", &address.state}}) {
+        any = any || !without_outer_blanks(*part).empty();
+        w.optional_string(element, *part);
+    }
     for (const std::string& line : {contact, web}) {
         if (!without_outer_blanks(line).empty()) {
             w.text("dcc:further", line);
@@ -344,14 +353,14 @@ void recalibration(DccWriter& w) {
 /// Place of the calibration where it has more to say than its kind.
 void place(DccWriter& w) {
     const certificate::Place& p = w.data().place;
-    if (!w.record().certificate || (p.description.empty() && p.address.lines.empty())) {
+    if (!w.record().certificate || (p.description.empty() && certificate::address_lines(p.address).empty())) {
         return;
     }
     w.xml.open("dcc:statement", {{"refType", w.ref_types()("performance_location")}});
     Text text = w.words()("place_kind", p.kind);
     append_line(text, w.words().localised(p.description));
     w.text("dcc:declaration", text);
-    if (!p.address.lines.empty()) {
+    if (!certificate::address_lines(p.address).empty()) {
         location(w, p.address, {});
     }
     w.xml.close();
@@ -419,7 +428,9 @@ void statements(DccWriter& w) {
     w.statement("validity", words("sentence", "validity"));
     if (w.record().certificate) {
         w.statement("only_item", words("statement", "only_item"));
-        w.statement("reproduction", words("statement", "reproduction"));
+        if (w.record().certificate->profile.reproduction_sentence_mandatory) {
+            w.statement("reproduction", words("statement", "reproduction"));
+        }
         for (const LocalisedText& sentence : w.record().certificate->profile.first_page_sentences) {
             w.statement("profile_sentence", words.localised(sentence));
         }

@@ -116,6 +116,41 @@ nlohmann::json wording_of(const std::vector<std::string>& languages, const Rende
     return all;
 }
 
+/// Every text with one word in place of another. Names of files and signs have none of these words.
+void put_term(nlohmann::json& texts, const std::string& word, const std::string& term) {
+    for (nlohmann::json& one : texts) {
+        if (one.is_object()) {
+            put_term(one, word, term);
+        } else if (one.is_string()) {
+            std::string& text = one.get_ref<std::string&>();
+            for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + term.size())) {
+                text.replace(at, word.size(), term);
+            }
+        }
+    }
+}
+
+/// The terms of an accreditation body in its languages. Patterns of sentences are English, and are found by that.
+void put_terms(nlohmann::json& all, const std::vector<certificate::Profile::Term>& terms) {
+    nlohmann::json sentences = std::move(all.front()[Wording::k_sentences_key]);
+    all.front().erase(Wording::k_sentences_key);
+    for (const certificate::Profile::Term& term : terms) {
+        for (nlohmann::json& texts : all) {
+            if (texts.value("language", "") == term.language) {
+                put_term(texts, term.word, term.term);
+            }
+        }
+        for (nlohmann::json& sentence : sentences) {
+            if (const auto text = sentence.find(term.language); term.language != "en" && text != sentence.end()) {
+                nlohmann::json one = nlohmann::json::array({std::move(*text)});
+                put_term(one, term.word, term.term);
+                *text = std::move(one.front());
+            }
+        }
+    }
+    all.front()[Wording::k_sentences_key] = std::move(sentences);
+}
+
 }  // namespace
 
 std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets) {
@@ -132,7 +167,11 @@ std::vector<std::string> languages_of(const EvaluationRecord& record, const Rend
 }
 
 nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
-    return wording_of(languages_of(record, assets), assets);
+    nlohmann::json all = wording_of(languages_of(record, assets), assets);
+    if (record.certificate && !record.certificate->profile.terms.empty()) {
+        put_terms(all, record.certificate->profile.terms);
+    }
+    return all;
 }
 
 nlohmann::json read_wording(const RenderAssets& assets) {

@@ -104,6 +104,10 @@ public:
     void filled(const char* key, const Type& v) {
         (*this)(key, v);
     }
+    template <class Type>
+    void filled_if_any(const char* key, const Type& v) {
+        stated(key, v);
+    }
 
     template <class Enumerator>
     void named(const char* key, Enumerator v, std::initializer_list<const char*> words) {

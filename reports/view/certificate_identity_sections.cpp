@@ -1,5 +1,6 @@
 #include "reports/view/certificate_identity_sections.h"
 
+#include "certificate/address_lines.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
@@ -63,7 +64,7 @@ bool is_position(const std::string& token) {
 /// Lines of an address with the country, joined by commas.
 std::string in_one_line(const certificate::Address& address) {
     std::string text;
-    for (const std::string& part : address.lines) {
+    for (const std::string& part : certificate::address_lines(address)) {
         text += (text.empty() ? "" : ", ") + part;
     }
     if (!address.country.empty()) {
@@ -72,7 +73,7 @@ std::string in_one_line(const certificate::Address& address) {
     return text;
 }
 
-json address_lines(const certificate::Laboratory& laboratory, const Wording& words) {
+json contact_lines(const certificate::Laboratory& laboratory, const Wording& words) {
     json lines = json::array();
     if (const std::string address = in_one_line(laboratory.address); !address.empty()) {
         lines.push_back(line(address, words));
@@ -108,21 +109,34 @@ json accreditation_lines(const Certificate& certificate, const Wording& words) {
     return lines;
 }
 
+/// \param name  of the file in the workspace of the PDF, without its ending
+/// \return an array of none or one {data_uri, base64, file, alt}
+json picture(const std::string& name, const std::string& media_type, const std::string& base64, const Text& alt) {
+    if (base64.empty()) {
+        return json::array();
+    }
+    const bool png = media_type == "image/png";
+    const bool svg = media_type == "image/svg+xml";
+    return json::array({{{"data_uri", "data:" +
+                                          std::string(png   ? "image/png"
+                                                      : svg ? "image/svg+xml"
+                                                            : "image/jpeg") +
+                                          ";base64," + base64},
+                         {"base64", base64},
+                         {"file", name + (png   ? ".png"
+                                          : svg ? ".svg"
+                                                : ".jpg")},
+                         {"alt", printable(alt.first())}}});
+}
+
 }  // namespace
 
 json accreditation_symbol(const Certificate& certificate, const Wording& words) {
-    if (!certificate.symbol || !certificate.data.accreditation ||
-        certificate.data.accreditation->symbol_base64.empty()) {
+    if (!certificate.symbol || !certificate.data.accreditation) {
         return json::array();
     }
     const certificate::Accreditation& a = *certificate.data.accreditation;
-    const bool png = a.symbol_media_type == "image/png";
-    const Text alt = words.localised(a.body) + ", " + a.number;
-    return json::array(
-        {{{"data_uri", std::string("data:") + (png ? "image/png" : "image/jpeg") + ";base64," + a.symbol_base64},
-          {"base64", a.symbol_base64},
-          {"file", png ? "symbol.png" : "symbol.jpg"},
-          {"alt", printable(alt.first())}}});
+    return picture("symbol", a.symbol_media_type, a.symbol_base64, words.localised(a.body) + ", " + a.number);
 }
 
 namespace {
@@ -155,9 +169,9 @@ void customer_section(CertificateBuilder& builder, const Wording& words, const c
 
 Text place_text(const CertificateData& data, const Wording& words) {
     Text text = words("place_kind", data.place.kind);
-    const certificate::Address& address = data.place.address.lines.empty() && data.place.kind == "laboratory"
-                                              ? data.laboratory.address
-                                              : data.place.address;
+    const bool is_elsewhere = !certificate::address_lines(data.place.address).empty();
+    const certificate::Address& address =
+        !is_elsewhere && data.place.kind == "laboratory" ? data.laboratory.address : data.place.address;
     if (!data.place.description.empty()) {
         text += ", " + words.localised(data.place.description);
     }
@@ -320,8 +334,10 @@ void authorisation_section(CertificateBuilder& builder, const Wording& words, co
 }
 
 json foot(const Certificate& certificate, const Wording& words) {
-    json lines = json::array({line(words("statement", "only_item"), words),  //
-                              line(words("statement", "reproduction"), words)});
+    json lines = json::array({line(words("statement", "only_item"), words)});
+    if (certificate.profile.reproduction_sentence_mandatory) {
+        lines.push_back(line(words("statement", "reproduction"), words));
+    }
     // The sentences of an accreditation body speak of its accreditation: they stand only where the symbol may stand.
     if (certificate.symbol) {
         for (const certificate::LocalisedText& sentence : certificate.profile.first_page_sentences) {
@@ -435,9 +451,11 @@ nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, 
     const Text number = words("certificate", "number");
     return {{"laboratory", printable(name.first())},
             {"laboratory_also", also(name, words.languages())},
-            {"address", address_lines(data.laboratory, words)},
+            {"address", contact_lines(data.laboratory, words)},
             {"accreditation", accreditation_lines(certificate, words)},
             {"symbol", accreditation_symbol(certificate, words)},
+            {"logo", picture("laboratory-logo", data.laboratory.logo_media_type, data.laboratory.logo_base64,
+                             words.filled("certificate", "logo", {{"laboratory", name.first()}}))},
             {"number_label", number.first()},
             {"number_label_also", also(number, words.languages())},
             {"number", printable(data.number)},

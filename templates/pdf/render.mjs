@@ -58,13 +58,13 @@ function copyTemplates(template) {
   if (path.basename(template) !== 'certificate.typ') fs.copyFileSync(template, main);
 }
 
-// The symbol comes as Base64 in the view; Typst reads files, and would be slow to decode it.
-function writeSymbols() {
+// Symbol and logo come as Base64 in the view; Typst reads files, and would be slow to decode them.
+function writePictures() {
   const view = JSON.parse(fs.readFileSync(path.join(workspace, 'view.json'), 'utf8'));
   for (const page of [view, ...(view.identity ?? [])]) {
-    for (const symbol of page.symbol ?? []) {
-      if (!/^symbol\.(png|jpg)$/.test(symbol.file)) throw new Error(`not a name of a symbol file: ${symbol.file}`);
-      fs.writeFileSync(path.join(workspace, symbol.file), Buffer.from(symbol.base64, 'base64'));
+    for (const picture of [...(page.symbol ?? []), ...(page.logo ?? [])]) {
+      if (!/^(symbol|laboratory-logo)\.(png|jpg|svg)$/.test(picture.file)) throw new Error(`not a name of a picture: ${picture.file}`);
+      fs.writeFileSync(path.join(workspace, picture.file), Buffer.from(picture.base64, 'base64'));
     }
   }
 }
@@ -82,7 +82,7 @@ function messagesOf(error) {
 
 function setDocument({ template, further_fonts: furtherFonts }) {
   copyTemplates(template);
-  writeSymbols();
+  writePictures();
   const compiler = compilerWith(furtherFonts === true);
   const texts = (error) => (error ? compiler.fetchDiagnostics(error).map(textOf) : []);
   // The files have the same names for every document: what was read before is forgotten.

@@ -2,7 +2,7 @@
 is used.
 
 Three laws:
-1. A text of words in the sources that make findings, remarks and messages stands in an English pattern of
+1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
    keys in the wording files.
@@ -16,12 +16,12 @@ import sys
 
 LANGUAGES = ("en", "de", "es", "zh-Hant")
 
-# Sources of the sentences in records. A file that is added here has all of its sentences in the catalogue.
+# Sources of the sentences in records. A file that is added here has all of its sentences in the catalogue. Every gate is
+# one without being named.
+GATES = "certificate/gates/*.cpp"
+NO_GATES = ("certificate/gates/accreditation_standard.cpp",)  # publishers of standards
 SOURCES = (
-    "certificate/gates/completeness_gate.cpp",
-    "certificate/gates/language_gate.cpp",
-    "certificate/gates/symbol_gate.cpp",
-    "certificate/gates/uncertainty_gate.cpp",
+    "laboratory/applicability.cpp",
     "reports/record/make/rotary_table/adjustment_record.cpp",
     "reports/record/make/budget/budget_findings.cpp",
     "reports/record/make/budget/budget_record.cpp",
@@ -95,7 +95,8 @@ def literals(pattern: str) -> list[str]:
 def unknown_sentences(root: pathlib.Path, catalogue: dict) -> list[str]:
     known = [part for entry in catalogue.values() for part in literals(entry["en"])]
     problems = []
-    for name in SOURCES:
+    gates = sorted({str(path.relative_to(root)) for path in root.glob(GATES)} - set(NO_GATES))
+    for name in (*gates, *SOURCES):
         for text in texts_of((root / name).read_text(encoding="utf-8")):
             if not is_sentence(text) or text in NOT_IN_RECORDS:
                 continue

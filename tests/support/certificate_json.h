@@ -49,6 +49,8 @@ public:
     }
     template <class Type>
     void filled(const char*, const Type&) {}
+    template <class Type>
+    void filled_if_any(const char*, const Type&) {}
 
     template <class Struct>
     static nlohmann::json structure(const Struct& v) {
@@ -89,6 +91,15 @@ private:
 inline certificate::CertificateData complete_certificate_data() {
     using namespace certificate;
     CertificateData d = gumcert::test::sample_certificate_data();
+    for (Address* address : {&d.laboratory.address, &d.customer.address, &d.place.address}) {
+        address->street = "Example Street";
+        address->street_no = "1";
+        address->post_office_box = "PO Box 7";
+        address->postcode = "12345";
+        address->city = "Example Town";
+        address->state = "Region";
+    }
+    d.laboratory.logo = "symbol.png";  // a file that the tests have
     const auto scope_entry = [&](const std::string& id, const Capability& capability) {
         ScopeEntry entry = d.accreditation->scope.front();
         entry.id = id;

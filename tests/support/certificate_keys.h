@@ -75,6 +75,10 @@ public:
     void filled(const std::string& key, const Type& v) {
         (*this)(key, v).filled = true;
     }
+    template <class Type>
+    void filled_if_any(const std::string& key, const Type& v) {
+        (*this)(key, v).filled = true;
+    }
     template <class Enumerator>
     void named(const std::string& key, Enumerator, std::initializer_list<const char*> words) {
         (*this)(key, std::string(), words);

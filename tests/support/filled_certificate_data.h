@@ -56,6 +56,8 @@ public:
     }
     template <class Type>
     void filled(const char*, Type&) {}
+    template <class Type>
+    void filled_if_any(const char*, Type&) {}
 
     [[nodiscard]] std::size_t count() const { return at_; }
     [[nodiscard]] const std::string& stated() const { return stated_; }  ///< its place: "/item/owner"

@@ -107,6 +107,10 @@ public:
     void filled(const char* key, const Type& v) {
         (*this)(key, v);
     }
+    template <class Type>
+    void filled_if_any(const char* key, const Type& v) {
+        added(key, v);
+    }
     template <class Enumerator>
     void named(const char* key, Enumerator, std::initializer_list<const char*> allowed) {
         add(key, words(allowed));

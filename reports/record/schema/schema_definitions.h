@@ -131,6 +131,7 @@ inline constexpr std::tuple k_definitions{
         "may be left out; the program then says which clause misses it, and prints a draft or a specimen."},
     DefinitionOf<certificate::LocalisedText>{"certificate_text", "A text for all languages, or one in each."},
     DefinitionOf<certificate::Profile>{"certificate_profile"},
+    DefinitionOf<certificate::Profile::Term>{"certificate_profile_term"},
     DefinitionOf<certificate::Laboratory>{"certificate_laboratory"},
     DefinitionOf<certificate::Address>{"certificate_address"},
     DefinitionOf<certificate::Accreditation>{"certificate_accreditation"},

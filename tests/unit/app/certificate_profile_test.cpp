@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "app/evaluate_job.h"
@@ -29,6 +31,40 @@ TEST(CertificateProfile, IsTheOneBesideTheJobWhereThereIsOne) {
     data.own_profile.emplace();
     data.own_profile->id = "own";
     EXPECT_EQ(certificate_profile(data, k_sources / "no templates").id, "own");
+}
+
+/// Words in place of others could turn a sentence of the program round.
+TEST(CertificateProfile, OfALaboratoryHasNoTerms) {
+    certificate::CertificateData data = test::sample_certificate_data();
+    data.own_profile.emplace();
+    data.own_profile->id = "own";
+    data.own_profile->terms = {{.language = "en", .word = "outside of", .term = "within"}};
+    try {
+        (void)certificate_profile(data, k_sources / "templates");
+        ADD_FAILURE();
+    } catch (const gum::InputError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-CERT-0302");
+        EXPECT_THAT(error.diagnostics().front().what, testing::HasSubstr("1 term in place of"));
+    }
+}
+
+/// Terms replace words that are there, and a profile has the name of its file.
+TEST(CertificateProfile, OfTheProgramHasTermsForItsWording) {
+    std::size_t profiles = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(k_sources / "templates/profiles")) {
+        certificate::CertificateData data = test::sample_certificate_data();
+        data.profile = entry.path().stem().string();
+        const certificate::Profile profile = certificate_profile(data, k_sources / "templates");
+        ++profiles;
+        EXPECT_EQ(profile.id, data.profile);
+        for (const certificate::Profile::Term& term : profile.terms) {
+            const std::string file = "templates/wording/" + term.language + ".json";
+            std::ifstream stream(k_sources / file);
+            const std::string wording{std::istreambuf_iterator<char>(stream), {}};
+            EXPECT_NE(wording.find(term.word), std::string::npos) << file << ": " << term.word;
+        }
+    }
+    EXPECT_GE(profiles, 8U);
 }
 
 TEST(CertificateProfile, IsRefusedWhereThereIsNoneOfThatName) {

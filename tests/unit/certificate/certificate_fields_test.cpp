@@ -46,6 +46,7 @@ TEST(CertificateFields, SayTheFormOfWhatTheyHold) {
     EXPECT_TRUE(described_key(objects, "", "accreditation").optional);
     EXPECT_EQ(described_key(objects, "/accreditation/scope/*/capability", "matrix").lists, 2);
     EXPECT_TRUE(described_key(objects, "/accreditation", "symbol_sha256").filled) << "by the program";
+    EXPECT_TRUE(described_key(objects, "/laboratory", "logo_base64").filled) << "by the program";
 }
 
 TEST(CertificateFields, NameSeveritiesInTheirOrder) {

@@ -46,6 +46,55 @@ TEST(ProgramSentences, AreFoundWithTheirArguments) {
     EXPECT_FALSE(sample().identified("something else").has_value());
 }
 
+/// Findings on the register of the laboratory, with every reason that it gives; nothing of them stays English.
+TEST(ProgramSentences, WordTheRegister) {
+    const ProgramSentences all(catalogue_file());
+    for (
+        const char* english :
+        {"the certificate states of the standard \"STD-1\" \"C-1\", and the register \"C-2\"",
+         "the certificate states of the standard \"STD-1\" 0.5 mV, and the register nothing",
+         "the certificate states of the laboratory \"A\", and the register \"B\"",
+         "the certificate states of the accreditation \"A\", and the register \"B\"",
+         "the certificate states of the method \"A\", and the register \"B\"",
+         "the standard \"STD-1\" cannot be used here: it was not calibrated before 2025-01-01",
+         "the standard \"STD-1\" cannot be used here: its calibration was valid to 2025-01-01, and it was used on "
+         "2026-01-01",
+         "the standard \"STD-1\" cannot be used here: the certificate has no quantity \"voltage\"",
+         "the standard \"STD-1\" cannot be used here: the certificate has no range \"10 V\"",
+         "the standard \"STD-1\" cannot be used here: the certificate has no mode \"DC\"",
+         "the standard \"STD-1\" cannot be used here: 7.5 lies outside of the values that were calibrated",
+         "it is not known whether the standard \"STD-1\" can be used here: the certificate has several ranges, and the "
+         "use does not say which",
+         "it is not known whether the standard \"STD-1\" can be used here: the certificate has several modes, and the "
+         "use does not say which",
+         "it is not known whether the standard \"STD-1\" can be used here: the certificate does not say for which "
+         "range "
+         "it holds, and the use is in \"10 V\"",
+         "it is not known whether the standard \"STD-1\" can be used here: 7.5 lies between two calibrated values, and "
+         "the register states no interpolation",
+         "it is not known whether the standard \"STD-1\" can be used here: the day of use is not stated",
+         "the standard \"STD-1\" of the certificate is not in the register of the laboratory",
+         "the budget uses the standard \"STD-1\", and the list of the certificate does not name it",
+         "Name it in the list; its row was added from the register.",
+         "by the register, Head may not authorise this certificate: it does not name this person",
+         "by the register, Head may not authorise this certificate: the authorisation is valid from 2024-01-01 to "
+         "2024-12-31, and not on 2025-01-01",
+         "by the register, Head may not authorise this certificate: the method \"CP-1\" is not among those of this "
+         "person"}) {
+        EXPECT_TRUE(all.identified(english)) << english;
+        for (const char* language : {"de", "es", "zh-Hant"}) {
+            const std::string worded = all.worded(english, language, ",");
+            for (const char* word : {"the ", " and ", "which", "register ", " is ", "may not"}) {
+                EXPECT_EQ(worded.find(word), std::string::npos) << worded;
+            }
+        }
+    }
+    EXPECT_EQ(
+        all.worded("the standard \"STD-1\" cannot be used here: 7.5 lies outside of the values that were calibrated",
+                   "de", ","),
+        "das Normal „STD-1“ kann hier nicht verwendet werden: 7,5 liegt außerhalb der kalibrierten Werte");
+}
+
 /// Numbers get the decimal sign of the language; names stay what they are.
 TEST(ProgramSentences, AreWorded) {
     const ProgramSentences all = sample();

@@ -64,6 +64,8 @@ public:
     }
     template <class Type>
     void filled(const char*, const Type&) {}
+    template <class Type>
+    void filled_if_any(const char*, const Type&) {}
 
 private:
     Texts& found_;

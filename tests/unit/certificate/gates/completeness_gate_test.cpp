@@ -286,6 +286,15 @@ TEST(CompletenessGate, TakesADashForNothing) {
     EXPECT_THAT(found([](CertificateData& d) { d.laboratory.name = "-"; }), ElementsAre("R07-b"));
     EXPECT_THAT(found([](CertificateData& d) { d.laboratory.name.by_language[1].second = "–"; }), ElementsAre("R07-b"));
     EXPECT_THAT(found([](CertificateData& d) { d.laboratory.address.lines = {"-", "."}; }), ElementsAre("R07-b"));
+    EXPECT_THAT(found([](CertificateData& d) {
+                    d.laboratory.address.lines.clear();
+                    d.laboratory.address.street = "Example Street";
+                    d.laboratory.address.street_no = "1";
+                    d.laboratory.address.postcode = "12345";
+                    d.laboratory.address.city = "Example Town";
+                }),
+                ElementsAre())
+        << "an address by its parts";
     EXPECT_THAT(found([](CertificateData& d) { d.number = "---"; }), ElementsAre("R07-d"));
     EXPECT_THAT(found([](CertificateData& d) { d.customer.name = "?"; }), ElementsAre("R07-e"));
     EXPECT_THAT(found([](CertificateData& d) { d.item.serial_number = d.item.identification = "N/A"; }),

@@ -298,7 +298,7 @@ TEST(CertificateStatement, RefusesTheWrongTypeOfEveryKeyAtItsPlace) {
     EXPECT_GT(count, 250U);
 }
 
-TEST(CertificateStatement, SymbolIsAPictureOfPixels) {
+TEST(CertificateStatement, SymbolIsAPicture) {
     const json data{{"accreditation", {{"symbol_file", "symbol"}}}};
     const std::string png = sample_png();
     const auto with = [&](const std::string& bytes) { return refusals(data, {{"symbol", bytes}}); };
@@ -312,8 +312,8 @@ TEST(CertificateStatement, SymbolIsAPictureOfPixels) {
     std::string huge = png;
     huge.replace(16, 4, std::string("\x00\x00\x40\x00", 4));
     const std::vector<std::pair<std::string, std::string>> bad{
-        {"<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "which may hold scripts"},
-        {"<?xml version=\"1.0\"?><!-- --><svg/>", "which may hold scripts"},
+        {"<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\"><script/></svg>", "the element \"script\""},
+        {"<?xml version=\"1.0\"?><!-- --><svg/>", "without its namespace"},
         {"GIF89a", "of another format"},
         {"", "an empty file"},
         {png.substr(0, png.size() - 5), "a PNG file that is cut off"},
@@ -332,13 +332,48 @@ TEST(CertificateStatement, SymbolIsAPictureOfPixels) {
     }
 }
 
+TEST(CertificateStatement, LogoIsAPicture) {
+    const json data{{"laboratory", {{"logo", "logo"}}}};
+    const std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\"/>";
+    const certificate::Laboratory drawn = read(data, {{"logo", svg}}).laboratory;
+    EXPECT_EQ(drawn.logo_media_type, "image/svg+xml");
+    EXPECT_EQ(drawn.logo_sha256.size(), 64U);
+    EXPECT_EQ(drawn.logo_base64.substr(0, 8), "PHN2ZyB4");
+    EXPECT_EQ(read(data, {{"logo", sample_png()}}).laboratory.logo_media_type, "image/png");
+    const auto found = refusals(data, {{"logo", "<svg onload=\"a()\"/>"}});
+    ASSERT_EQ(found.size(), 1U) << test::texts(found);
+    EXPECT_EQ(found[0].code, k_certificate_symbol.code);
+    EXPECT_THAT(found[0].what, HasSubstr("the attribute \"onload\""));
+    EXPECT_THAT(found[0].rule, HasSubstr("the logo of a laboratory is"));
+    EXPECT_TRUE(read(json{{"laboratory", {{"name", "A"}}}}).laboratory.logo_base64.empty());
+    EXPECT_THAT(test::texts(refusals(json{{"laboratory", {{"logo_base64", "AAAA"}}}})), HasSubstr("logo_base64"))
+        << "the program fills it in";
+}
+
+TEST(CertificateStatement, ReadsAnAddressByItsParts) {
+    const CertificateData data = read(json{{"laboratory",
+                                            {{"address",
+                                              {{"street", "Example Street"},
+                                               {"street_no", "1a"},
+                                               {"post_office_box", "PO Box 7"},
+                                               {"postcode", "12345"},
+                                               {"city", "Example Town"},
+                                               {"state", "Region"},
+                                               {"country", "DE"}}}}}});
+    const certificate::Address& address = data.laboratory.address;
+    EXPECT_EQ(address.street + address.street_no + address.post_office_box, "Example Street1aPO Box 7");
+    EXPECT_EQ(address.postcode + address.city + address.state + address.country, "12345Example TownRegionDE");
+    EXPECT_THAT(address.lines, testing::IsEmpty());
+}
+
 TEST(ParseProfile, ReadsEveryKey) {
     const certificate::Profile profile = parse_profile(R"({"id": "own", "name": "Own body", "sources": ["D 1:2020"],
         "digits": 1, "rounding": "up", "below_capability": "outside", "mixed_results": "separate",
         "plus_minus_in_tables": false, "k_position": "column", "opinions_with_symbol": true,
         "reproduction_sentence_mandatory": false, "receipt_date_mandatory": true, "reviewer_may_be_performer": false,
         "required_languages": ["zh-Hant", "en"], "first_page_sentences": ["A", {"de": "B"}],
-        "uncertainty_sentence": {"en": "k = {k} gives {coverage}."}})",
+        "uncertainty_sentence": {"en": "k = {k} gives {coverage}."},
+        "terms": [{"language": "es", "word": "medición", "term": "medida"}]})",
                                                        "own.json");
     EXPECT_EQ(profile.id, "own");
     EXPECT_THAT(profile.sources, ElementsAre("D 1:2020"));
@@ -352,6 +387,8 @@ TEST(ParseProfile, ReadsEveryKey) {
     EXPECT_FALSE(profile.reproduction_sentence_mandatory);
     EXPECT_TRUE(profile.receipt_date_mandatory);
     EXPECT_FALSE(profile.reviewer_may_be_performer);
+    ASSERT_EQ(profile.terms.size(), 1U);
+    EXPECT_EQ(profile.terms[0].language + profile.terms[0].word + profile.terms[0].term, "esmediciónmedida");
     EXPECT_THAT(profile.required_languages, ElementsAre("zh-Hant", "en"));
     ASSERT_EQ(profile.first_page_sentences.size(), 2U);
     EXPECT_EQ(profile.first_page_sentences[1].in("de"), "B");

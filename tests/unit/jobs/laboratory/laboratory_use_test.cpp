@@ -170,5 +170,104 @@ TEST(LaboratoryUseTest, ContradictionsAreNoted) {
     EXPECT_FALSE(register_of_job(MemoryFileSource(std::map<std::string, std::string>{{"job.json", "{}"}}), "job.json"));
 }
 
+// ---- points in a table ----------------------------------------------------------------------------------------------
+
+/// Two ranges of one standard, and a job whose points stand in a table.
+std::map<std::string, std::string> files_with_table(const std::string& table, const json& changes = json::object()) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(test::k_sample_standard);
+    for (json& calibration : standard["calibrations"]) {
+        json line = calibration["results"][0];
+        calibration["results"][0]["range"] = "10 V";
+        line["range"] = "100 V";
+        line["nominal"] = 100;
+        line["value"] = 100.03;
+        line["U"] = 0.01;
+        calibration["results"].push_back(line);
+    }
+    files["lab/standards/STD-1.json"] = standard.dump();
+    json job = job_of({{"V", {{"unit", "V"}}}, {"d", {{"value", 0}, {"u", 0.001}, {"unit", "V"}}}}, k_work);
+    job["model"] = {"E = V + d"};
+    job["outputs"] = {{"E", {{"unit", "V"}}}};
+    job["points"] = {{"file", "points.csv"}};
+    job.merge_patch(changes);
+    files["job.json"] = job.dump();
+    files["points.csv"] = table;
+    return files;
+}
+
+TEST(LaboratoryUseTest, RowsOfATableNameStandards) {
+    const auto files = files_with_table(
+        "point,V.standard,V.at,V.range,V.date\n"
+        "low,STD-1,10,10 V,2026-01-01\n"
+        "high,STD-1,,100 V,\n");
+    const BudgetJob job = read_budget_job(MemoryFileSource(files), "job.json");
+    ASSERT_EQ(job.points.size(), 2U);
+    const auto& low = job.points[0].inputs.at(0).second.components;
+    ASSERT_EQ(low.size(), 1U) << "no drift on the day of the calibration";
+    EXPECT_DOUBLE_EQ(low[0].value, 10.002);
+    EXPECT_DOUBLE_EQ(low[0].u, 0.001);
+    EXPECT_EQ(low[0].source, "STD-1, certificate C-2");
+    const auto& high = job.points[1].inputs.at(0).second.components;
+    ASSERT_EQ(high.size(), 2U);
+    EXPECT_DOUBLE_EQ(high[0].value, 100.03);
+    EXPECT_DOUBLE_EQ(high[0].u, 0.005);
+    EXPECT_NEAR(high[1].u, 0.0005 * 182.0 / 365.25 / std::sqrt(3.0), 1e-12) << "to the last day of the work";
+    // The same points as objects of the job are the same numbers.
+    auto objects = files_with_table(
+        "",
+        {{"points",
+          {{{"point", "low"}, {"V", {{"standard", "STD-1"}, {"at", 10}, {"range", "10 V"}, {"date", "2026-01-01"}}}},
+           {{"point", "high"}, {"V", {{"standard", "STD-1"}, {"range", "100 V"}}}}}}});
+    const BudgetJob same = read_budget_job(MemoryFileSource(objects), "job.json");
+    ASSERT_EQ(same.points.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto& a = job.points[i].inputs.at(0).second.components;
+        const auto& b = same.points[i].inputs.at(0).second.components;
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t c = 0; c < a.size(); ++c) {
+            EXPECT_EQ(a[c].value, b[c].value);
+            EXPECT_EQ(a[c].u, b[c].u);
+            EXPECT_EQ(a[c].source, b[c].source);
+        }
+    }
+    // The gates know of them, too.
+    const auto facts = register_of_job(MemoryFileSource(files), "job.json").value();
+    ASSERT_EQ(facts.uses.size(), 2U);
+    EXPECT_EQ(facts.uses[1].standard, "STD-1");
+    EXPECT_EQ(facts.uses[1].input, "V");
+}
+
+TEST(LaboratoryUseTest, WhatIsWrongInARowIsToldWithItsCell) {
+    const auto first = [](const std::string& table, const json& changes = json::object()) {
+        try {
+            (void)read_budget_job(MemoryFileSource(files_with_table(table, changes)), "job.json");
+        } catch (const gum::DiagnosedError& error) {
+            return error.diagnostics().at(0);
+        }
+        return gum::Diagnostic{};
+    };
+    const std::string good = "point,V.standard,V.range\nlow,STD-1,10 V\n";
+    const gum::Diagnostic unknown_line = first(good + "high,STD-1,1 V\n");
+    EXPECT_EQ(unknown_line.code, "GC-LAB-0014");
+    EXPECT_EQ(unknown_line.where, "points.csv:3:6");
+    const gum::Diagnostic no_identification = first(good + "high,../STD-1,100 V\n");
+    EXPECT_EQ(no_identification.code, "GC-LAB-0101");
+    EXPECT_EQ(no_identification.where, "points.csv:3:6");
+    EXPECT_EQ(first(good + "high,,100 V\n").where, "points.csv:3:6") << "an empty cell";
+    const gum::Diagnostic no_number = first("point,V.standard,V.at\nlow,STD-1,ten\n");
+    EXPECT_EQ(no_number.where, "points.csv:2:11");
+    const gum::Diagnostic no_date = first("point,V.standard,V.range,V.date\nlow,STD-1,10 V,today\n");
+    EXPECT_EQ(no_date.where, "points.csv:2:16");
+    const gum::Diagnostic alone = first("point,V,V.range\nlow,1,10 V\n");
+    EXPECT_THAT(alone.what, testing::HasSubstr("\"V.range\" without \"V.standard\""));
+    const gum::Diagnostic no_folder = first(good, {{"laboratory", nullptr}});
+    EXPECT_EQ(no_folder.code, "GC-LAB-0100");
+    EXPECT_EQ(no_folder.where, "points.csv:2:5");
+    EXPECT_THAT(first(good + "high,STD-9,100 V\n").where, testing::HasSubstr("lab/standards/STD-9.json"));
+    EXPECT_EQ(first("point,V.standard,V.range,V\nlow,STD-1,10 V,3\n").code, "GC-INPUT-0301")
+        << "a value of its own beside that of the register";
+}
+
 }  // namespace
 }  // namespace gumcert::jobs

@@ -465,6 +465,27 @@ TEST(DccDocument, StaysTheSameTreeWithHostileTexts) {
     }
 }
 
+/// Parts of an address have elements of their own (locationType of schema 3.3.0); lines are further texts.
+TEST(DccDocument, GivesAnAddressByItsParts) {
+    EvaluationRecord record = certified_budget();
+    certificate::Address& address = record.certificate->data.laboratory.address;
+    address.lines = {"Building 5"};
+    address.country = "DE";
+    address.street = "Example Street";
+    address.street_no = "1";
+    address.post_office_box = "PO Box 7";
+    address.postcode = "12345";
+    address.city = "Example Town";
+    address.state = "Region";
+    const std::string text = checked(record);
+    for (const char* element : {"<dcc:street>Example Street</dcc:street>", "<dcc:streetNo>1</dcc:streetNo>",
+                                "<dcc:postOfficeBox>PO Box 7</dcc:postOfficeBox>", "<dcc:postCode>12345</dcc:postCode>",
+                                "<dcc:city>Example Town</dcc:city>", "<dcc:state>Region</dcc:state>", "Building 5"}) {
+        EXPECT_THAT(text, HasSubstr(element));
+    }
+    EXPECT_LT(text.find("Building 5"), text.find("<dcc:street>"));
+}
+
 TEST(DccDocument, NeverLosesANumber) {
     EvaluationRecord record = certified_budget();
     record.certificate->tables[0].columns[0].values[0].printed_value = "1 234";

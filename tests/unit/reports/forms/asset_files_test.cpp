@@ -9,6 +9,8 @@
 #include <string>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/wording.h"
+#include "tests/unit/reports/document_text.h"
 
 namespace gumcert::reports {
 namespace {
@@ -46,6 +48,26 @@ TEST_F(AssetFiles, TellWhereTheyAreWrong) {
     EXPECT_THAT(refusal("[]"), testing::HasSubstr("not a JSON object"));
     EXPECT_THAT(refusal("{} // a comment"), testing::StartsWith("GC-REPORT-0001"));
     EXPECT_THAT(refusal(""), testing::StartsWith("GC-REPORT-0002"));
+}
+
+/// The terms of a body stand in its language, in labels and in the sentences of the program, and nowhere else.
+TEST(WordingOfARecord, HasTheTermsOfItsProfile) {
+    EvaluationRecord record;
+    record.certificate.emplace();
+    record.certificate->data.languages = {"zh-Hant", "es"};
+    const auto type_of = [&](std::size_t language) {
+        return read_wording(assets(), record).at(language).at("document").at("type").get<std::string>();
+    };
+    const std::string spanish = type_of(1);
+    EXPECT_EQ(type_of(0), "校正證書");
+    record.certificate->profile.terms = {{.language = "zh-Hant", .word = "校正證書", .term = "校正報告"}};
+    EXPECT_EQ(type_of(0), "校正報告");
+    EXPECT_EQ(type_of(1), spanish);
+    const nlohmann::json wording = read_wording(assets(), record);
+    EXPECT_EQ(wording.at(0).dump().find("校正證書"), std::string::npos);
+    const std::string sentences = read_asset(assets().templates / "wording" / "sentences.json");
+    ASSERT_NE(sentences.find("校正證書"), std::string::npos) << "a sentence with the word, for this test";
+    EXPECT_EQ(Wording(wording).language(), "zh-Hant");
 }
 
 }  // namespace

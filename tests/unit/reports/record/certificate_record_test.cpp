@@ -124,6 +124,30 @@ json parsed(const EvaluationRecord& record) {
     return json::parse(to_canonical_json(record));
 }
 
+/// What later releases added to the laboratory is in records that state it, and nothing of it in others.
+TEST(CertificateInRecord, HasLogoAndPartsOfAnAddressOnlyWhereTheyAreStated) {
+    EvaluationRecord record = sample_certificate_record();
+    certificate::Laboratory& laboratory = record.certificate->data.laboratory;
+    const json without = parsed(record)["certificate"]["data"]["laboratory"];
+    for (const char* key : {"logo", "logo_sha256", "logo_media_type", "logo_base64"}) {
+        EXPECT_FALSE(without.contains(key)) << key;
+    }
+    for (const char* key : {"street", "street_no", "post_office_box", "postcode", "city", "state"}) {
+        EXPECT_FALSE(without["address"].contains(key)) << key;
+    }
+    laboratory.logo = "logo.svg";
+    laboratory.logo_sha256 = std::string(64, 'a');
+    laboratory.logo_media_type = "image/svg+xml";
+    laboratory.logo_base64 = "PHN2Zy8+";
+    laboratory.address.street = "Example Street";
+    laboratory.address.postcode = "12345";
+    const std::string text = to_canonical_json(record);
+    const EvaluationRecord back = record_from_json(text, "r.json");
+    EXPECT_EQ(to_canonical_json(back), text);
+    EXPECT_EQ(back.certificate->data.laboratory.logo_base64, "PHN2Zy8+");
+    EXPECT_EQ(back.certificate->data.laboratory.address, laboratory.address);
+}
+
 TEST(CertificateInRecord, MakesTheRoundTrip) {
     const EvaluationRecord record = sample_certificate_record();
     const std::string text = to_canonical_json(record);

@@ -81,6 +81,44 @@ TEST(CertificateIdentity, SaysWhoWhatWhenAndWhere) {
     EXPECT_THAT(texts_of(page.at("foot")), HasSubstr("only in full unless the laboratory agrees in writing"));
 }
 
+TEST(CertificateIdentity, PrintsAnAddressByItsParts) {
+    EvaluationRecord record = test::certified_budget_record();
+    certificate::Address& address = record.certificate->data.laboratory.address;
+    const std::string as_lines = page_of(record).dump();
+    address = {.country = address.country};
+    address.street = "Example Street";
+    address.street_no = "1";
+    address.postcode = "12345";
+    address.city = "Example Town";
+    EXPECT_EQ(page_of(record).dump(), as_lines) << "the same address in the other form, everywhere";
+}
+
+TEST(CertificateIdentity, SaysWhoMayReproduceItWhereTheProfileWantsIt) {
+    EvaluationRecord record = test::certified_budget_record();
+    ASSERT_TRUE(record.certificate->profile.reproduction_sentence_mandatory);
+    EXPECT_THAT(texts_of(page_of(record).at("foot")), HasSubstr("reproduced only in full"));
+    record.certificate->profile.reproduction_sentence_mandatory = false;
+    EXPECT_THAT(texts_of(page_of(record).at("foot")), Not(HasSubstr("reproduced only in full")));
+    EXPECT_THAT(texts_of(page_of(record).at("foot")), HasSubstr("relate only to the item"));
+}
+
+TEST(CertificateIdentity, HasTheLogoWhereThereIsOne) {
+    EvaluationRecord record = test::certified_budget_record();
+    EXPECT_THAT(page_of(record).at("logo"), IsEmpty());
+    certificate::Laboratory& laboratory = record.certificate->data.laboratory;
+    laboratory.logo = "a/logo.svg";
+    laboratory.logo_media_type = "image/svg+xml";
+    laboratory.logo_base64 = "PHN2Zy8+";
+    record.certificate->symbol = false;
+    const json logo = page_of(record).at("logo");
+    ASSERT_EQ(logo.size(), 1U);
+    EXPECT_EQ(logo[0].at("file"), "laboratory-logo.svg") << "no name of a picture beside a template";
+    EXPECT_EQ(logo[0].at("data_uri"), "data:image/svg+xml;base64,PHN2Zy8+");
+    EXPECT_EQ(logo[0].at("alt"), "Logo of Example Calibration Laboratory");
+    laboratory.logo_media_type = "image/jpeg";
+    EXPECT_EQ(page_of(record).at("logo")[0].at("file"), "laboratory-logo.jpg");
+}
+
 TEST(CertificateIdentity, SummarisesTheVerdictsWithTheirRule) {
     EvaluationRecord record = test::certified_rotary_record();
     EXPECT_THAT(
