@@ -3,6 +3,7 @@
 #include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/render.h"
+#include "reports/forms/typeset_drawing.h"
 #include "reports/forms/typeset_html.h"
 #include "reports/view/certificate_view.h"
 
@@ -87,6 +88,7 @@ std::string filled_template(const std::string& file, const nlohmann::json& view,
 }
 
 std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
+    view = with_typeset_drawings(std::move(view));
     view["style"] = read_asset(assets.templates / "certificate.css");
     return with_pictures(typeset_html(filled_template("certificate.html.mustache", view, assets), view), assets);
 }

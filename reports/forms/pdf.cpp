@@ -5,6 +5,7 @@
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
+#include "reports/forms/typeset_drawing.h"
 #include "reports/view/certificate_view.h"
 
 #include <nlohmann/json.hpp>
@@ -40,7 +41,8 @@ bool needs_further_fonts(std::string_view utf8) {
 }
 
 /// What the PDF template needs beyond the view that all forms share.
-nlohmann::json with_pdf_keys(nlohmann::json view, bool further_fonts, bool attachment) {
+nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_fonts, bool attachment) {
+    nlohmann::json view = with_typeset_drawings(plain_view);
     // Noto Serif CJK has the Chinese, Japanese and Korean characters; TC draws them as in Taiwan and Hong Kong.
     view["fonts"] = further_fonts ? nlohmann::json::array({"Noto Serif CJK TC"}) : nlohmann::json::array();
     view["attachment"] = nlohmann::json::array();
