@@ -1,12 +1,10 @@
 #include "gum/quantity/diagnostic.h"
-#include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/pdf_conformity.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
 #include "reports/forms/typeset_drawing.h"
-#include "reports/view/certificate_view.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,17 +55,6 @@ nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_font
     return view;
 }
 
-/// What must not be missing on any page, whatever the template does.
-std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
-    std::vector<std::string> texts;
-    for (const auto& [list, key] : {std::pair("identity", "number"), std::pair("mark", "text")}) {
-        for (const nlohmann::json& entry : view.value(list, nlohmann::json::array())) {
-            texts.push_back(entry.at(key).get<std::string>());
-        }
-    }
-    return texts;
-}
-
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
                         PdfWorker& worker, const std::string& main) {
     const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
@@ -107,7 +94,7 @@ std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
 
 std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
                        PdfWorker* worker) {
-    return set_by(worker, certificate_view(record, read_wording(assets, record), assets.kinds), assets, dcc);
+    return set_by(worker, view_of_document(record, assets), assets, dcc);
 }
 
 std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets, PdfWorker* worker) {
