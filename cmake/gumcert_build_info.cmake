@@ -1,4 +1,5 @@
-# The header <gumcert_build_info.h>: version and commit, which a record names as its maker.
+# The header <gumcert_build_info.h>: version and commit, which a record names as its maker. The header
+# <gumcert_templates.h>: the digest of the templates of this release, see reports/forms/template_digest.h.
 #
 # Written at each build, because the commit changes without CMake being run again; rewritten only when it differs.
 # As a script (cmake -P) this file writes the header, included it makes the target gumcert::build_info.
@@ -37,6 +38,29 @@ inline constexpr std::string_view k_day_of_commit = "@day_of_commit@";
 
 }  // namespace gumcert
 ]])
+    file(GLOB_RECURSE names RELATIVE ${SOURCE_DIR}/templates ${SOURCE_DIR}/templates/pdf/* ${SOURCE_DIR}/templates/wording/*)
+    file(GLOB beside RELATIVE ${SOURCE_DIR}/templates ${SOURCE_DIR}/templates/certificate.* ${SOURCE_DIR}/templates/*.png
+         ${SOURCE_DIR}/templates/*.jpg ${SOURCE_DIR}/templates/*.jpeg)
+    list(APPEND names ${beside})
+    list(SORT names)
+    set(lines "")
+    foreach(name IN LISTS names)
+        file(SHA256 ${SOURCE_DIR}/templates/${name} digest)
+        string(APPEND lines "${digest}  ${name}\n")
+    endforeach()
+    string(SHA256 template_digest "${lines}")
+    cmake_path(GET HEADER PARENT_PATH folder)
+    file(CONFIGURE OUTPUT ${folder}/gumcert_templates.h @ONLY CONTENT [[
+#pragma once
+
+#include <string_view>
+
+namespace gumcert {
+
+inline constexpr std::string_view k_template_digest = "@template_digest@";
+
+}  // namespace gumcert
+]])
     return()
 endif()
 
@@ -44,7 +68,7 @@ set(gumcert_build_info_dir ${PROJECT_BINARY_DIR}/generated)
 add_custom_target(gumcert_build_info_header
     COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
             -DHEADER=${gumcert_build_info_dir}/gumcert_build_info.h -P ${CMAKE_CURRENT_LIST_FILE}
-    BYPRODUCTS ${gumcert_build_info_dir}/gumcert_build_info.h
+    BYPRODUCTS ${gumcert_build_info_dir}/gumcert_build_info.h ${gumcert_build_info_dir}/gumcert_templates.h
     COMMENT "Version and commit")
 add_library(gumcert_build_info INTERFACE)
 add_library(gumcert::build_info ALIAS gumcert_build_info)

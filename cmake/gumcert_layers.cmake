@@ -164,7 +164,7 @@ set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohma
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
-set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gumcert_build_info.h nlohmann unistd.h)
+set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gumcert_build_info.h gumcert_templates.h nlohmann unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
 set(GUMCERT_MAY_TOUCH_FILES encoding jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing app app/cli)

@@ -363,6 +363,17 @@ void add_explain(CLI::App& program, Arguments& a) {
         "English only. A finding such as R07-e is no code: docs/findings.md. All codes: docs/messages.md");
 }
 
+void add_fonts(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand("fonts", "The fonts that a template of a PDF may use");
+    add_share(command, a.share);
+    command.footer(
+        "Example: gumcert fonts --share laboratory-share\n"
+        "Prints the families with their styles and where they come from: those that the program has inside, those in\n"
+        "templates/pdf/fonts, where a laboratory puts its own (.otf, .ttf), and those for other scripts, which are "
+        "opened\n"
+        "for documents that need them. Fonts of the machine are never used. docs/templates.md");
+}
+
 }  // namespace
 
 std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
@@ -382,6 +393,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_plan(*program, a);
     add_laboratory_command(*program, a);
     add_explain(*program, a);
+    add_fonts(*program, a);
     add_common(*program, a.common);
     for (CLI::App* command : program->get_subcommands({})) {
         add_common(*command, a.common);

@@ -13,6 +13,7 @@
 #include "app/cli/certificate_commands.h"
 #include "app/cli/command_line.h"
 #include "app/cli/explain_command.h"
+#include "app/cli/fonts_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/laboratory_command.h"
 #include "app/cli/share_folder.h"
@@ -91,6 +92,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "explain") {
         return explain(a.codes, a.share);
+    }
+    if (a.command == "fonts") {
+        return list_fonts(a.share);
     }
     throw std::logic_error("a command that nothing does: " + a.command);
 }

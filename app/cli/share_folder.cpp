@@ -1,12 +1,16 @@
 #include "app/cli/share_folder.h"
 
+#include <gumcert_templates.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdlib>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms/template_digest.h"
 
 namespace gumcert::cli {
 
@@ -78,6 +82,9 @@ reports::RenderAssets render_assets(const std::string& share, std::vector<std::s
     const fs::path folder = share_folder(share);
     reports::RenderAssets result;
     result.templates = folder / "templates";
+    constexpr std::size_t k_shown_digits = 12;
+    const std::string digest = reports::template_digest(result.templates);
+    result.changed_templates = digest == k_template_digest ? "" : digest.substr(0, k_shown_digits);
     result.node_program = program_on_path("node");
     result.node_modules = folder / "node_modules";
     std::error_code error;

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace gumcert::reports {
 
@@ -17,6 +18,13 @@ namespace gumcert::reports {
 /// \throws gum::StorageError if the template is missing or damaged
 [[nodiscard]] std::string filled_template(const std::string& file, const nlohmann::json& view,
                                           const RenderAssets& assets);
+
+/// certificate_view() in the languages of the document. Where the templates were changed, the foot of the pages says it.
+[[nodiscard]] nlohmann::json view_of_document(const EvaluationRecord& record, const RenderAssets& assets);
+
+/// What stands on every page of a document, whatever the template does: the number of the certificate, its mark while it is
+/// a draft or a specimen, and the digest of templates that were changed.
+[[nodiscard]] std::vector<std::string> texts_of_every_page(const nlohmann::json& view);
 
 /// budget_report_view() in the languages of the document.
 /// \throws gum::InputError  GC-REPORT-0042 of the record of a comparison

@@ -2,9 +2,12 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
+#include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/render.h"
+#include "reports/forms/typeset_drawing.h"
 #include "reports/forms/typeset_html.h"
 #include "reports/view/certificate_view.h"
+#include "reports/wording.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
 // The copy constructor of kainjow's data holds pointers of which one is set; g++ 12 sees the others as dereferenced.
@@ -19,6 +22,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace gumcert::reports {
 
@@ -70,6 +74,32 @@ std::string with_pictures(const std::string& html, const RenderAssets& assets) {
     return out + html.substr(at);
 }
 
+/// With the digest of templates that were changed in the foot of the pages.
+nlohmann::json with_template_mark(nlohmann::json view, const nlohmann::json& wording, const RenderAssets& assets) {
+    view["changed_templates"] = nlohmann::json::array();
+    if (!assets.changed_templates.empty()) {
+        const std::string text =
+            Wording(wording).filled("document", "changed_templates", {{"digest", assets.changed_templates}}).first();
+        view["changed_templates"].push_back({{"text", text}, {"digest", assets.changed_templates}});
+        view["footer_left"] = view.at("footer_left").get<std::string>() + " · " + text;
+    }
+    return view;
+}
+
+/// A page is one file that the browser breaks into pages: what each of them needs is in it, or there is no document.
+void require_texts(const std::string& html, const nlohmann::json& view) {
+    std::vector<gum::Diagnostic> missing;
+    for (const std::string& text : texts_of_every_page(view)) {
+        kainjow::mustache::mustache escaping{"{{text}}"};
+        if (html.find(escaping.render(data{"text", text})) == std::string::npos) {
+            missing.push_back(missing_on_a_page("HTML", text));
+        }
+    }
+    if (!missing.empty()) {
+        throw gum::NoResultError(std::move(missing));
+    }
+}
+
 }  // namespace
 
 std::string filled_template(const std::string& file, const nlohmann::json& view, const RenderAssets& assets) {
@@ -87,12 +117,31 @@ std::string filled_template(const std::string& file, const nlohmann::json& view,
 }
 
 std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
+    view = with_typeset_drawings(std::move(view));
     view["style"] = read_asset(assets.templates / "certificate.css");
-    return with_pictures(typeset_html(filled_template("certificate.html.mustache", view, assets), view), assets);
+    const std::string html = filled_template("certificate.html.mustache", view, assets);
+    require_texts(html, view);
+    return with_pictures(typeset_html(html, view), assets);
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_html(certificate_view(record, read_wording(assets, record), assets.kinds), assets);
+    return view_as_html(view_of_document(record, assets), assets);
+}
+
+nlohmann::json view_of_document(const EvaluationRecord& record, const RenderAssets& assets) {
+    const nlohmann::json wording = read_wording(assets, record);
+    return with_template_mark(certificate_view(record, wording, assets.kinds), wording, assets);
+}
+
+std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
+    std::vector<std::string> texts;
+    for (const auto& [list, key] :
+         {std::pair("identity", "number"), std::pair("mark", "text"), std::pair("changed_templates", "digest")}) {
+        for (const nlohmann::json& entry : view.value(list, nlohmann::json::array())) {
+            texts.push_back(entry.at(key).get<std::string>());
+        }
+    }
+    return texts;
 }
 
 nlohmann::json view_of_budget_report(const EvaluationRecord& record, const RenderAssets& assets) {
@@ -103,7 +152,8 @@ nlohmann::json view_of_budget_report(const EvaluationRecord& record, const Rende
                                               .rule = "its own report holds the budgets that were compared",
                                               .action = "use --format html or pdf"});
     }
-    return budget_report_view(record, read_wording(assets, record), assets.kinds);
+    const nlohmann::json wording = read_wording(assets, record);
+    return with_template_mark(budget_report_view(record, wording, assets.kinds), wording, assets);
 }
 
 std::string render_budget_report_html(const EvaluationRecord& record, const RenderAssets& assets) {

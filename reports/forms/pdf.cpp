@@ -1,11 +1,10 @@
 #include "gum/quantity/diagnostic.h"
-#include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/pdf_conformity.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
-#include "reports/view/certificate_view.h"
+#include "reports/forms/typeset_drawing.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,7 +39,8 @@ bool needs_further_fonts(std::string_view utf8) {
 }
 
 /// What the PDF template needs beyond the view that all forms share.
-nlohmann::json with_pdf_keys(nlohmann::json view, bool further_fonts, bool attachment) {
+nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_fonts, bool attachment) {
+    nlohmann::json view = with_typeset_drawings(plain_view);
     // Noto Serif CJK has the Chinese, Japanese and Korean characters; TC draws them as in Taiwan and Hong Kong.
     view["fonts"] = further_fonts ? nlohmann::json::array({"Noto Serif CJK TC"}) : nlohmann::json::array();
     view["attachment"] = nlohmann::json::array();
@@ -53,17 +53,6 @@ nlohmann::json with_pdf_keys(nlohmann::json view, bool further_fonts, bool attac
         view["created"] = {{"year", "1970"}, {"month", "1"}, {"day", "1"}};
     }
     return view;
-}
-
-/// What must not be missing on any page, whatever the template does.
-std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
-    std::vector<std::string> texts;
-    for (const auto& [list, key] : {std::pair("identity", "number"), std::pair("mark", "text")}) {
-        for (const nlohmann::json& entry : view.value(list, nlohmann::json::array())) {
-            texts.push_back(entry.at(key).get<std::string>());
-        }
-    }
-    return texts;
 }
 
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
@@ -105,7 +94,7 @@ std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
 
 std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
                        PdfWorker* worker) {
-    return set_by(worker, certificate_view(record, read_wording(assets, record), assets.kinds), assets, dcc);
+    return set_by(worker, view_of_document(record, assets), assets, dcc);
 }
 
 std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets, PdfWorker* worker) {

@@ -299,20 +299,26 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
     return texts;
 }
 
+gum::Diagnostic missing_on_a_page(const std::string& where, const std::string& text) {
+    return {.code = "GC-REPORT-0032",
+            .where = where,
+            .what = "\"" + text + "\" is not on it",
+            .rule =
+                "every page has the number of its certificate, its mark while it is a draft or a specimen (ISO/IEC "
+                "17025:2017, 7.8.2.1 d), and the digest of templates that were changed",
+            .action =
+                "take header_right of the view into the head and footer_left into the foot of every page of your "
+                "template, and mark into the first page"};
+}
+
 std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts) {
     std::vector<gum::Diagnostic> findings;
     const std::vector<std::string> pages = texts_of_pages(pdf);
     for (std::size_t page = 0; page < pages.size(); ++page) {
         for (const std::string& text : texts) {
             if (!bare(text).empty() && pages[page].find(bare(text)) == std::string::npos) {
-                findings.push_back(
-                    {.code = "GC-REPORT-0032",
-                     .where = "PDF, page " + std::to_string(page + 1) + " of " + std::to_string(pages.size()),
-                     .what = "\"" + text + "\" is not on it",
-                     .rule = "every page has the number of its certificate, and its mark while it is a draft or a "
-                             "specimen (ISO/IEC 17025:2017, 7.8.2.1 d)",
-                     .action = "take header_right of the view into the head of every page of your template, and mark "
-                               "into the first page"});
+                findings.push_back(missing_on_a_page(
+                    "PDF, page " + std::to_string(page + 1) + " of " + std::to_string(pages.size()), text));
             }
         }
     }

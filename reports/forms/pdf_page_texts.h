@@ -15,10 +15,14 @@ namespace gumcert::reports {
 /// \throws std::exception of the reader if the file is no PDF
 [[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
 
-/// Whether each text stands on every page: the number of a certificate, the mark of a draft or a specimen. A template
-/// of a laboratory can forget them; then there is no document.
+/// Whether each text stands on every page: the number of a certificate, the mark of a draft or a specimen, the digest of
+/// templates that were changed. A template of a laboratory can forget them; then there is no document.
 /// \param texts  compared without blanks and hyphens, because a line may break in them; empty ones are left out
 [[nodiscard]] std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts);
+
+/// GC-REPORT-0032 of a text that is not where every page needs it.
+/// \param where  "PDF, page 2 of 3", "HTML"
+[[nodiscard]] gum::Diagnostic missing_on_a_page(const std::string& where, const std::string& text);
 
 /// Whether the numbers of a view stand in the PDF that a template made of it: the digits of every row of a table, of every
 /// value and sentence, in their order. A template that prints another digit gives no document.

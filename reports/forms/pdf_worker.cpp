@@ -4,6 +4,7 @@
 #include "reports/forms/asset_files.h"
 #include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
+#include "text/lists.h"
 #include "text/markup.h"
 
 #include <nlohmann/json.hpp>
@@ -234,6 +235,15 @@ public:
                 .action = "correct the template at the place that is named, or use the one that comes "
                           "with the program (docs/templates.md)"});
         }
+        if (status == "refused" && messages(answer).find("unknown font family") != std::string::npos) {
+            throw gum::NoResultError(gum::Diagnostic{
+                .code = "GC-REPORT-0034",
+                .where = "PDF",
+                .what = messages(answer) + "; there are " + text::listed(families()),
+                .rule = "a template uses fonts of the program, of its installation, or of the folder fonts beside it",
+                .action = "take one of them (gumcert fonts lists their styles), or put the files of the font into "
+                          "templates/pdf/fonts"});
+        }
         if (status == "refused") {
             throw gum::NoResultError(gum::Diagnostic{
                 .code = "GC-REPORT-0011",
@@ -255,7 +265,40 @@ public:
         return pdf;
     }
 
+    std::vector<TemplateFont> fonts() {
+        const nlohmann::json request = {
+            {"fonts", fs::absolute(assets_.templates / "pdf" / PdfWorker::k_certificate).string()}};
+        const Clock::time_point deadline = Clock::now() + assets_.pdf_time_limit;
+        send(request.dump() + '\n', deadline);
+        const nlohmann::json answer = nlohmann::json::parse(receive_line(deadline), nullptr, false);
+        if (!answer.is_object() || !answer.contains("fonts")) {
+            storage_error("PDF", "node could not list the fonts" + (answer.is_object() ? ": " + messages(answer) : ""),
+                          "the PDF step answers with a document", k_set_up);
+        }
+        std::vector<TemplateFont> all;
+        for (const nlohmann::json& font : answer["fonts"]) {
+            all.push_back({.family = printable(font.value("family", std::string())),
+                           .style = printable(font.value("style", std::string())),
+                           .from = font.value("from", std::string())});
+        }
+        return all;
+    }
+
 private:
+    /// Names of the families that every document may use, each once: not those for other scripts.
+    std::vector<std::string> families() {
+        std::vector<std::string> names;
+        for (const TemplateFont& font : fonts()) {
+            const bool further = std::any_of(assets_.fonts.begin(), assets_.fonts.end(), [&](const fs::path& folder) {
+                return fs::absolute(folder).string() == font.from;
+            });
+            if (!further && std::find(names.begin(), names.end(), font.family) == names.end()) {
+                names.push_back(font.family);
+            }
+        }
+        return names;
+    }
+
     void start() {
         Descriptor child_input;
         Descriptor child_output;
@@ -435,8 +478,7 @@ private:
 PdfWorker::PdfWorker(RenderAssets assets) : assets_(std::move(assets)) {}
 PdfWorker::~PdfWorker() = default;
 
-std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts,
-                           const std::string& main) {
+PdfWorker::Process& PdfWorker::running() {
     if (process_ != nullptr && !process_->is_fit()) {
         process_.reset();
     }
@@ -444,8 +486,22 @@ std::string PdfWorker::set(const std::string& view, const std::string& attachmen
         check_installation(assets_);
         process_ = std::make_unique<Process>(assets_);
     }
+    return *process_;
+}
+
+std::vector<TemplateFont> PdfWorker::fonts() {
     try {
-        return process_->set(view, attachment, further_fonts, main);
+        return running().fonts();
+    } catch (...) {
+        process_.reset();
+        throw;
+    }
+}
+
+std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts,
+                           const std::string& main) {
+    try {
+        return running().set(view, attachment, further_fonts, main);
     } catch (const gum::NoResultError&) {
         throw;  // the document is at fault, not the process
     } catch (...) {

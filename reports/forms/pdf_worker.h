@@ -2,17 +2,24 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "reports/forms/render.h"
 
 namespace gumcert::reports {
+
+/// One style of a font that a template may use.
+struct TemplateFont {
+    std::string family, style;
+    std::string from;  ///< its folder; "" where it is built in
+};
 
 /// A Node process that stays, for many documents: the Typst compiler and its fonts are loaded once. It is started at
 /// the first document, and again when it ended, took too long, or has set so many documents that its memory may have
 /// grown. One document at a time; not for several threads at once.
 ///
 /// Typst sees the files of one document in a private folder, which is removed after it, the fonts that are built in,
-/// and those of RenderAssets::fonts; never the fonts of the machine. So the bytes depend on the document alone.
+/// those in the folder `fonts` beside the template, and those of RenderAssets::fonts; never the fonts of the machine. So the bytes depend on the document alone.
 class PdfWorker {
 public:
     static constexpr const char* k_certificate = "certificate.typ";
@@ -31,10 +38,16 @@ public:
     [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false,
                                   const std::string& main = k_certificate);
 
+    /// The fonts that templates may use, built-in ones first, in the order of their files.
+    /// \throws gum::StorageError  as render_pdf()
+    [[nodiscard]] std::vector<TemplateFont> fonts();
+
 private:
     class Process;
     RenderAssets assets_;
     std::unique_ptr<Process> process_;
+
+    Process& running();
 };
 
 }  // namespace gumcert::reports

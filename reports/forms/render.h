@@ -21,6 +21,9 @@ struct RenderAssets {
         fonts;  ///< folders with fonts for scripts that the built-in fonts lack; PDF only
     /// Languages to print in, the binding one first, at most two; empty: those of the certificate data, else English.
     std::vector<std::string> languages;
+    /// The first digits of template_digest() where the templates are not those of the release; "": they are. Documents
+    /// say it on every page.
+    std::string changed_templates = {};
     std::chrono::seconds pdf_time_limit{60};
     std::span<const DocumentKind> kinds = document_kinds();  ///< what records of each kind show
 };

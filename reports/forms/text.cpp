@@ -333,7 +333,7 @@ std::string view_as_text(const nlohmann::json& view) {
 }
 
 std::string render_text(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_text(certificate_view(record, read_wording(assets, record), assets.kinds));
+    return view_as_text(view_of_document(record, assets));
 }
 
 }  // namespace gumcert::reports

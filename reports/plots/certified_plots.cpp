@@ -65,18 +65,20 @@ struct CertifiedLimit {
             points.push_back({.x = x, .y = *limit, .U = 0.0});
         }
     }
-    void put(PlotPanel& panel, const std::string& label) const {
+    /// \param acceptance  of a limit of acceptance, whose line differs from that of a tolerance
+    void put(PlotPanel& panel, const std::string& label, bool acceptance) const {
         if (points.empty()) {
             return;
         }
         if (constant) {
-            panel.limits.push_back({points.front().y, label});
+            panel.limits.push_back({.y = points.front().y, .label = label, .dotted = acceptance});
         } else {
             panel.series.push_back({.label = label,
                                     .points = points,
                                     .marker = joined ? PlotMarker::none : PlotMarker::cross,
                                     .joined = joined,
-                                    .dashed = joined});
+                                    .dashed = joined,
+                                    .dotted = joined && acceptance});
         }
     }
 };
@@ -134,10 +136,10 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
     panel.series.push_back(std::move(series));
-    lower.put(panel, tolerance);
-    upper.put(panel, tolerance);
-    acceptance_lower.put(panel, acceptance);
-    acceptance_upper.put(panel, acceptance);
+    lower.put(panel, tolerance, false);
+    upper.put(panel, tolerance, false);
+    acceptance_lower.put(panel, acceptance, true);
+    acceptance_upper.put(panel, acceptance, true);
     return panel;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,8 +28,13 @@ constexpr const char* k_plot_grid = "stroke=\"#e2e2e2\" stroke-width=\"0.6\"";
 constexpr const char* k_plot_tick = "stroke=\"#000000\" stroke-width=\"0.8\"";
 constexpr const char* k_solid = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\"";
 constexpr const char* k_dashed = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"5 2.5\"";
+constexpr const char* k_dotted = "fill=\"none\" stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"1.2 2.4\"";
 constexpr const char* k_edge = "fill=\"none\" stroke=\"#555555\" stroke-width=\"0.8\" stroke-dasharray=\"2 2\"";
 constexpr std::size_t k_many_points = 150;  // points of a series above which they are drawn as one path
+
+const char* line_style(const PlotSeries& series) {
+    return series.dotted ? k_dotted : series.dashed ? k_dashed : k_solid;
+}
 
 /// One path of dots for points too many to be told apart one by one. Dots that fall on the same place are drawn once.
 void draw_dense(Drawing& drawing, const std::vector<PlotPoint>& sorted, const PlotFrame& frame, double shift) {
@@ -123,7 +129,7 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
         }
     }
     if (series.joined) {
-        draw_curve(drawing, sorted, frame, series.shift, 0.0, series.dashed ? k_dashed : k_solid);
+        draw_curve(drawing, sorted, frame, series.shift, 0.0, line_style(series));
     }
     if (series.joined && sorted.size() > k_many_points) {
         return;  // markers would hide the curve
@@ -131,6 +137,60 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
     for (const PlotPoint& p : sorted) {
         drawing.marker(series.marker, x(p), frame.py(p.y), radius);
     }
+}
+
+/// The label of a limit, at the end of its line where nothing is in the way: else on its other side, or further left.
+void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit& limit, const PlotFrame& frame) {
+    struct Place {
+        double x, y;
+        const char* anchor;
+        double left;
+    };
+    constexpr double k_size = 10.0;
+    constexpr std::size_t k_outside = 1'000'000;  // worse than any number of points
+    const double width = label_width(limit.label, k_size);
+    const double line = frame.py(limit.y);
+    const auto hidden_at = [&](const Place& place) {
+        const double upper = place.y - 0.8 * k_size;
+        const double lower = place.y + 0.2 * k_size;
+        std::size_t count = upper < frame.y || lower > frame.bottom() ? k_outside : 0;
+        for (const PlotLimit& other : panel.limits) {
+            const double y = frame.py(other.y);
+            count += y > upper && y < lower ? k_outside : 0;
+        }
+        for (const PlotSeries& series : panel.series) {
+            for (const PlotPoint& p : series.points) {
+                const double x = frame.px(p.x) + series.shift;
+                const double U = series.bars == PlotBars::none ? 0.0 : p.U;
+                const bool across = x > place.left - 3.0 && x < place.left + width + 3.0;
+                if (across && frame.py(p.y - U) > upper - 3.0 && frame.py(p.y + U) < lower + 3.0) {
+                    ++count;
+                }
+            }
+        }
+        return count;
+    };
+    const double above = line - 4.0;
+    const double below = line + 11.0;
+    std::optional<Place> best;
+    std::size_t least = 0;
+    for (const double y : limit.y < 0.0 ? std::array{below, above} : std::array{above, below}) {
+        const double right = frame.right() - 4.0;
+        std::vector<Place> places = {{right, y, "end", right - width}, {frame.x + 4.0, y, "start", frame.x + 4.0}};
+        constexpr int k_parts = 16;
+        for (int i = k_parts - 2; i > 1; --i) {
+            const double middle = frame.x + frame.width * i / k_parts;
+            places.push_back({middle, y, "middle", middle - 0.5 * width});
+        }
+        for (const Place& place : places) {
+            const std::size_t hidden = hidden_at(place);
+            if (!best || hidden < least) {
+                best = place;
+                least = hidden;
+            }
+        }
+    }
+    drawing.text(best->x, best->y, limit.label, best->anchor, k_size);
 }
 
 void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, bool with_axis) {
@@ -150,8 +210,9 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame
     for (const PlotLimit& limit : panel.limits) {
         const double y = frame.py(limit.y);
         drawing.line(frame.x, y, frame.x + frame.width, y,
-                     "stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"6 3\"");
-        drawing.text(frame.x + frame.width - 4.0, limit.y < 0.0 ? y + 11.0 : y - 4.0, limit.label, "end", 10.0);
+                     limit.dotted ? "stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"1.2 2.4\""
+                                  : "stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"6 3\"");
+        draw_limit_label(drawing, panel, limit, frame);
     }
     for (const PlotSeries& series : panel.series) {
         if (series.bars == PlotBars::band) {
@@ -246,7 +307,7 @@ void draw_key_symbol(Drawing& drawing, const PlotSeries& series, double x, doubl
         return;
     }
     if (series.joined) {
-        drawing.points("polyline", line, series.dashed ? k_dashed : k_solid);
+        drawing.points("polyline", line, line_style(series));
     }
 }
 

@@ -22,11 +22,13 @@ struct PlotSeries {
     bool joined = false;  ///< neighbours in x are joined by a line
     bool dashed = false;  ///< this line is dashed
     double shift = 0.0;   ///< horizontal displacement in drawing units, so that bars of two series stand side by side
+    bool dotted = false;  ///< this line is dotted
 };
 
 struct PlotLimit {
     double y = 0.0;
-    std::string label;
+    std::string label;  ///< stands where it hides the fewest points
+    bool dotted = false;
 };
 
 /// An upright line across a panel, with a text at its upper end.
@@ -39,7 +41,7 @@ struct PlotPanel {
     std::string heading;
     std::string y_label;
     std::vector<PlotSeries> series;
-    std::vector<PlotLimit> limits;  ///< dashed horizontal lines; always inside the panel
+    std::vector<PlotLimit> limits;  ///< dashed or dotted horizontal lines; always inside the panel
     /// Greatest magnitude of the vertical axis; what is beyond it is drawn at the edge. 0: as the points need it.
     double y_most = 0.0;
     std::vector<PlotMark> marks = {};

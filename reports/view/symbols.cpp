@@ -38,9 +38,13 @@ bool is_one_letter(std::string_view text) {
            (text.size() == 2 && static_cast<unsigned char>(text[0]) >= 0xC2U);
 }
 
+bool is_of_a_name(char c) {
+    return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
 bool is_name(std::string_view text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        return c == '_' || static_cast<unsigned char>(c) >= 0x80U || std::isalnum(static_cast<unsigned char>(c)) != 0;
+        return is_of_a_name(c) || static_cast<unsigned char>(c) >= 0x80U;
     });
 }
 
@@ -79,6 +83,19 @@ nlohmann::json symbols_in(const EvaluationRecord& record) {
             names.insert(row.input);
         }
     }
+    if (record.model) {
+        for (const std::string& equation : record.model->equations) {
+            names.insert(equation.substr(0, equation.find_first_of(" =")));
+        }
+        names.insert(record.model->unknowns.begin(), record.model->unknowns.end());
+    }
+    if (record.certificate) {
+        for (const certificate::CertifiedTable& table : record.certificate->tables) {
+            for (const certificate::CertifiedColumn& column : table.columns) {
+                names.insert(column.result);
+            }
+        }
+    }
     for (const FitSummary& fit : record.fits) {
         names.insert(fit.x_name);
         names.insert(fit.y_name);
@@ -97,6 +114,76 @@ nlohmann::json symbols_in(const EvaluationRecord& record) {
         }
     }
     return {{"symbols", std::move(symbols)}, {"letters", std::move(letters)}};
+}
+
+SymbolFinder::SymbolFinder(const nlohmann::json& view) {
+    for (const nlohmann::json& symbol : view.value("symbols", nlohmann::json::array())) {
+        const std::string text = symbol.at("text").get<std::string>();
+        symbols_[text] = {.base = symbol.at("base").get<std::string>(), .index = symbol.at("index").get<std::string>()};
+        if (!text.empty() && !is_of_a_name(text[0])) {
+            others_.push_back(text);
+        }
+    }
+    for (const nlohmann::json& letter : view.value("letters", nlohmann::json::array())) {
+        letters_.insert(letter.at("text").get<std::string>());
+    }
+}
+
+std::vector<SymbolPiece> SymbolFinder::pieces(std::string_view text) const {
+    return pieces(text, false);
+}
+
+std::vector<SymbolPiece> SymbolFinder::pieces_of_formula(std::string_view text) const {
+    return pieces(text, true);
+}
+
+std::vector<SymbolPiece> SymbolFinder::pieces(std::string_view text, bool formula) const {
+    std::vector<SymbolPiece> found;
+    std::string between;
+    const auto add = [&](std::string_view name, const Symbol& symbol) {
+        if (!between.empty()) {
+            found.push_back({.text = std::exchange(between, {}), .symbol = {}});
+        }
+        found.push_back({.text = std::string(name), .symbol = symbol});
+    };
+    for (std::size_t at = 0; at < text.size();) {
+        const auto other = std::find_if(others_.begin(), others_.end(),
+                                        [&](const std::string& s) { return text.substr(at).starts_with(s); });
+        std::size_t end = at + (other == others_.end() ? 0 : other->size());
+        if (other == others_.end()) {
+            while (end < text.size() && is_of_a_name(text[end])) {
+                ++end;
+            }
+        }
+        if (end == at) {
+            // A letter of another script in a formula: of two bytes, as Greek ones are.
+            const std::string_view letter = text.substr(at, 2);
+            const bool greek = formula && (letter.starts_with("\xCE") || letter.starts_with("\xCF")) &&
+                               (at + 2 >= text.size() || text[at + 2] != '_');
+            if (greek) {
+                add(letter, {.base = std::string(letter), .index = {}});
+                at += 2;
+            } else {
+                between += text[at++];
+            }
+            continue;
+        }
+        const std::string_view name = text.substr(at, end - at);
+        const bool goes_on = other != others_.end() && end < text.size() && is_of_a_name(text[end]);
+        const auto symbol = symbols_.find(name);
+        if (symbol != symbols_.end() && !goes_on) {
+            add(name, symbol->second);
+        } else if (formula && (letters_.contains(name) || is_one_letter(name))) {
+            add(name, {.base = std::string(name), .index = {}});
+        } else {
+            between += name;
+        }
+        at = end;
+    }
+    if (!between.empty()) {
+        found.push_back({.text = std::move(between), .symbol = {}});
+    }
+    return found;
 }
 
 }  // namespace gumcert::reports

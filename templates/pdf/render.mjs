@@ -2,7 +2,8 @@
 // Usage: node render.mjs NODE_MODULES WORKSPACE [FONT_FOLDER...]
 //
 // Each line of standard input is a request, JSON: {"template": "…/certificate.typ", "further_fonts": true|false}. The
-// files of the document are in WORKSPACE: view.json, and certificate.xml if one is attached. The answer is one line of
+// files of the document are in WORKSPACE: view.json, and certificate.xml if one is attached. {"fonts": "…/certificate.typ"} asks for the fonts of a template and gets
+//   {"status": "done", "fonts": [{"family": "…", "style": "…", "from": "…"}]}   from: "" where it is built in
 // JSON on standard output:
 //   {"status": "done", "memory": bytes}                      WORKSPACE/certificate.pdf is there
 //   {"status": "template", "messages": ["…"]}                the template cannot be set
@@ -42,11 +43,67 @@ new Worker(watch, {
   workerData: { parent: process.ppid, folder: path.basename(folder).startsWith('gumcert-') ? folder : '' },
 }).unref();
 
+// Fonts that a laboratory has put beside its template.
+function fontsBeside(template) {
+  const folder = path.join(path.dirname(template), 'fonts');
+  return fs.existsSync(folder) ? [folder] : [];
+}
+
 // The compiler keeps its fonts. Opening further folders takes time, so it is done for the first document that asks.
 const compilers = {};
-function compilerWith(furtherFonts) {
-  const fontArgs = furtherFonts && fontFolders.length > 0 ? { fontArgs: [{ fontPaths: fontFolders }] } : {};
-  return (compilers[furtherFonts] ??= NodeCompiler.create({ workspace, ...fontArgs }));
+function compilerWith(folders) {
+  const fontArgs = folders.length > 0 ? { fontArgs: [{ fontPaths: folders }] } : {};
+  return (compilers[folders.join('\n')] ??= NodeCompiler.create({ workspace, ...fontArgs }));
+}
+
+// The compiler package has these inside, and tells nobody.
+const builtIn = {
+  'DejaVu Sans Mono': ['Book', 'Bold', 'Oblique', 'Bold Oblique'],
+  'Libertinus Serif': ['Regular', 'Bold', 'Italic', 'Bold Italic', 'Semibold', 'Semibold Italic'],
+  'New Computer Modern': ['Regular', 'Bold', 'Italic', 'Bold Italic'],
+  'New Computer Modern Math': ['Regular', 'Bold', 'Book'],
+};
+
+// Family and style of each font of a file: OpenType, "name" table (16 and 17 where there are more than four styles).
+function namesIn(file) {
+  const data = fs.readFileSync(file);
+  const starts = data.toString('latin1', 0, 4) === 'ttcf'
+    ? Array.from({ length: data.readUInt32BE(8) }, (_, i) => data.readUInt32BE(12 + 4 * i)) : [0];
+  return starts.map((start) => {
+    const names = {};
+    for (let i = 0; i < data.readUInt16BE(start + 4); ++i) {
+      const entry = start + 12 + 16 * i;
+      if (data.toString('latin1', entry, entry + 4) !== 'name') continue;
+      const table = data.readUInt32BE(entry + 8);
+      const texts = table + data.readUInt16BE(table + 4);
+      for (let n = 0; n < data.readUInt16BE(table + 2); ++n) {
+        const at = table + 6 + 12 * n;
+        // Windows, English: UTF-16 with the higher byte first.
+        if (data.readUInt16BE(at) !== 3 || data.readUInt16BE(at + 4) !== 0x409) continue;
+        const from = texts + data.readUInt16BE(at + 10);
+        const bytes = Buffer.from(data.subarray(from, from + data.readUInt16BE(at + 8)));
+        names[data.readUInt16BE(at + 6)] = bytes.swap16().toString('utf16le');
+      }
+    }
+    return { family: names[16] ?? names[1], style: names[17] ?? names[2] };
+  });
+}
+
+function fontsOf(template) {
+  const fonts = Object.entries(builtIn).flatMap(([family, styles]) => styles.map((style) => ({ family, style, from: '' })));
+  for (const folder of [...fontsBeside(template), ...fontFolders]) {
+    for (const name of fs.readdirSync(folder, { recursive: true }).map(String).sort()) {
+      if (!/\.(otf|ttf|otc|ttc)$/i.test(name)) continue;
+      try {
+        for (const { family, style } of namesIn(path.join(folder, name))) {
+          if (family) fonts.push({ family, style: style ?? '', from: folder });
+        }
+      } catch {
+        continue;  // no font that anything could use
+      }
+    }
+  }
+  return { status: 'done', fonts };
 }
 
 // The only files that the template can see are those of the workspace.
@@ -83,7 +140,7 @@ function messagesOf(error) {
 function setDocument({ template, further_fonts: furtherFonts }) {
   copyTemplates(template);
   writePictures();
-  const compiler = compilerWith(furtherFonts === true);
+  const compiler = compilerWith([...fontsBeside(template), ...(furtherFonts === true ? fontFolders : [])]);
   const texts = (error) => (error ? compiler.fetchDiagnostics(error).map(textOf) : []);
   // The files have the same names for every document: what was read before is forgotten.
   const compiled = compiler.compile({ mainFilePath: main, resetRead: true });
@@ -104,7 +161,8 @@ function setDocument({ template, further_fonts: furtherFonts }) {
 for await (const line of readline.createInterface({ input: process.stdin })) {
   let answer;
   try {
-    answer = setDocument(JSON.parse(line));
+    const request = JSON.parse(line);
+    answer = request.fonts ? fontsOf(request.fonts) : setDocument(request);
   } catch (error) {
     answer = { status: 'failed', messages: [String(error.message)], code: String(error.code ?? '') };
   }

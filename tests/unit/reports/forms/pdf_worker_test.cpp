@@ -60,6 +60,38 @@ std::string view(const std::string& text) {
     return R"({"text": ")" + text + R"("})";
 }
 
+TEST_F(PdfWorkerTest, ListsTheFontsThatTemplatesMayUse) {
+    SKIP_WITHOUT_PDF();
+    PdfWorker worker(assets_);
+    std::string last;
+    for (const TemplateFont& font : worker.fonts()) {
+        if (!font.from.empty() || font.family == last) {
+            continue;
+        }
+        last = font.family;
+        const std::string text =
+            std::string("#set document(title: \"T\", date: datetime(year: 1970, month: 1, day: 1))\n") +
+            "#set text(font: \"" + font.family + "\", fallback: false)\n" +
+            (font.family.ends_with("Math") ? "#set page(width: 50mm)\n" : "text");
+        put("templates/pdf/certificate.typ", text);
+        EXPECT_NO_THROW(static_cast<void>(worker.set(view(""), ""))) << font.family;
+    }
+    EXPECT_EQ(last, "New Computer Modern Math");
+}
+
+TEST_F(PdfWorkerTest, SaysWhichFontsThereAreForOneThatIsNot) {
+    SKIP_WITHOUT_PDF();
+    put("templates/pdf/certificate.typ", "#set text(font: \"Nowhere Sans\")\ntext");
+    PdfWorker worker(assets_);
+    try {
+        static_cast<void>(worker.set(view(""), ""));
+        FAIL() << "a font that is not there was accepted";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-REPORT-0034");
+        EXPECT_THAT(error.what(), HasSubstr("nowhere sans; there are DejaVu Sans Mono, Libertinus Serif"));
+    }
+}
+
 TEST_F(PdfWorkerTest, SetsDocumentsOneAfterTheOtherWithTheSameBytes) {
     SKIP_WITHOUT_PDF();
     {

@@ -63,6 +63,34 @@ TEST_F(TemplateReplacement, ChangesTheHtmlWithoutChangingTheTexts) {
     EXPECT_EQ(text, html_text(before));
 }
 
+TEST_F(TemplateReplacement, IsSaidOnEveryPage) {
+    const EvaluationRecord record = test::certified_budget_record();
+    own_.changed_templates = "0123456789ab";
+    EXPECT_THAT(html_text(render_html(record, own_)), HasSubstr("changed templates 0123456789ab"));
+    replace("certificate.html.mustache", "{{footer_left}}", "Form QM-17");
+    EXPECT_THROW(static_cast<void>(render_html(record, own_)), gum::NoResultError);
+    SKIP_WITHOUT_PDF();
+    EXPECT_FALSE(render_pdf(record, own_).empty());
+    replace("pdf/certificate.typ", "breakable(view.footer_left)", "[Form QM-17]");
+    EXPECT_THROW(static_cast<void>(render_pdf(record, own_)), gum::NoResultError);
+}
+
+TEST_F(TemplateReplacement, CannotLeaveOutTheNumberOrTheMark) {
+    EvaluationRecord record = test::certified_budget_record();
+    record.certificate->blocked = true;
+    EXPECT_THAT(html_text(render_html(record, own_)), HasSubstr("DRAFT"));
+    replace("certificate.html.mustache", "{{header_right}}", "");
+    replace("certificate.html.mustache", "{{header_right}}", "");
+    replace("certificate.html.mustache", "<p class=\"mark-text\">{{text}}", "<p class=\"mark-text\">");
+    try {
+        static_cast<void>(render_html(record, own_));
+        FAIL() << "a draft without its mark";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-REPORT-0032");
+        EXPECT_THAT(error.what(), HasSubstr("DRAFT"));
+    }
+}
+
 TEST_F(TemplateReplacement, ChangesThePdf) {
     SKIP_WITHOUT_PDF();
     if (program("pdftotext").empty()) {

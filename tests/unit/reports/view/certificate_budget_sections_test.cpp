@@ -253,8 +253,9 @@ const std::vector<std::string> k_two_results = {
 TEST(BudgetCertificate, EquationsAreWrittenAsMathematics) {
     EXPECT_THAT(text_of(test::sample_budget_record()),
                 HasSubstr(" l = l_s + d − l_s·(d_alpha·theta + alpha_s·d_theta) "));
-    EXPECT_THAT(render_html(test::sample_budget_record(), assets()),
-                HasSubstr("= <i>l</i><sub>s</sub> + d − <i>l</i><sub>s</sub>·(<i>d</i><sub>α</sub>·<i>θ</i> + "));
+    EXPECT_THAT(
+        render_html(test::sample_budget_record(), assets()),
+        HasSubstr("= <i>l</i><sub>s</sub> + <i>d</i> − <i>l</i><sub>s</sub>·(<i>d</i><sub>α</sub>·<i>θ</i> + "));
 }
 
 TEST(BudgetCertificate, HtmlAndTextShowTheSameNumbers) {
@@ -305,7 +306,15 @@ TEST(BudgetCertificate, HostileNamesAreShownAsTexts) {
         r.fits[0].y_unit = r.readings[0].input = r.readings[0].unit = r.variance_analyses[0].component = name;
         return r;
     };
-    const auto tags = [](const std::string& html) { return std::count(html.begin(), html.end(), '<'); };
+    // Single letters of an equation are italic, whoever wrote it.
+    const auto tags = [](std::string html) {
+        for (const std::string italic : {"<i>", "</i>"}) {
+            for (std::size_t at = html.find(italic); at != std::string::npos; at = html.find(italic, at)) {
+                html.erase(at, italic.size());
+            }
+        }
+        return std::count(html.begin(), html.end(), '<');
+    };
     const auto plain = tags(render_html(with("Smith"), assets()));
     for (const std::string name : {"<script>alert(1)</script>", "\" onload=\"alert(1)", "{{title}} {name}", "</svg>",
                                    "]]> --> <!--", "#panic(\"x\")"}) {

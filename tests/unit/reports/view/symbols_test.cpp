@@ -41,5 +41,34 @@ TEST(Symbols, OfARecordAreThoseOfItsQuantities) {
     EXPECT_NE(all.find("\"T_L\""), std::string::npos);
 }
 
+TEST(Symbols, OfEquationsAreThoseThatTheyDefine) {
+    EvaluationRecord record = test::sample_budget_record();
+    record.model = ModelSummary{.equations = {"rho_a = one·p", "q_z=2"}, .unknowns = {"w_u"}};
+    const std::string all = symbols_in(record).dump();
+    for (const char* name : {"\"rho_a\"", "\"q_z\"", "\"w_u\""}) {
+        EXPECT_NE(all.find(name), std::string::npos) << name;
+    }
+}
+
+TEST(Symbols, PiecesAreTheText) {
+    const nlohmann::json view = {
+        {"symbols",
+         {{{"text", "T_L"}, {"base", "T"}, {"index", "L"}}, {{"text", "ν_eff"}, {"base", "ν"}, {"index", "eff"}}}},
+        {"letters", {{{"text", "dm"}}}}};
+    const SymbolFinder finder(view);
+    for (const char* text : {"T_L = ν_eff·β_x + dm", "", "以T_L表", "ν_", "α"}) {
+        for (const bool formula : {false, true}) {
+            std::string joined;
+            for (const SymbolPiece& piece : formula ? finder.pieces_of_formula(text) : finder.pieces(text)) {
+                joined += piece.text;
+            }
+            EXPECT_EQ(joined, text);
+        }
+    }
+    EXPECT_EQ(finder.pieces("dm T_L").size(), 2U);
+    EXPECT_EQ(finder.pieces_of_formula("dm T_L").size(), 3U);
+    EXPECT_TRUE(finder.is_letter("dm"));
+}
+
 }  // namespace
 }  // namespace gumcert::reports

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""The layout of documents: nothing overlaps or sticks out, no heading or single row stands alone, no page is almost empty.
+
+    layout_test.py --program gumcert          a few documents, and the proof that each kind of breach is found
+    layout_test.py --program gumcert --all    all shipped examples in all languages: scripts/layout
+
+Skipped (77) where node, pdftotext or qpdf is missing.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from pdf_layout import layout_breaches
+
+SOURCE = Path(__file__).resolve().parents[2]
+LANGUAGES = ("en", "de", "es", "zh-Hant")
+FEW = (("everyday/torque_wrench/job.json", ("es",)), ("everyday/mass_set/job.json", ("de",)),
+       ("thermometer/job.json", ("zh-Hant",)), ("comparison/methods.json", ("en",)))
+ALL = tuple((job, LANGUAGES) for job in (
+    "certificate/end_gauge.json", "certificate/rotary_table.json", "circle_closure/comparison.json",
+    "circle_closure/indexing_tables.json", "circle_closure/job.json", "comparison/key_comparison.json",
+    "comparison/methods.json", "comparison/proficiency_test.json", "end_gauge/job.json", "everyday/gauge_blocks/job.json",
+    "everyday/mass_set/job.json", "everyday/multimeter/job.json", "everyday/torque_wrench/job.json", "gauge_block/job.json",
+    "multimeter/job.json", "resistance_and_reactance/job.json", "rotary_table/job.json", "thermometer/job.json"))
+SKIPPED = 77
+
+FRAME = """#set document(title: "layout", date: datetime(year: 2026, month: 11, day: 24))
+#set page(paper: "a4", margin: (left: 20mm, right: 18mm, top: 22mm, bottom: 20mm))
+#set text(font: "Libertinus Serif", size: 10pt, lang: "en")
+#let rows(n) = range(n).map(i => ([row #i], [value])).flatten()
+#let table-of(n) = table(columns: 2, table.header([*Name*], [*Value*]), ..rows(n))
+#let filled = lorem(120)
+"""
+SOUND = FRAME + "= Heading\n#filled\n\nBelow:\n\n#table-of(8)\n\n#pagebreak()\n= Other\n#filled\n"
+# A document with one breach each, and the words that must be said of it.
+PLANTED = {
+    "overlap": ("#filled\n\n#box(width: 0pt, [first])#box[second]\n\n#filled", "overlap"),
+    "over the side": ("#filled\n\n#h(165mm)#box(width: 0pt, [sticking])\n\n#filled", "sticks out of the text area at the side"),
+    "over the edge": ("#filled\n\n#place(dx: 183mm, [sticking])\n\n#filled", "sticks out over the edge of the paper"),
+    "over the foot": ("#filled\n\n#place(top, dy: 253.5mm, [sticking])", "sticks out of the text area at the foot"),
+    "single row behind": ("#block(height: 201mm)\n#table-of(8)\n#filled\n\n#filled", "one single row of table"),
+    "single row ahead": ("#block(height: 234mm)\n#table-of(8)\n#filled\n\n#filled", "one single row of table"),
+    "heading at the foot": ("#show heading: it => block(sticky: false, it.body)\n#block(height: 238mm, filled)\n= Alone\n"
+                            "#block(breakable: false, filled)", "a heading stands at the foot"),
+    "words before a table": ("#block(height: 238mm, filled)\nTable 1\n#block(breakable: false, table-of(4))\n\n#filled",
+                             "the words above a table stand at the foot"),
+    "almost empty page": ("Few words.\n#pagebreak()\n#filled\n\n#filled", "of it is filled"),
+    "almost empty last page": ("#filled\n#v(1fr)\n#pagebreak()\nLast words.", "the last one: it holds 1 lines"),
+}
+
+
+def set_by_typst(documents: dict[str, str], folder: Path) -> dict[str, Path]:
+    """PDF of Typst sources, set as the program sets its documents: in one process."""
+    workspace = folder / "workspace"
+    node = subprocess.Popen(["node", str(SOURCE / "templates/pdf/render.mjs"), str(SOURCE / "node_modules"), str(workspace)],
+                            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    files = {}
+    for name, text in documents.items():
+        shutil.rmtree(workspace, ignore_errors=True)
+        workspace.mkdir()
+        (workspace / "view.json").write_text("{}", encoding="utf-8")
+        template = folder / "template" / "certificate.typ"
+        template.parent.mkdir(exist_ok=True)
+        template.write_text(text, encoding="utf-8")
+        node.stdin.write(json.dumps({"template": str(template), "further_fonts": False}) + "\n")
+        node.stdin.flush()
+        answer = json.loads(node.stdout.readline())
+        if answer["status"] != "done":
+            raise RuntimeError(f"{name}: {answer}")
+        files[name] = (workspace / "certificate.pdf").rename(folder / f"{name}.pdf")
+    node.stdin.close()
+    node.wait(timeout=60)
+    return files
+
+
+def planted_problems(folder: Path) -> list[str]:
+    files = set_by_typst({"sound": SOUND} | {name: FRAME + text for name, (text, _) in PLANTED.items()}, folder)
+    problems = [f"sound: {breach}" for breach in layout_breaches(files["sound"])]
+    for name, (_, words) in PLANTED.items():
+        breaches = layout_breaches(files[name])
+        if not any(words in breach for breach in breaches):
+            problems.append(f"planted “{name}” is not found: {breaches}")
+    return problems
+
+
+def example_problems(program: str, job: str, languages: tuple[str, ...]) -> list[str]:
+    problems = []
+    with tempfile.TemporaryDirectory() as name:
+        record = Path(name) / "record.json"
+        commands = [["evaluate", str(SOURCE / "examples" / job), "-o", str(record)]]
+        commands += [["render", str(record), "--format", "pdf", "--language", language, "--draft", "--share", str(SOURCE),
+                      "-o", f"{name}/{language}.pdf"] for language in languages]
+        for command in commands:
+            done = subprocess.run([program, *command, "--quiet", "--threads", "1"], capture_output=True, text=True, check=False)
+            if done.returncode not in (0, 1):  # 1: a negative answer, with its documents
+                return [f"{job}: {done.stderr}"]
+        for language in languages:
+            problems += [f"{job}, {language}: {breach}" for breach in layout_breaches(Path(name) / f"{language}.pdf")]
+    return problems
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", required=True, help="the gumcert to ask")
+    parser.add_argument("--all", action="store_true", help="all examples in all languages")
+    arguments = parser.parse_args()
+    for tool in ("node", "pdftotext", "qpdf"):
+        if shutil.which(tool) is None:
+            print(f"skipped: {tool} is missing: scripts/setup test")
+            return SKIPPED
+    with tempfile.TemporaryDirectory() as folder:
+        problems = planted_problems(Path(folder))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        jobs = ALL if arguments.all else FEW
+        for found in pool.map(lambda job: example_problems(arguments.program, *job), jobs):
+            problems += found
+    for problem in problems:
+        print(problem)
+    print(f"{len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
