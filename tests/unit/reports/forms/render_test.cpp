@@ -43,6 +43,9 @@ std::string html_tags(std::string html) {
     std::string out;
     for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
         std::string tag = html.substr(at, html.find('>', at) - at + 1);
+        if (tag.starts_with("<tspan") || tag.starts_with("</tspan")) {  // the same in drawings
+            continue;
+        }
         std::erase_if(tag, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
         for (const std::string attribute : {" alt=\"", " data-text=\""}) {  // texts, up to the quote that ends them
             if (const std::size_t found = tag.find(attribute); found != std::string::npos) {
