@@ -346,6 +346,18 @@ void add_laboratory_command(CLI::App& program, Arguments& a) {
         "out. docs/laboratory.md");
 }
 
+void add_init(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand("init", "Begin with a method that comes with the program");
+    command.add_option("METHOD", a.method, "Name of the method; left out: all of them are listed");
+    command.add_option("DIR", a.folder,
+                       "New folder for its job, data and certificate; default: the name of the method");
+    add_share(command, a.share);
+    command.footer(
+        "Example: gumcert init multimeter my-multimeter && gumcert run my-multimeter/job.json\n"
+        "         gumcert init                        the methods\n"
+        "Writes a job that runs, with made-up data: put yours in their place. Nothing is overwritten.");
+}
+
 void add_explain(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("explain", "What the code of a message means, and what to do about it");
     command.add_option("CODE", a.codes,
@@ -392,6 +404,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_simulate(*program, a);
     add_plan(*program, a);
     add_laboratory_command(*program, a);
+    add_init(*program, a);
     add_explain(*program, a);
     add_fonts(*program, a);
     add_common(*program, a.common);

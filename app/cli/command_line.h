@@ -22,7 +22,7 @@ struct Arguments {
     std::string command;  ///< "run", "evaluate", …; "" = none
     CommonOptions common;
     std::vector<std::string> jobs, records, files, revocation_lists, codes;
-    std::string job, file, output, format, share, trust_store, standard, date;
+    std::string job, file, output, format, share, trust_store, standard, date, method, folder;
     DocumentOptions documents;
     AuditOptions audit;
     std::optional<std::size_t> runs;

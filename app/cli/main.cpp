@@ -14,6 +14,7 @@
 #include "app/cli/command_line.h"
 #include "app/cli/explain_command.h"
 #include "app/cli/fonts_command.h"
+#include "app/cli/init_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/laboratory_command.h"
 #include "app/cli/share_folder.h"
@@ -89,6 +90,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "laboratory") {
         return show_laboratory(a.file, a.date, a.format);
+    }
+    if (a.command == "init") {
+        return init(a.method, a.folder, a.share, a.common);
     }
     if (a.command == "explain") {
         return explain(a.codes, a.share);

@@ -70,6 +70,19 @@ fs::path templates_folder(const std::string& given) {
     return share_folder(given) / "templates";
 }
 
+fs::path examples_folder(const std::string& given) {
+    const fs::path share = share_folder(given);
+    std::error_code error;
+    for (const fs::path& candidate : {share / "examples", share.parent_path() / "doc" / "gumcert" / "examples"}) {
+        if (fs::exists(candidate / "methods.json", error)) {
+            return candidate;
+        }
+    }
+    throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", "examples", "the folder of methods was not found",
+                                            "methods are among the examples that come with the program",
+                                            "install the program with its documents", gum::Severity::error});
+}
+
 void add_program_files(std::vector<fs::path>& inputs, const std::string& share) {
     inputs.push_back(executable());
     const fs::path templates = templates_folder(share);

@@ -20,6 +20,10 @@ namespace gumcert::cli {
 /// \throws gum::StorageError  GC-STORE-0010
 [[nodiscard]] std::filesystem::path templates_folder(const std::string& given);
 
+/// The folder of examples, where `gumcert init` takes methods from: share/doc/gumcert of the installation, or the tree.
+/// \throws gum::StorageError  GC-STORE-0010
+[[nodiscard]] std::filesystem::path examples_folder(const std::string& given);
+
 /// Adds the folders that the program itself reads, templates and schemas, to the inputs that no output may overwrite.
 void add_program_files(std::vector<std::filesystem::path>& inputs, const std::string& share);
 

@@ -35,6 +35,10 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<MonteCarloSummary>{"monte_carlo"},
     DefinitionOf<GufValidation>{"validation", "law of propagation against Monte Carlo, JCGM 101:2008, clause 8"},
     DefinitionOf<ModelSummary>{"model"},
+    DefinitionOf<SectionSummary>{
+        "section",
+        "Results with equations and points of their own: equations, unknowns and points are those of the record that "
+        "come next after those of the sections before."},
     DefinitionOf<ResultCovariance>{"covariance", "covariance of results, in the products of their units"},
     DefinitionOf<CoverageRegion>{"region", "joint coverage region of all outputs, JCGM 102:2011"},
     DefinitionOf<CoverageRegion::SmallestRegion>{"smallest_region"},
@@ -157,6 +161,8 @@ inline constexpr std::tuple k_definitions{
         "point_table", "The points of a job, what they have beside their results, and the tables that show them."},
     DefinitionOf<certificate::PointColumn>{"point_column", "Words or numbers of points, one each."},
     DefinitionOf<certificate::TableRequest>{"table_request", "What the job wants of one table."},
+    DefinitionOf<certificate::SectionData>{
+        "certificate_section", "What holds for the results of one section in place of what the certificate states."},
     DefinitionOf<certificate::TableRequest::GroupUnit>{"table_group_unit"},
     DefinitionOf<certificate::TableRequest::RowChoice>{"table_row_choice"},
     DefinitionOf<certificate::ShownColumn>{"table_shown_column"},

@@ -1,0 +1,55 @@
+#include "app/cli/init_command.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "app/cli/share_folder.h"
+#include "app/method_library.h"
+
+namespace gumcert::cli {
+
+namespace {
+
+std::string list_of(const std::vector<app::Method>& methods) {
+    std::size_t longest = 0;
+    for (const app::Method& method : methods) {
+        longest = std::max(longest, method.name.size());
+    }
+    std::string text = "Methods:\n\n";
+    for (const app::Method& method : methods) {
+        text += fmt::format("  {:<{}}  {}\n", method.name, longest, method.title);
+    }
+    return text + "\nNext: gumcert init " + methods.front().name + " FOLDER\n";
+}
+
+}  // namespace
+
+ExitCode init(const std::string& method, const std::string& folder, const std::string& share,
+              const CommonOptions& common) {
+    const std::vector<app::Method> methods = app::method_library(examples_folder(share));
+    if (method.empty()) {
+        write_to_stdout(list_of(methods));
+        return done;
+    }
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const app::Method& one) { return one.name == method; });
+    if (found == methods.end()) {
+        const std::string nearest = app::nearest_method(methods, method);
+        refuse_usage("init " + method, "is none of the methods that come with the program",
+                     "a method is a folder with a job that runs; gumcert init lists them",
+                     nearest.empty() ? "choose one of the list" : "did you mean " + nearest + "?");
+    }
+    const std::vector<std::filesystem::path> written = app::begin_with(*found, folder.empty() ? method : folder);
+    if (!common.quiet) {
+        std::string text = found->title + "\n\nWritten:\n";
+        for (const std::filesystem::path& file : written) {
+            text += "  " + file.string() + "\n";
+        }
+        write_to_stdout(text + "\nAll data are made up: put yours in their place.\nNext: gumcert run " +
+                        written.front().string() + "\n");
+    }
+    return done;
+}
+
+}  // namespace gumcert::cli
