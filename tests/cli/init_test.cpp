@@ -25,7 +25,7 @@ TEST_F(Init, EveryMethodIsAFolderWithAJobThatIsEvaluated) {
     EXPECT_GE(all.size(), 9U);
     for (const std::string& method : all) {
         SCOPED_TRACE(method);
-        const fs::path folder = folder_ / method;
+        const fs::path folder = folder() / method;
         const Ended begun = gumcert({"init", method, folder.string(), "--share", GUMCERT_SOURCE_DIR});
         ASSERT_EQ(begun.code, 0) << begun.err;
         const std::size_t next = begun.out.find("Next: gumcert run ");
@@ -38,13 +38,13 @@ TEST_F(Init, EveryMethodIsAFolderWithAJobThatIsEvaluated) {
 }
 
 TEST_F(Init, OverwritesNothing) {
-    const fs::path folder = folder_ / "taken";
+    const fs::path folder = folder() / "taken";
     write_bytes(folder / "job.json", "mine");
-    const auto before = contents_of(folder_);
+    const auto before = contents_of(folder());
     const Ended refused = gumcert({"init", "end_gauge", folder.string(), "--share", GUMCERT_SOURCE_DIR});
     EXPECT_EQ(refused.code, 5);
     EXPECT_NE(refused.err.find("GC-STORE-0007"), std::string::npos) << refused.err;
-    EXPECT_EQ(contents_of(folder_), before);
+    EXPECT_EQ(contents_of(folder()), before);
 }
 
 TEST_F(Init, KnowsWhatMayHaveBeenMeant) {

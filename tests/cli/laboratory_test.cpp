@@ -10,6 +10,10 @@ namespace {
 
 using nlohmann::json;
 
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 class LaboratoryFolderOfJobs : public ProgramTest {
 protected:
     LaboratoryFolderOfJobs() {
@@ -118,16 +122,16 @@ TEST_F(LaboratoryFolderOfJobs, ADigitalCertificateBecomesAStandard) {
 TEST_F(LaboratoryFolderOfJobs, IsLookedThroughForWhatRunsOut) {
     const std::string laboratory = (folder() / "laboratory").string();
     const Ended text = gumcert({"laboratory", laboratory, "--date", "2026-11-21"});
-    EXPECT_EQ(text.code, 0) << text.error;
-    EXPECT_THAT(text.output, ::testing::HasSubstr(laboratory + " on 2026-11-21\n"));
-    EXPECT_THAT(text.output, ::testing::HasSubstr("NMI-2026-0117"));
-    EXPECT_THAT(text.output, ::testing::HasSubstr("control chart"));
-    EXPECT_THAT(text.output, ::testing::HasSubstr("the register states no plan of recalibration"));
-    EXPECT_THAT(gumcert({"laboratory", laboratory}).output, ::testing::HasSubstr(" (today by UTC)\n"));
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_TRUE(has(text.out, laboratory + " on 2026-11-21\n"));
+    EXPECT_TRUE(has(text.out, "NMI-2026-0117"));
+    EXPECT_TRUE(has(text.out, "control chart"));
+    EXPECT_TRUE(has(text.out, "the register states no plan of recalibration"));
+    EXPECT_TRUE(has(gumcert({"laboratory", laboratory}).out, " (today by UTC)\n"));
 
     const Ended late = gumcert({"laboratory", laboratory, "--date", "2029-01-01", "--format", "json"});
     EXPECT_EQ(late.code, 1);
-    const json all = json::parse(late.output);
+    const json all = json::parse(late.out);
     EXPECT_EQ(all["day"], "2029-01-01");
     EXPECT_EQ(all["overdue"], true);
     EXPECT_EQ(all["standards"][1]["id"], "STD-017");
@@ -139,18 +143,17 @@ TEST_F(LaboratoryFolderOfJobs, IsLookedThroughForWhatRunsOut) {
 
     const Ended csv = gumcert({"laboratory", laboratory, "--date", "2022-01-01", "--format", "csv"});
     EXPECT_EQ(csv.code, 0);
-    EXPECT_THAT(csv.output, ::testing::StartsWith("part,id,description,from,certificate,to,next_calibration,"));
-    EXPECT_THAT(csv.output, ::testing::HasSubstr(
-                                "signatories,OP3,Operator 3,2023-06-01,,,,,2022-01-01,not_yet,from 2023-06-01 on"));
+    EXPECT_TRUE(csv.out.starts_with("part,id,description,from,certificate,to,next_calibration,"));
+    EXPECT_TRUE(has(csv.out, "signatories,OP3,Operator 3,2023-06-01,,,,,2022-01-01,not_yet,from 2023-06-01 on"));
 
     EXPECT_EQ(gumcert({"laboratory", laboratory, "--date", "21.11.2026"}).code, 2);
     const Ended none = gumcert({"laboratory", (folder() / "laboratory" / "standards").string()});
     EXPECT_EQ(none.code, 3);
-    EXPECT_THAT(none.error, ::testing::HasSubstr("GC-LAB-0200"));
+    EXPECT_TRUE(has(none.err, "GC-LAB-0200"));
     change(folder() / "laboratory/standards/STD-017.json", "/calibrations/0/calibrated", "2025-13-01");
     const Ended wrong = gumcert({"laboratory", laboratory, "--date", "2026-11-21"});
     EXPECT_EQ(wrong.code, 3);
-    EXPECT_THAT(wrong.error, ::testing::HasSubstr("standards/STD-017.json"));
+    EXPECT_TRUE(has(wrong.err, "standards/STD-017.json"));
 }
 
 }  // namespace

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "certificate/gates/gates.h"
-#include "tests/support/sample_certificate.h"
-
 namespace gumcert::certificate {
 namespace {
 
@@ -12,11 +9,14 @@ CertificateData two_sections() {
     CertificateData data;
     data.item.serial_number = "SN-1";
     data.method.identification = "CP-1";
-    data.standards = {{.name = "first", .identification = "STD-1"}, {.name = "second", .identification = "STD-2"}};
-    data.conditions = {{.quantity = "temperature", .minimum = 20, .maximum = 21, .unit = "degC"}};
+    for (const char* identification : {"STD-1", "STD-2"}) {
+        data.standards.emplace_back().identification = identification;
+    }
+    data.conditions.emplace_back().unit = "degC";
     SectionData own;
     own.section = "AC";
-    own.method = Method{.identification = "CP-2"};
+    own.method.emplace();
+    own.method->identification = "CP-2";
     own.standards = {"STD-2"};
     data.sections = {own};
     return data;

@@ -30,7 +30,7 @@ StandardRecord record_of(std::optional<IntervalPlan> plan = {}) {
     return record;
 }
 
-IntervalPlan staircase() {
+IntervalPlan staircase_plan() {
     IntervalPlan plan;
     plan.method = IntervalMethod::staircase;
     plan.limit = 2.0;
@@ -55,7 +55,7 @@ TEST(CalibrationOutlook, FollowsTheLastDayOfUse) {
 }
 
 TEST(CalibrationOutlook, FollowsThePlan) {
-    StandardRecord record = record_of(staircase());
+    StandardRecord record = record_of(staircase_plan());
     record.calibrations.back().valid_to = "";
     // Found 1 mV from its value, within 80 % of 2 mV: 300 d · 1.5 = 450 d after 2026-01-01.
     const CalibrationOutlook outlook = calibration_outlook(record, "2027-03-27");
@@ -96,12 +96,12 @@ TEST(CalibrationOutlook, LooksAtADayOfThePast) {
     EXPECT_EQ(then.next, "") << "a line needs three calibrations";
     EXPECT_FALSE(then.why.empty());
     EXPECT_NE(calibration_outlook(record, "2026-06-01").next, "");
-    record.interval = staircase();
+    record.interval = staircase_plan();
     EXPECT_THAT(calibration_outlook(record, "2025-06-01").why, HasSubstr("belong to a later calibration"));
 }
 
 TEST(CalibrationOutlook, TakesTheEarliestLine) {
-    StandardRecord record = record_of(staircase());
+    StandardRecord record = record_of(staircase_plan());
     for (Calibration& calibration : record.calibrations) {
         CalibrationResult second = calibration.results.front();
         second.nominal = 100.0;

@@ -1,5 +1,6 @@
 #include "reports/dcc/dcc_document.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ namespace {
 using test::certified_budget;
 using test::certified_rotary_table;
 using test::dcc_assets;
+using testing::HasSubstr;
 
 /// Renders and holds the document against its schema (where that is there) and against the business rules.
 std::string checked(const EvaluationRecord& record, const std::vector<std::string>& languages = {"en"}) {
@@ -495,6 +497,37 @@ TEST(DccDocument, NeverLosesANumber) {
 TEST(DccDocument, IsTheSameBytesEveryTime) {
     const EvaluationRecord record = certified_rotary_table();
     EXPECT_EQ(render_dcc(record, dcc_assets({})), render_dcc(record, dcc_assets({})));
+}
+
+// A section is a measurement result of its own, with the item and the method that it states.
+TEST(DccDocument, WritesASectionAsAMeasurementResult) {
+    EvaluationRecord record = certified_budget();
+    certificate::Certificate& c = *record.certificate;
+    std::vector<std::string> quantities;
+    for (certificate::CertifiedTable& table : c.tables) {
+        table.section = "part";
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            quantities.push_back(column.result);
+        }
+    }
+    record.sections = {{.name = "part", .title = "First part", .quantities = quantities}};
+    certificate::SectionData own;
+    own.section = "part";
+    own.item = c.data.item;
+    own.item->serial_number = "SN-OTHER";
+    own.method = c.data.method;
+    own.method->identification = "CP-OTHER";
+    c.data.sections = {own};
+    const std::string text = checked(record);
+    EXPECT_THAT(text, HasSubstr("<dcc:measurementResult refId=\"item_2\">"));
+    EXPECT_THAT(text, HasSubstr("<dcc:item id=\"item_1\">"));
+    EXPECT_THAT(text, HasSubstr("<dcc:item id=\"item_2\">"));
+    EXPECT_THAT(text, HasSubstr("SN-OTHER"));
+    EXPECT_THAT(text, HasSubstr("CP-OTHER"));
+    EXPECT_THAT(text, HasSubstr("First part"));
+    record.sections.push_back({.name = "other", .title = {}, .quantities = {}});
+    const std::string two = checked(record);
+    EXPECT_THAT(two, HasSubstr("<dcc:measurementResult refId=\"item_1\">")) << "one without an item of its own";
 }
 
 }  // namespace

@@ -219,7 +219,12 @@ certificate::CertificateData data_with_text(const std::string& text) {
     certificate::CertificateData d = test::sample_certificate_data();
     const certificate::Address address = {.lines = {text, text}, .country = text};
     d.number = text;
-    d.laboratory = {.name = text, .address = address, .email = text, .telephone = text, .web = text, .code = text};
+    d.laboratory.name = text;
+    d.laboratory.address = address;
+    for (std::string* const one :
+         {&d.laboratory.email, &d.laboratory.telephone, &d.laboratory.web, &d.laboratory.code}) {
+        *one = text;
+    }
     d.accreditation->body = text;
     d.accreditation->number = text;
     d.accreditation->standard = text;

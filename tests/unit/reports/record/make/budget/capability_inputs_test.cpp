@@ -24,10 +24,30 @@ TEST(CapabilityInputs, HoldTheValuesOfTheInputsInTheirUnits) {
     const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
     EXPECT_EQ(inputs.values.at("x").unit, "mm");
     ASSERT_EQ(inputs.values.at("x").values.size(), 2U);
-    EXPECT_NEAR(inputs.values.at("x").values[0], 20.0, 1e-12);
-    EXPECT_NEAR(inputs.values.at("x").values[1], 30.0, 1e-12);
-    EXPECT_NEAR(inputs.values.at("t").values[1], 23.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("x").values[0].value(), 20.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("x").values[1].value(), 30.0, 1e-12);
+    EXPECT_NEAR(inputs.values.at("t").values[1].value(), 23.0, 1e-12);
     EXPECT_TRUE(inputs.distributions.empty());
+}
+
+// A capability at an input of one section is none for the results of another.
+TEST(CapabilityInputs, HoldWhatTheResultsOfASectionRestOn) {
+    jobs::BudgetJob job = jobs::test::read_budget(
+        R"("inputs": {"x": {"unit": "mm"}, "t": {"value": 23, "unit": "degC", "u": 0.1}, "w": {"value": 5, "unit": "1", "u": 1}},
+           "sections": {"a": {"model": ["y = x + 0*t*x/t"], "points": {"columns": {"f": "Hz"},
+                              "list": [{"x": {"value": 20, "u": 0.1}, "f": 50}, {"x": {"value": 30, "u": 0.1}, "f": 60}]}},
+                        "b": {"model": ["z = w"], "points": [{"w": {"value": 7, "u": 1}}]},
+                        "c": {"model": ["v = t"]}})");
+    job.certificate = test::sample_certificate_data();
+    const certificate::CapabilityInputs inputs = capability_inputs(job, gum::evaluate_budget(job, 1));
+    ASSERT_EQ(inputs.values.at("x").values.size(), 3U);
+    EXPECT_NEAR(inputs.values.at("x").values[1].value(), 30.0, 1e-12);
+    EXPECT_EQ(inputs.values.at("x").values[2], std::nullopt);
+    EXPECT_EQ(inputs.values.at("x").without_point, std::nullopt);
+    EXPECT_EQ(inputs.values.at("w").values[0], std::nullopt);
+    EXPECT_EQ(inputs.values.at("f").values[1], 60.0);
+    EXPECT_EQ(inputs.values.at("f").values[2], std::nullopt);
+    EXPECT_NEAR(inputs.values.at("t").without_point.value(), 23.0, 1e-12);
 }
 
 // The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
