@@ -25,8 +25,8 @@ TEST_F(Init, EveryMethodIsAFolderWithAJobThatIsEvaluated) {
     EXPECT_GE(all.size(), 9U);
     for (const std::string& method : all) {
         SCOPED_TRACE(method);
-        const fs::path folder = folder() / method;
-        const Ended begun = gumcert({"init", method, folder.string(), "--share", GUMCERT_SOURCE_DIR});
+        const fs::path place = folder() / method;
+        const Ended begun = gumcert({"init", method, place.string(), "--share", GUMCERT_SOURCE_DIR});
         ASSERT_EQ(begun.code, 0) << begun.err;
         const std::size_t next = begun.out.find("Next: gumcert run ");
         ASSERT_NE(next, std::string::npos) << begun.out;
@@ -38,10 +38,10 @@ TEST_F(Init, EveryMethodIsAFolderWithAJobThatIsEvaluated) {
 }
 
 TEST_F(Init, OverwritesNothing) {
-    const fs::path folder = folder() / "taken";
-    write_bytes(folder / "job.json", "mine");
+    const fs::path place = folder() / "taken";
+    write_bytes(place / "job.json", "mine");
     const auto before = contents_of(folder());
-    const Ended refused = gumcert({"init", "end_gauge", folder.string(), "--share", GUMCERT_SOURCE_DIR});
+    const Ended refused = gumcert({"init", "end_gauge", place.string(), "--share", GUMCERT_SOURCE_DIR});
     EXPECT_EQ(refused.code, 5);
     EXPECT_NE(refused.err.find("GC-STORE-0007"), std::string::npos) << refused.err;
     EXPECT_EQ(contents_of(folder()), before);
