@@ -62,6 +62,7 @@ public:
                 add_default(TableRequest(), document_.where(part.pointer("points")));
             }
         }
+        section_ = 0;  // what follows looks at each point's own section
         if (problems_.refusals() == 0) {
             add_inputs();
             check_limits();

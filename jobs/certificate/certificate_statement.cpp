@@ -133,7 +133,9 @@ std::optional<CertificateData> read_data(JobFiles& files, const json& job, const
     CertificateData data;
     CertificateArchive::read_struct_at(data, place);
     check_lists(data, place);
-    check_sections(data, job, place);
+    if (place.problems->refusals() == refusals) {
+        check_sections(data, job, place);
+    }
     if (!place.document->value.at(json::json_pointer(place.pointer)).contains("status")) {
         data.status = data.accreditation ? "accredited" : "specimen";
     }

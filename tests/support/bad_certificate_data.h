@@ -110,6 +110,11 @@ inline std::vector<BadData> bad_certificate_data() {
         {"profile_file", "/profile", "\"/ilac.json\"", k_certificate_file, "beside the job"},
         {"deviations", "/method/no_deviations", "true", k_certificate_contradiction, "either there are deviations"},
         {"any_result", "/accreditation/scope/0/results/0", "\"*\"", k_certificate_any_result, "covers every result"},
+        {"section", "/sections/0/section", "\"width\"", k_certificate_section, "the job has no section"},
+        {"standard_of_section", "/sections/0/standards/0", "\"STD-0\"", k_certificate_section,
+         "no standard has the identification"},
+        {"section_twice", "/sections/1", R"({"section": "length"})", k_certificate_repeated, "for the second time",
+         "/sections/1/section"},
     };
 }
 

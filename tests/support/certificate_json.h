@@ -215,6 +215,13 @@ inline certificate::CertificateData complete_certificate_data() {
                   .date = "2026-11-20",
                   .reason = "The maker states it so, in writing."}};
     d.annexes = "summary";
+    Address& parts = d.place.address;
+    parts.street = "Example Street";
+    parts.street_no = "3";
+    parts.post_office_box = "PO Box 7";
+    parts.postcode = "1010";
+    parts.city = "Example Town";
+    parts.state = "Region";
     SectionData section;
     section.section = "length";
     section.item = d.item;

@@ -337,6 +337,7 @@ TEST(BudgetJob, EveryCodeOfBudgetJobsHasABadInput) {
         covered.insert(bad.code);
     }
     covered.insert(code(k_too_many_quantities));  // by a test of its own
+    covered.insert(code(k_sections_of_budget));   // budget_sections_test.cpp
     for (const InputCode& input_code : k_input_codes) {
         if (input_code.code.starts_with("GC-INPUT-03")) {
             EXPECT_TRUE(covered.contains(code(input_code))) << input_code.code << " " << input_code.meaning;

@@ -33,7 +33,7 @@ protected:
 TEST_F(CertificateSchema, HasTheKeysOfTheDescription) {
     std::size_t objects = 0;
     for (const auto& [pointer, keys] : described_objects<certificate::CertificateData>()) {
-        if (pointer == "/own_profile") {
+        if (pointer.starts_with("/own_profile")) {
             continue;  // a file of its own
         }
         ++objects;
@@ -75,7 +75,7 @@ TEST_F(CertificateSchema, AcceptsEveryKey) {
     EXPECT_TRUE(accepts_data("certificate.json"));
     // And the complete data have every key, so that the tests of the reader leave none out.
     for (const auto& [pointer, keys] : described_objects<certificate::CertificateData>()) {
-        if (pointer == "/own_profile") {
+        if (pointer.starts_with("/own_profile")) {
             continue;
         }
         std::vector<const json*> objects{&whole};
@@ -128,7 +128,10 @@ TEST_F(CertificateSchema, RefusesWhatTheReaderRefusesWhereASchemaCan) {
                                        "limits_of_method",
                                        "limits",
                                        "range",
-                                       "deviations"};
+                                       "deviations",
+                                       "section",
+                                       "standard_of_section",
+                                       "section_twice"};
     const json whole = test::CertificateJsonWriter::structure(test::complete_certificate_data());
     for (const test::BadData& bad : test::bad_certificate_data()) {
         EXPECT_EQ(accepts_data(bad.in(whole)), beyond.contains(bad.name)) << bad.name;
