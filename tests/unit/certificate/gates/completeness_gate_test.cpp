@@ -129,6 +129,16 @@ TEST(CompletenessGate, FindsEachItemThatIsMissing) {
     }
 }
 
+/// A section that states of its own what data state for the certificate.
+SectionData section_with(const CertificateData& data) {
+    SectionData section;
+    section.section = "part";
+    section.item = data.item;
+    section.method = data.method;
+    section.conditions = data.conditions;
+    return section;
+}
+
 // The law of sections: what is a finding of item, method or conditions of a certificate is one where a section states them.
 TEST(CompletenessGate, FindsTheSameInWhatASectionStates) {
     std::size_t looked_at = 0;
@@ -143,23 +153,13 @@ TEST(CompletenessGate, FindsTheSameInWhatASectionStates) {
         spoilt.spoil(spoiled);
         Certificate c = passed_certificate();
         c.tables.front().section = "part";
-        SectionData section;
-        section.section = "part";
-        section.item = spoiled.data.item;
-        section.method = spoiled.data.method;
-        section.conditions = spoiled.data.conditions;
-        c.data.sections = {section};
+        c.data.sections = {section_with(spoiled.data)};
         pass_gates(c);
         expect_finding(only(c.findings), spoilt.id, spoilt.clause, spoilt.severity, "/sections/0" + spoilt.where);
     }
     EXPECT_GE(looked_at, 5U);
     Certificate sound = passed_certificate();
-    SectionData section;
-    section.section = "part";
-    section.item = sound.data.item;
-    section.method = sound.data.method;
-    section.conditions = sound.data.conditions;
-    sound.data.sections = {section};
+    sound.data.sections = {section_with(sound.data)};
     pass_gates(sound);
     EXPECT_THAT(ids(sound.findings), testing::IsEmpty());
 }
