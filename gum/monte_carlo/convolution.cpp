@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/special_functions/bessel.hpp>
+#include <boost/sort/pdqsort/pdqsort.hpp>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -852,7 +853,7 @@ Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorX
             add(x, sorted);
         }
     }
-    std::sort(values->begin(), values->end());
+    boost::sort::pdqsort(values->begin(), values->end());
     return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
 }
 

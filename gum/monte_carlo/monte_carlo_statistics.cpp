@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <boost/sort/pdqsort/pdqsort.hpp>
 #include <cmath>
 
 namespace gumcert::gum {
@@ -161,10 +162,10 @@ ShortestRange shortest_range(std::span<double> values, std::uint64_t inside) {
     if (2 * ends < static_cast<std::ptrdiff_t>(values.size())) {
         std::nth_element(values.begin(), values.begin() + ends, values.end());
         std::nth_element(values.begin() + ends, values.end() - ends, values.end());
-        std::sort(values.begin(), values.begin() + ends);
-        std::sort(values.end() - ends, values.end());
+        boost::sort::pdqsort(values.begin(), values.begin() + ends);
+        boost::sort::pdqsort(values.end() - ends, values.end());
     } else {
-        std::sort(values.begin(), values.end());
+        boost::sort::pdqsort(values.begin(), values.end());
     }
     std::size_t best = 0;
     for (std::size_t r = 1; r + inside < values.size(); ++r) {
@@ -177,7 +178,7 @@ ShortestRange shortest_range(std::span<double> values, std::uint64_t inside) {
 
 RankSearch::RankSearch(std::span<const double> pilot, int bits, std::uint64_t most_values) : most_values_(most_values) {
     std::vector<double> sorted(pilot.begin(), pilot.end());
-    std::sort(sorted.begin(), sorted.end());
+    boost::sort::pdqsort(sorted.begin(), sorted.end());
     const std::size_t n = sorted.size();
     centre_ = sorted[n / 2];
     // About one standard deviation of the bulk: a standard deviation itself would follow a single outlier.
@@ -423,7 +424,7 @@ void RankSearch::finish_pass(double smallest, double largest) {
     smallest_ = smallest;
     largest_ = largest;
     if (stage_ == Stage::collecting) {
-        std::sort(values_.begin(), values_.end());
+        boost::sort::pdqsort(values_.begin(), values_.end());
         if (inside_ > 0) {
             find_shortest();
         }

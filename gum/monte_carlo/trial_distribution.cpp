@@ -1,6 +1,7 @@
 #include "gum/monte_carlo/trial_distribution.h"
 
 #include <algorithm>
+#include <boost/sort/pdqsort/pdqsort.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -57,7 +58,7 @@ double rounding_at(double x, double size) {
 
 TrialDistribution count_trials(const TrialsOfOutput& of) {
     auto values = std::make_shared<std::vector<double>>(drawn_trials(of));
-    std::sort(values->begin(), values->end());
+    boost::sort::pdqsort(values->begin(), values->end());
     const double size = usual_size(*values);
     const auto share = [values](auto end) {
         return static_cast<double>(end - values->begin()) / static_cast<double>(values->size());
