@@ -3,7 +3,8 @@
 
     bench/everyday_certificates.py PROGRAM [--certificates 100] [--points 500]
 
-A job of 500 points with PDF and digital certificate, and 100 certificates of the example of a multimeter in one command.
+The multimeter with 500 points, with PDF and digital certificate, and 100 certificates in one command, of each everyday
+example the same number.
 Processor time is that of the program and of the process that sets its PDFs.
 """
 
@@ -17,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "everyday" / "multimeter"
+EXAMPLES = sorted(path.parent for path in (Path(__file__).resolve().parents[1] / "examples/everyday").glob("*/job.json"))
 
 
 def timed(*command: str) -> tuple[float, float]:
@@ -32,19 +33,17 @@ def timed(*command: str) -> tuple[float, float]:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, clock
 
 
-def copy_of_the_example(folder: Path, number: int, points: int | None = None) -> Path:
-    folder.mkdir()
-    for name in ("job.json", "certificate.json", "points.csv"):
-        (folder / name).write_text((EXAMPLE / name).read_text(encoding="utf-8"), encoding="utf-8")
+def copy_of(example: Path, folder: Path, number: int, points: int | None = None) -> Path:
+    """The job of an example with another number, and with about so many points in its tables."""
+    shutil.copytree(example, folder)
     certificate = json.loads((folder / "certificate.json").read_text(encoding="utf-8"))
     certificate["number"] = f"BENCH-{number:04}"
-    text = json.dumps(certificate).replace("../../certificate/symbol.png", "symbol.png")
-    (folder / "certificate.json").write_text(text, encoding="utf-8")
-    shutil.copy(EXAMPLE.parents[1] / "certificate" / "symbol.png", folder)
-    if points:
-        head, *rows = (folder / "points.csv").read_text(encoding="utf-8").splitlines()
-        (folder / "points.csv").write_text("\n".join([head] + (rows * (points // len(rows) + 1))[:points]) + "\n",
-                                           encoding="utf-8")
+    (folder / "certificate.json").write_text(json.dumps(certificate), encoding="utf-8")
+    tables = list(folder.glob("*.csv"))
+    for table in tables if points else []:
+        head, *rows = table.read_text(encoding="utf-8").splitlines()
+        wanted = points // len(tables)
+        table.write_text("\n".join([head] + (rows * (wanted // len(rows) + 1))[:wanted]) + "\n", encoding="utf-8")
     return (folder / "job.json").rename(folder / f"job_{number}.json")
 
 
@@ -56,14 +55,15 @@ def main() -> int:
     a = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        long = str(copy_of_the_example(folder / "long", 1, a.points))
+        multimeter = next(path for path in EXAMPLES if path.name == "multimeter")
+        long = str(copy_of(multimeter, folder / "long", 1, a.points))
         rows = [(f"run, {a.points} points", timed(a.program, "run", long, "--draft", "-o", f"{name}/long-out")),
                 ("of it evaluate", timed(a.program, "evaluate", long, "-o", f"{name}/record.json"))]
         for form in ("html", "dcc", "pdf"):
             rows.append((f"render {form}, which evaluates again",
                          timed(a.program, "render", f"{name}/record.json", "--format", form, "--draft",
                                "-o", f"{name}/long.{form}")))
-        jobs = [str(copy_of_the_example(folder / f"job{i}", i)) for i in range(a.certificates)]
+        jobs = [str(copy_of(EXAMPLES[i % len(EXAMPLES)], folder / f"job{i}", i)) for i in range(a.certificates)]
         rows.append((f"run, {a.certificates} certificates",
                      timed(a.program, "run", *jobs, "--draft", "-o", f"{name}/many", "--threads", "1")))
         print("| | processor, s | clock, s |\n|---|---|---|")
