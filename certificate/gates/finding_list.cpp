@@ -37,6 +37,15 @@ void FindingList::append(std::vector<Finding> findings) {
                      std::make_move_iterator(findings.end()));
 }
 
+bool FindingList::add_gravest(const std::vector<Finding>& of_points) {
+    const auto gravest = std::ranges::max_element(of_points, {}, &Finding::severity);
+    if (gravest == of_points.end()) {
+        return false;
+    }
+    findings_.push_back(*gravest);
+    return true;
+}
+
 bool may_be_left_out(const std::string& clause) {
     constexpr std::string_view k_list = "7.8.2.1 ";
     return clause.size() == k_list.size() + 1 && clause.starts_with(k_list) &&

@@ -33,6 +33,10 @@ public:
 
     void append(std::vector<Finding> findings);
 
+    /// Of findings that say the same of many points, the gravest, and the first of equals. None where there are none.
+    /// \return whether there was one
+    bool add_gravest(const std::vector<Finding>& of_points);
+
     [[nodiscard]] std::vector<Finding> take() { return std::exchange(findings_, {}); }
 
 private:

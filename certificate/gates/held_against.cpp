@@ -73,26 +73,28 @@ bool is_beyond(double value, double low, double high) {
     return value > high + little || value < low - little;
 }
 
-bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
-                                const CapabilityArgument& argument, const HeldAgainst& held, const Measured& measured) {
+std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::size_t i,
+                                                  const CapabilityArgument& argument, const HeldAgainst& held,
+                                                  const Measured& measured) {
     const Unit unit = Unit::parse(argument.unit);
     const Unit result = Unit::parse(measured.unit);
     const Unit stated = Unit::parse(held.unit);
     if (!of_one_kind(result, unit) || !of_one_kind(stated, unit)) {
-        return false;
+        return std::nullopt;
     }
     const double value = value_for_scope(measured.value, result, unit);
     const double claimed = value_for_scope(held.value, stated, unit);
     if (is_nominal_of(claimed, value)) {
-        return false;
+        return std::nullopt;
     }
     const bool larger = std::abs(value) > std::abs(claimed);
-    found.add(larger ? FindingSeverity::critical : FindingSeverity::minor, "X12", "ILAC-P14:09/2020",
-              place_in("/accreditation/scope", i, "capability"),
-              "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
-                  "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
-              "Take it at the result (\"of\": \"value\"), or state the true parameter.");
-    return true;
+    return Finding{.id = "X12",
+                   .clause = "ILAC-P14:09/2020",
+                   .severity = larger ? FindingSeverity::critical : FindingSeverity::minor,
+                   .where = place_in("/accreditation/scope", i, "capability"),
+                   .what = "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
+                           "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
+                   .action = "Take it at the result (\"of\": \"value\"), or state the true parameter."};
 }
 
 }  // namespace gumcert::certificate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "certificate/capability.h"
@@ -47,8 +48,9 @@ struct Measured : HeldAgainst {
 
 /// Tells of a capability that is taken at another number than what was measured (X12): critical where that is the larger
 /// one.
-/// \return whether it reported something
-bool capability_taken_elsewhere(FindingList& found, const ScopeEntry& entry, std::size_t i,
-                                const CapabilityArgument& argument, const HeldAgainst& held, const Measured& measured);
+/// \param i  index of the entry in the scope
+[[nodiscard]] std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::size_t i,
+                                                                const CapabilityArgument& argument,
+                                                                const HeldAgainst& held, const Measured& measured);
 
 }  // namespace gumcert::certificate

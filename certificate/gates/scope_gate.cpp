@@ -133,10 +133,9 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
         const Parameter& parameter = *parameter_of(certificate.data, range.argument.of);
         const Unit unit = Unit::parse(range.argument.unit);
         const Unit stated = Unit::parse(parameter.unit);
-        // One finding for all points of a table: that of the first point beyond the range, if there is one.
-        std::optional<std::pair<bool, Measured>> told;
+        std::vector<Finding> of_points;
         for (std::size_t v = 0; v < covered.values.size(); ++v) {
-            Measured measured = covered.measured(v, unit);
+            const Measured measured = covered.measured(v, unit);
             const Unit of = Unit::parse(measured.unit);
             if (!of_one_kind(of, unit) || !of_one_kind(stated, unit)) {
                 continue;
@@ -148,18 +147,19 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
                 continue;
             }
             const bool beyond = is_beyond(value, low, range.high);
-            if (!told || (beyond && !told->first)) {
-                told.emplace(beyond, std::move(measured));
-            }
+            of_points.push_back(
+                {.id = "X12",
+                 .clause = k_p14,
+                 .severity = beyond ? FindingSeverity::critical : FindingSeverity::minor,
+                 .where = where,
+                 .what = "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name +
+                         "\" = " + text::shortest(parameter.value) + " " + parameter.unit + ", and " +
+                         measured.in_words,
+                 .action = beyond
+                               ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
+                               : "See whether the parameter is the nominal value of what was measured."});
         }
-        if (told) {
-            const auto& [beyond, measured] = *told;
-            found.add(beyond ? FindingSeverity::critical : FindingSeverity::minor, "X12", k_p14, where,
-                      "the range of \"" + entry.id + "\" is held against the parameter \"" + parameter.name + "\" = " +
-                          text::shortest(parameter.value) + " " + parameter.unit + ", and " + measured.in_words,
-                      beyond ? "Hold the range against the result (\"of\": \"value\"), or state the true parameter."
-                             : "See whether the parameter is the nominal value of what was measured.");
-        }
+        found.add_gravest(of_points);
     }
 }
 
@@ -170,13 +170,15 @@ void parameters_of_capability(FindingList& found, const Certificate& certificate
             continue;
         }
         const Parameter& parameter = *parameter_of(certificate.data, argument.of);
+        const HeldAgainst held{.name = parameter.name, .value = parameter.value, .unit = parameter.unit};
+        std::vector<Finding> of_points;
         for (std::size_t v = 0; v < covered.values.size(); ++v) {
-            const HeldAgainst held{.name = parameter.name, .value = parameter.value, .unit = parameter.unit};
-            if (capability_taken_elsewhere(found, entry, i, argument, held,
-                                           covered.measured(v, Unit::parse(argument.unit)))) {
-                break;
+            if (std::optional<Finding> finding = capability_taken_elsewhere(
+                    entry, i, argument, held, covered.measured(v, Unit::parse(argument.unit)))) {
+                of_points.push_back(std::move(*finding));
             }
         }
+        found.add_gravest(of_points);
     }
 }
 
@@ -252,35 +254,41 @@ std::optional<double> best_reference(const CertificateData& data, const Unit& un
     return best;
 }
 
+/// \param v  number of the covered value
+Finding capability_too_small(FindingSeverity severity, const std::string& where, const ScopeEntry& entry,
+                             const Covered& covered, std::size_t v, const std::string& how) {
+    return {.id = "X14",
+            .clause = k_p14,
+            .severity = severity,
+            .where = where,
+            .what = "the capability of \"" + entry.id + "\" is " + covered.values[v]->printed_capability + " " +
+                    covered.columns[v]->unit + " for \"" + covered.columns[v]->result + "\", " + how,
+            .action = "Correct the capability as the scope states it, or name the standard that allows it."};
+}
+
 /// A result that is known as well as a reference standard has no capability far below of the standard. One at the lower
 /// end of a wide range may.
 void capability_against_reference(FindingList& found, const ScopeEntry& entry, const std::string& where,
                                   const Covered& covered, double best) {
     constexpr double k_far_below = 0.1;
     constexpr double k_below = 0.5;
+    std::vector<Finding> of_points;
     for (std::size_t v = 0; v < covered.values.size(); ++v) {
         const CertifiedValue& value = *covered.values[v];
         const Unit unit = Unit::parse(covered.columns[v]->unit);
         const bool comparable = value.U && value.capability &&
                                 unit.dimension() == Unit::parse(entry.capability.unit).dimension() &&
                                 2.0 * unit.difference_to_si(*value.U) >= best;
-        if (comparable && unit.difference_to_si(*value.capability) < k_far_below * best) {
-            found.major("X14", k_p14, where,
-                        "the capability of \"" + entry.id + "\" is " + value.printed_capability + " " +
-                            covered.columns[v]->unit + " for \"" + covered.columns[v]->result +
-                            "\", less than a tenth of the uncertainty of every reference standard",
-                        "Correct the capability as the scope states it, or name the standard that allows it.");
-            return;
+        if (!comparable || unit.difference_to_si(*value.capability) >= k_below * best) {
+            continue;
         }
-        if (comparable && unit.difference_to_si(*value.capability) < k_below * best) {
-            found.add(FindingSeverity::minor, "X14", k_p14, where,
-                      "the capability of \"" + entry.id + "\" is " + value.printed_capability + " " +
-                          covered.columns[v]->unit + " for \"" + covered.columns[v]->result +
-                          "\", less than half of the uncertainty of every reference standard",
-                      "Correct the capability as the scope states it, or name the standard that allows it.");
-            return;
-        }
+        const bool far = unit.difference_to_si(*value.capability) < k_far_below * best;
+        of_points.push_back(capability_too_small(far ? FindingSeverity::major : FindingSeverity::minor, where, entry,
+                                                 covered, v,
+                                                 std::string("less than ") + (far ? "a tenth" : "half") +
+                                                     " of the uncertainty of every reference standard"));
     }
+    found.add_gravest(of_points);
 }
 
 /// A capability is what the laboratory reaches: a result with a hundred times its uncertainty is of another kind of
@@ -289,20 +297,16 @@ bool capability_against_results(FindingList& found, const std::string& where, co
                                 const Covered& covered) {
     constexpr double k_far_below = 0.01;
     constexpr double k_never = 0.001;
+    std::vector<Finding> of_points;
     for (std::size_t v = 0; v < covered.values.size(); ++v) {
         const CertifiedValue& value = *covered.values[v];
-        if (!value.U || !value.capability || *value.capability >= k_far_below * *value.U) {
-            continue;
+        if (value.U && value.capability && *value.capability < k_far_below * *value.U) {
+            of_points.push_back(capability_too_small(
+                *value.capability < k_never * *value.U ? FindingSeverity::major : FindingSeverity::minor, where, entry,
+                covered, v, "less than a hundredth of the expanded uncertainty that was evaluated"));
         }
-        found.add(*value.capability < k_never * *value.U ? FindingSeverity::major : FindingSeverity::minor, "X14",
-                  k_p14, where,
-                  "the capability of \"" + entry.id + "\" is " + value.printed_capability + " " +
-                      covered.columns[v]->unit + " for \"" + covered.columns[v]->result +
-                      "\", less than a hundredth of the expanded uncertainty that was evaluated",
-                  "Correct the capability as the scope states it, or name the standard that allows it.");
-        return true;
     }
-    return false;
+    return found.add_gravest(of_points);
 }
 
 void capability(FindingList& found, const Certificate& certificate, const ScopeEntry& entry, std::size_t i,

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/held_against.h"
@@ -65,47 +68,58 @@ const reports::BudgetRow* row_of(const Budgeted& budgeted, const CapabilityArgum
 
 /// A constant is the statement of the author; what has an uncertainty was measured, and a result beyond the range of it
 /// may be an amplified one.
-/// \return whether it added a finding
-bool range(FindingList& found, const ScopeEntry& entry, std::size_t i, const ScopeEntry::Range& range,
-           const Budgeted& budgeted) {
+std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, const ScopeEntry::Range& range,
+                                      const Budgeted& budgeted) {
     const reports::BudgetRow* row = row_of(budgeted, range.argument);
     if (row == nullptr) {
-        return false;
+        return std::nullopt;
     }
     const Unit unit = Unit::parse(range.argument.unit);
     const certificate::Measured measured = budgeted.measured(unit);
     const Unit of = Unit::parse(measured.unit);
     const Unit stated = Unit::parse(row->unit);
     if (!certificate::of_one_kind(of, unit) || !certificate::of_one_kind(stated, unit)) {
-        return false;
+        return std::nullopt;
     }
     const double value = certificate::value_for_scope(measured.value, of, unit);
     const double low = unit.is_celsius_temperature() ? range.low : 0.0;
     const bool beyond = certificate::is_beyond(value, low, range.high);
     const bool nominal = certificate::is_nominal_of(certificate::value_for_scope(*row->value, stated, unit), value);
     if (!beyond && (nominal || row->u > 0.0)) {
-        return false;
+        return std::nullopt;
     }
-    found.add(!beyond         ? FindingSeverity::minor
-              : row->u == 0.0 ? FindingSeverity::critical
-                              : FindingSeverity::major,
-              "X12", "ILAC-P14:09/2020", certificate::place_in("/accreditation/scope", i, "ranges"),
-              "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
-                  "\" = " + text::shortest(*row->value) + " " + row->unit + ", and " + measured.in_words,
-              "Hold the range against the result (\"of\": \"value\"), or state the true parameter.");
-    return true;
+    return Finding{.id = "X12",
+                   .clause = "ILAC-P14:09/2020",
+                   .severity = !beyond         ? FindingSeverity::minor
+                               : row->u == 0.0 ? FindingSeverity::critical
+                                               : FindingSeverity::major,
+                   .where = certificate::place_in("/accreditation/scope", i, "ranges"),
+                   .what = "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
+                           "\" = " + text::shortest(*row->value) + " " + row->unit + ", and " + measured.in_words,
+                   .action = "Hold the range against the result (\"of\": \"value\"), or state the true parameter."};
 }
 
-bool capability(FindingList& found, const ScopeEntry& entry, std::size_t i, const CapabilityArgument& argument,
-                const Budgeted& budgeted) {
+std::optional<Finding> capability_of_input(const ScopeEntry& entry, std::size_t i, const CapabilityArgument& argument,
+                                           const Budgeted& budgeted) {
     const reports::BudgetRow* row = row_of(budgeted, argument);
-    if (row == nullptr) {
-        return false;
-    }
     const certificate::Measured measured = budgeted.measured(Unit::parse(argument.unit));
-    return measured.value != 0.0 &&
-           certificate::capability_taken_elsewhere(
-               found, entry, i, argument, {.name = row->input, .value = *row->value, .unit = row->unit}, measured);
+    if (row == nullptr || measured.value == 0.0) {
+        return std::nullopt;
+    }
+    return certificate::capability_taken_elsewhere(
+        entry, i, argument, {.name = row->input, .value = *row->value, .unit = row->unit}, measured);
+}
+
+/// One finding for all values of an entry: the gravest.
+template <class OfValue>
+void add_gravest(FindingList& found, const std::vector<Budgeted>& values, const OfValue& of_value) {
+    std::vector<Finding> all;
+    for (const Budgeted& value : values) {
+        if (std::optional<Finding> finding = of_value(value)) {
+            all.push_back(std::move(*finding));
+        }
+    }
+    found.add_gravest(all);
 }
 
 }  // namespace
@@ -120,12 +134,11 @@ std::vector<Finding> measurand_findings(const reports::EvaluationRecord& record)
         const ScopeEntry& entry = data.accreditation->scope[i];
         const std::vector<Budgeted> values = values_in_scope(record, entry);
         for (const ScopeEntry::Range& one : entry.ranges) {
-            (void)std::any_of(values.begin(), values.end(),
-                              [&](const Budgeted& value) { return range(found, entry, i, one, value); });
+            add_gravest(found, values, [&](const Budgeted& value) { return range_of_input(entry, i, one, value); });
         }
         for (const CapabilityArgument& argument : entry.capability.arguments) {
-            (void)std::any_of(values.begin(), values.end(),
-                              [&](const Budgeted& value) { return capability(found, entry, i, argument, value); });
+            add_gravest(found, values,
+                        [&](const Budgeted& value) { return capability_of_input(entry, i, argument, value); });
         }
     }
     return found.take();

@@ -85,5 +85,22 @@ TEST(FindingList, KnowsTheResultsOfTheCertificate) {
     EXPECT_FALSE(names_a_result(certificate, {}));
 }
 
+TEST(FindingList, AddsTheGravestOfManyAndTheFirstOfEquals) {
+    const Certificate certificate = passed_certificate();
+    FindingList list(certificate.data);
+    EXPECT_FALSE(list.add_gravest({}));
+    const auto finding = [](const char* what, FindingSeverity severity) {
+        Finding one;
+        one.what = what;
+        one.severity = severity;
+        return one;
+    };
+    EXPECT_TRUE(list.add_gravest({finding("a", FindingSeverity::minor), finding("b", FindingSeverity::critical),
+                                  finding("c", FindingSeverity::critical), finding("d", FindingSeverity::major)}));
+    const std::vector<Finding> found = list.take();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].what, "b");
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

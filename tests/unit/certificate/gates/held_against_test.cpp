@@ -93,14 +93,13 @@ protected:
     bool told(const HeldAgainst& held) {
         const Certificate certificate = passed_certificate();
         const CertifiedColumn& column = certificate.tables[0].columns[0];
-        FindingList list(certificate.data);
         ScopeEntry entry;
         entry.id = "L1";
-        const bool tells =
-            capability_taken_elsewhere(list, entry, 2, {.name = "L", .unit = "mm", .of = "nominal"}, held,
+        const std::optional<Finding> told =
+            capability_taken_elsewhere(entry, 2, {.name = "L", .unit = "mm", .of = "nominal"}, held,
                                        measured_at(certificate.tables[0], column, 0, Unit::parse("mm")));
-        found = list.take();
-        return tells;
+        found = told ? std::vector<Finding>{*told} : std::vector<Finding>();
+        return told.has_value();
     }
     std::vector<Finding> found;
 };

@@ -1,7 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
@@ -76,6 +82,46 @@ TEST(ScopeGate, HoldsAParameterAgainstTheResult) {
     EXPECT_THAT(ids(with_nominal(50.0, 0.5, 100.0)), testing::IsEmpty());  // the result is 50.0008 mm
     expect_finding(only(with_nominal(20.0, 0.5, 30.0)), "X12", k_p14, k_critical, "/accreditation/scope/0/ranges");
     expect_finding(only(with_nominal(80.0, 60.0, 100.0)), "X12", k_p14, k_minor, "/accreditation/scope/0/ranges");
+}
+
+// Pins: the small deviation of the first value of a table hid the grave one of another.
+TEST(ScopeGate, TellsTheGravestOfManyValuesInAnyOrder) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> decades(-4.0, 0.0);
+    std::uniform_real_distribution<double> factors(0.2, 1.6);
+    std::map<std::string, std::set<FindingSeverity>> seen;
+    for (int i = 0; i < 100; ++i) {
+        Certificate c = passed_certificate();
+        c.data.parameters = {{.name = "nominal", .unit = "mm", .value = 50.0}};
+        ScopeEntry& entry = c.data.accreditation->scope[0];
+        entry.ranges = {{.argument = {.name = "L", .unit = "mm", .of = "nominal"}, .low = 0.5, .high = 60.0}};
+        for (CapabilityArgument& argument : entry.capability.arguments) {
+            argument.of = "nominal";
+        }
+        std::vector<CertifiedValue>& values = c.tables[0].columns[0].values;
+        const CertifiedValue first = values[0];
+        values.clear();
+        for (int n = 0; n < 4; ++n) {
+            values.push_back(first);
+            values.back().value *= factors(random);
+            values.back().capability = *first.U * std::pow(10.0, decades(random));
+        }
+        const auto severities = [&] {
+            std::map<std::string, FindingSeverity> all;
+            for (const Finding& finding : scope_findings(c)) {
+                all[finding.id + " " + finding.where] = finding.severity;
+                seen[finding.id].insert(finding.severity);
+            }
+            return all;
+        };
+        const auto before = severities();
+        for (int n = 0; n < 5; ++n) {
+            std::shuffle(values.begin(), values.end(), random);
+            EXPECT_EQ(severities(), before);
+        }
+    }
+    EXPECT_THAT(seen["X12"], testing::UnorderedElementsAre(k_minor, k_critical));
+    EXPECT_THAT(seen["X14"], testing::UnorderedElementsAre(k_minor, k_major));
 }
 
 TEST(ScopeGate, FindsCapabilitiesThatCannotBeTrue) {
