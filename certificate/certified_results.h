@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,12 @@ struct Certificate {
     /// Number of the certificate that replaces or amends this one. Told when a document is printed again; in no record,
     /// because a record that was written does not change.
     std::string superseded_by = {};
+
+    /// The sentences of an accreditation body that this certificate states. They speak of its accreditation: only where
+    /// the symbol may stand.
+    [[nodiscard]] std::span<const LocalisedText> sentences_of_the_body() const {
+        return symbol ? std::span<const LocalisedText>(profile.first_page_sentences) : std::span<const LocalisedText>();
+    }
 };
 
 }  // namespace gumcert::certificate

@@ -431,7 +431,7 @@ void statements(DccWriter& w) {
         if (w.record().certificate->profile.reproduction_sentence_mandatory) {
             w.statement("reproduction", words("statement", "reproduction"));
         }
-        for (const LocalisedText& sentence : w.record().certificate->profile.first_page_sentences) {
+        for (const LocalisedText& sentence : w.record().certificate->sentences_of_the_body()) {
             w.statement("profile_sentence", words.localised(sentence));
         }
     } else {

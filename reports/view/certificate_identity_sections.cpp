@@ -338,11 +338,8 @@ json foot(const Certificate& certificate, const Wording& words) {
     if (certificate.profile.reproduction_sentence_mandatory) {
         lines.push_back(line(words("statement", "reproduction"), words));
     }
-    // The sentences of an accreditation body speak of its accreditation: they stand only where the symbol may stand.
-    if (certificate.symbol) {
-        for (const certificate::LocalisedText& sentence : certificate.profile.first_page_sentences) {
-            lines.push_back(line(words.localised(sentence), words));
-        }
+    for (const certificate::LocalisedText& sentence : certificate.sentences_of_the_body()) {
+        lines.push_back(line(words.localised(sentence), words));
     }
     return lines;
 }

@@ -114,5 +114,24 @@ TEST(EveryCertificateKey, RendersWithEveryRuleAndVerdict) {
     }
 }
 
+// Pins: the digital certificate stated the sentences of an accreditation body where its symbol could not stand.
+TEST(SentencesOfTheBody, StandInEveryFormAndOnlyWhereTheSymbolMay) {
+    EvaluationRecord record = record_with(empty_data());
+    certificate::LocalisedText sentence;
+    sentence.plain = "The accreditation covers the marked results";
+    record.certificate->profile.first_page_sentences = {sentence};
+    for (const bool symbol : {false, true}) {
+        record.certificate->symbol = symbol;
+        for (const std::string& language : k_languages) {
+            const RenderAssets assets = test::dcc_assets({language});
+            for (const std::string& form :
+                 {render_html(record, assets), render_text(record, assets), render_dcc(record, assets)}) {
+                EXPECT_EQ(form.find(sentence.plain) != std::string::npos, symbol)
+                    << language << ": " << form.substr(0, 60);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::reports
