@@ -1,6 +1,5 @@
 #include "app/certificate_profile.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -26,14 +25,7 @@ bool is_file_stem(const std::string& id) {
 }
 
 std::string known_profiles(const fs::path& folder) {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() == ".json") {
-            names.push_back(entry.path().stem().string());
-        }
-    }
-    std::sort(names.begin(), names.end());
+    const std::vector<std::string> names = json_files_in(folder);
     return names.empty() ? "none" : text::listed(names);
 }
 

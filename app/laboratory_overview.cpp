@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/read_file.h"
 #include "certificate/dates.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
@@ -22,18 +23,6 @@ namespace gumcert::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> identifications_in(const fs::path& folder) {
-    std::vector<std::string> ids;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() == ".json") {
-            ids.push_back(entry.path().stem().string());
-        }
-    }
-    std::sort(ids.begin(), ids.end());
-    return ids;
-}
 
 OverviewRow row_of_standard(const laboratory::StandardRecord& record, const std::string& day) {
     const laboratory::CalibrationOutlook outlook = laboratory::calibration_outlook(record, day);
@@ -160,7 +149,7 @@ LaboratoryOverview laboratory_overview(const fs::path& folder, const std::string
     std::optional<jobs::LaboratoryFolder> register_files =
         jobs::LaboratoryFolder::of_job(files, jobs::JsonDocument{}, unused);
     LaboratoryOverview overview{.day = day};
-    const std::vector<std::string> ids = identifications_in(folder / "standards");
+    const std::vector<std::string> ids = json_files_in(folder / "standards");
     std::error_code error;
     const bool has_laboratory = fs::exists(folder / "laboratory.json", error);
     if (!has_laboratory && ids.empty()) {

@@ -8,6 +8,7 @@
 #include "reports/dcc/dcc_rules.h"
 #include "reports/dcc/dcc_writer.h"
 #include "reports/forms/asset_files.h"
+#include "reports/record/record_sections.h"
 #include "reports/result_names.h"
 
 namespace gumcert::reports {
@@ -85,8 +86,7 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
     }
     for (const SectionSummary& section : record.sections) {
         w.enter_section(section.name);
-        measurement_result(w.item_id(section.name),
-                           section.title.empty() ? Text(section.name) : words.localised(section.title),
+        measurement_result(w.item_id(section.name), words.localised(title_of(section)),
                            &section == &record.sections.back());
     }
     w.xml.close();
@@ -98,8 +98,7 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
 }  // namespace
 
 std::string render_dcc(const EvaluationRecord& record, const RenderAssets& assets) {
-    const nlohmann::json texts = read_wording(assets, record);
-    const Wording words(texts);
+    const Wording words = read_wording(assets, record);
     const RefTypes ref_types = RefTypes::read(assets);
     std::string document = written(record, words, ref_types);
     std::vector<gum::Diagnostic> breaches =

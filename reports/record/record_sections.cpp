@@ -12,6 +12,10 @@ const SectionSummary* section_of(const EvaluationRecord& record, const std::stri
     return found == record.sections.end() ? nullptr : &*found;
 }
 
+certificate::LocalisedText title_of(const SectionSummary& section) {
+    return section.title.empty() ? certificate::LocalisedText(section.name) : section.title;
+}
+
 std::vector<std::string> equations_of(const EvaluationRecord& record, const std::string& quantity) {
     if (!record.model) {
         return {};

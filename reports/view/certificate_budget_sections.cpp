@@ -5,6 +5,7 @@
 #include "gum/rounding.h"
 #include "reports/plots/budget_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/record/record_sections.h"
 #include "reports/record/reported_result.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
@@ -350,7 +351,7 @@ void model(CertificateBuilder& builder, const Wording& words, const ModelSummary
             const SectionSummary& next = sections[section++];
             left = next.equations;
             if (left > 0) {
-                builder.paragraph((next.title.empty() ? Text(next.name) : words.localised(next.title)) + ":");
+                builder.paragraph(words.localised(title_of(next)) + ":");
             }
         }
         --left;

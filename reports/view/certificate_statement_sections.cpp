@@ -5,6 +5,7 @@
 #include "reports/plots/certified_plots.h"
 #include "reports/plots/svg_plot.h"
 #include "reports/printed_texts.h"
+#include "reports/record/record_sections.h"
 #include "reports/view/certificate_conformity_section.h"
 #include "reports/view/certificate_identity_sections.h"
 #include "reports/view/certificate_uncertainty_section.h"
@@ -397,8 +398,7 @@ void result_sections(CertificateBuilder& builder, const Wording& words, const Ev
     const auto begin_section = [&](std::size_t position) {
         const SectionSummary& section = record.sections[position];
         const std::string id = std::to_string(position);
-        builder.section("certified-section-" + id,
-                        section.title.empty() ? Text(section.name) : words.localised(section.title));
+        builder.section("certified-section-" + id, words.localised(title_of(section)));
         for (const certificate::SectionData& own : certificate.data.sections) {
             if (own.section == section.name) {
                 section_facts(builder, words, certificate.data, own, id);

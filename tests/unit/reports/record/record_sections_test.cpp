@@ -25,6 +25,14 @@ TEST(RecordSections, HaveTheirEquations) {
     EXPECT_EQ(section_of(record, "z")->name, "second");
 }
 
+TEST(RecordSections, AreCalledByTheirTitlesOrTheirNames) {
+    SectionSummary section;
+    section.name = "dc";
+    EXPECT_EQ(title_of(section).in("de"), "dc");
+    section.title = "Direct voltage";
+    EXPECT_EQ(title_of(section).in("de"), "Direct voltage");
+}
+
 TEST(RecordSections, ARecordWithoutThemIsOne) {
     EvaluationRecord record = two_sections();
     record.sections.clear();
