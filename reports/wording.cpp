@@ -80,13 +80,13 @@ std::string with_decimal_sign(const std::string& text, const std::string& sign) 
     return out;
 }
 
-Wording::Wording(const nlohmann::json& texts) {
-    if (texts.is_array()) {
-        for (const json& one : texts) {
+Wording::Wording(nlohmann::json texts) : all_(std::make_shared<const json>(std::move(texts))) {
+    if (all_->is_array()) {
+        for (const json& one : *all_) {
             texts_.push_back(&one);
         }
     } else {
-        texts_.push_back(&texts);
+        texts_.push_back(all_.get());
     }
     for (const json* one : texts_) {
         const json* language = find(*one, {"language"});
@@ -112,6 +112,14 @@ Text Wording::text_of(const std::vector<std::string>& path) const {
         all.push_back(text->get<std::string>());
     }
     return Text(std::move(all));
+}
+
+const json& Wording::group(const std::string& name) const {
+    const auto found = texts_.front()->find(name);
+    if (found == texts_.front()->end() || !found->is_object()) {
+        refuse(language(), pointer_of({name}), "missing");
+    }
+    return *found;
 }
 
 Text Wording::operator()(const std::string& group, const std::string& name) const {

@@ -23,9 +23,9 @@ public:
 
     using Values = std::vector<std::pair<std::string, Text>>;
 
-    /// \param texts  the object of a wording file, or an array of several; must outlive this object. The first one may
-    ///               hold the catalogue of ProgramSentences under k_sentences_key; read_wording() puts it there.
-    explicit Wording(const nlohmann::json& texts);
+    /// \param texts  the object of a wording file, or an array of several. The first one may hold the catalogue of
+    ///               ProgramSentences under k_sentences_key; read_wording() puts it there.
+    explicit Wording(nlohmann::json texts);
 
     /// Codes of the languages: "de", "en".
     [[nodiscard]] const std::vector<std::string>& languages() const { return languages_; }
@@ -35,6 +35,9 @@ public:
     [[nodiscard]] Text operator()(const std::string& group, const std::string& name) const;
     [[nodiscard]] Text operator()(const std::string& group, const std::string& name, const std::string& item) const;
     [[nodiscard]] bool has(const std::string& group, const std::string& name) const;
+    /// All texts of a group in the binding language, for templates.
+    /// \throws gum::StorageError if the wording does not have it
+    [[nodiscard]] const nlohmann::json& group(const std::string& name) const;
 
     /// A text with every `{name}` replaced. Values are placed once and never looked at for names again.
     /// \throws gum::StorageError if the text names a value that is not given
@@ -60,7 +63,8 @@ public:
     [[nodiscard]] Text localised(const certificate::LocalisedText& text) const;
 
 private:
-    std::vector<const nlohmann::json*> texts_;  ///< one a language
+    std::shared_ptr<const nlohmann::json> all_;  ///< shared by copies of this object
+    std::vector<const nlohmann::json*> texts_;   ///< one a language, in all_
     std::vector<std::string> languages_;
     std::vector<std::string> signs_;
     std::shared_ptr<const ProgramSentences> sentences_;  ///< none: records are printed in English

@@ -311,8 +311,7 @@ private:
 std::string audit_as_pdf(const AuditView& view, const RenderAssets& assets) {
     RenderAssets one_language = assets;
     one_language.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
-    const json texts = read_wording(one_language);
-    const Wording wording(texts);
+    const Wording wording = read_wording(one_language);
     const AuditWords words(wording);
     CertificateBuilder builder(wording);
     for (std::size_t i = 0; i < view.files.size(); ++i) {

@@ -603,13 +603,11 @@ json overview(const AuditView& view, const AuditWords& words) {
 std::string audit_as_html(const AuditView& view, const RenderAssets& assets) {
     RenderAssets one_language = assets;
     one_language.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
-    const json read = read_wording(one_language);
-    const json& texts = read.is_array() ? read.front() : read;
-    const Wording wording(texts);
+    const Wording wording = read_wording(one_language);
     const AuditWords words(wording);
     const std::string script = read_asset(assets.templates / "audit.js");
     json page = {{"language", words.language()},
-                 {"w", texts.at("audit")},
+                 {"w", wording.group("audit")},
                  {"style", read_asset(assets.templates / "audit.css")},
                  {"script", script},
                  {"script_digest", encoding::base64(encoding::sha256_bytes(script))},

@@ -151,6 +151,23 @@ void put_terms(nlohmann::json& all, const std::vector<certificate::Profile::Term
     all.front()[Wording::k_sentences_key] = std::move(sentences);
 }
 
+using Terms = std::vector<certificate::Profile::Term>;
+
+Wording read_wording(const RenderAssets& assets, const std::vector<std::string>& languages, const Terms& terms) {
+    std::vector<std::string> key = languages;
+    key.insert(key.begin(), assets.templates.string());
+    for (const certificate::Profile::Term& term : terms) {
+        key.insert(key.end(), {term.language, term.word, term.term});
+    }
+    return assets.wordings->find_or_read(key, [&] {
+        nlohmann::json all = wording_of(languages, assets);
+        if (!terms.empty()) {
+            put_terms(all, terms);
+        }
+        return Wording(std::move(all));
+    });
+}
+
 }  // namespace
 
 std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets) {
@@ -166,16 +183,13 @@ std::vector<std::string> languages_of(const EvaluationRecord& record, const Rend
     return languages.empty() ? std::vector<std::string>{"en"} : languages;
 }
 
-nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
-    nlohmann::json all = wording_of(languages_of(record, assets), assets);
-    if (record.certificate && !record.certificate->profile.terms.empty()) {
-        put_terms(all, record.certificate->profile.terms);
-    }
-    return all;
+Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
+    return read_wording(assets, languages_of(record, assets),
+                        record.certificate ? record.certificate->profile.terms : Terms());
 }
 
-nlohmann::json read_wording(const RenderAssets& assets) {
-    return wording_of(assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, assets);
+Wording read_wording(const RenderAssets& assets) {
+    return read_wording(assets, assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, {});
 }
 
 }  // namespace gumcert::reports

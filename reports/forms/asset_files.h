@@ -2,6 +2,8 @@
 
 #include "reports/forms/render.h"
 
+#include "reports/wording.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
@@ -22,10 +24,10 @@ namespace gumcert::reports {
 /// the certificate data, else English.
 [[nodiscard]] std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets);
 
-/// The wording of a document as certificate_view() takes it.
+/// The wording of a document. It is read once for all documents of the same languages and terms, see ReadWordings.
 /// \throws gum::StorageError if there is none of a language, or there are more than two languages
-[[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets, const EvaluationRecord& record);
+[[nodiscard]] Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record);
 /// The wording of the languages that the assets ask for, else of English.
-[[nodiscard]] nlohmann::json read_wording(const RenderAssets& assets);
+[[nodiscard]] Wording read_wording(const RenderAssets& assets);
 
 }  // namespace gumcert::reports

@@ -75,11 +75,11 @@ std::string with_pictures(const std::string& html, const RenderAssets& assets) {
 }
 
 /// With the digest of templates that were changed in the foot of the pages.
-nlohmann::json with_template_mark(nlohmann::json view, const nlohmann::json& wording, const RenderAssets& assets) {
+nlohmann::json with_template_mark(nlohmann::json view, const Wording& words, const RenderAssets& assets) {
     view["changed_templates"] = nlohmann::json::array();
     if (!assets.changed_templates.empty()) {
         const std::string text =
-            Wording(wording).filled("document", "changed_templates", {{"digest", assets.changed_templates}}).first();
+            words.filled("document", "changed_templates", {{"digest", assets.changed_templates}}).first();
         view["changed_templates"].push_back({{"text", text}, {"digest", assets.changed_templates}});
         view["footer_left"] = view.at("footer_left").get<std::string>() + " · " + text;
     }
@@ -129,8 +129,8 @@ std::string render_html(const EvaluationRecord& record, const RenderAssets& asse
 }
 
 nlohmann::json view_of_document(const EvaluationRecord& record, const RenderAssets& assets) {
-    const nlohmann::json wording = read_wording(assets, record);
-    return with_template_mark(certificate_view(record, wording, assets.kinds), wording, assets);
+    const Wording words = read_wording(assets, record);
+    return with_template_mark(certificate_view(record, words, assets.kinds), words, assets);
 }
 
 std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {
@@ -152,8 +152,8 @@ nlohmann::json view_of_budget_report(const EvaluationRecord& record, const Rende
                                               .rule = "its own report holds the budgets that were compared",
                                               .action = "use --format html or pdf"});
     }
-    const nlohmann::json wording = read_wording(assets, record);
-    return with_template_mark(budget_report_view(record, wording, assets.kinds), wording, assets);
+    const Wording words = read_wording(assets, record);
+    return with_template_mark(budget_report_view(record, words, assets.kinds), words, assets);
 }
 
 std::string render_budget_report_html(const EvaluationRecord& record, const RenderAssets& assets) {

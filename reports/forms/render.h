@@ -1,10 +1,12 @@
 #pragma once
 
+#include "reports/forms/read_wordings.h"
 #include "reports/record/evaluation_record.h"
 #include "reports/view/document_kinds.h"
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +27,8 @@ struct RenderAssets {
     /// say it on every page.
     std::string changed_templates = {};
     std::chrono::seconds pdf_time_limit{60};
-    std::span<const DocumentKind> kinds = document_kinds();  ///< what records of each kind show
+    std::span<const DocumentKind> kinds = document_kinds();                     ///< what records of each kind show
+    std::shared_ptr<ReadWordings> wordings = std::make_shared<ReadWordings>();  ///< copies of this object share it
 };
 
 /// The certificate as one HTML file: style and plots inside, no scripts, nothing to load.

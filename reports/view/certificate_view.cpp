@@ -181,9 +181,8 @@ json frame(const Wording& words, const EvaluationRecord& record) {
 
 }  // namespace
 
-nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
+nlohmann::json certificate_view(const EvaluationRecord& record, const Wording& words,
                                 std::span<const DocumentKind> kinds) {
-    const Wording words(wording);
     const std::vector<std::string>& languages = words.languages();
     const DocumentKind& kind = document_kind(record, kinds);
     const bool is_certificate = record.certificate && !kind.is_report();
@@ -214,9 +213,8 @@ nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::
     return view;
 }
 
-nlohmann::json budget_report_view(const EvaluationRecord& record, const nlohmann::json& wording,
+nlohmann::json budget_report_view(const EvaluationRecord& record, const Wording& words,
                                   std::span<const DocumentKind> kinds) {
-    const Wording words(wording);
     const std::vector<std::string>& languages = words.languages();
     const DocumentKind& kind = document_kind(record, kinds);
     CertificateBuilder builder(words);

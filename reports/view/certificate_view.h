@@ -2,6 +2,7 @@
 
 #include "reports/record/evaluation_record.h"
 #include "reports/view/document_kinds.h"
+#include "reports/wording.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -39,10 +40,10 @@ namespace gumcert::reports {
 ///
 /// Numbers are the texts of `printed` in the record with the decimal sign of the language, otherwise untouched; what
 /// has no such text is rounded here, once for all forms. Control and direction characters of texts become U+FFFD.
-/// \param wording  labels and sentences: templates/wording/<language>.json, or an array of two of them
-/// \param kinds    what records of each kind show
+/// \param words  labels and sentences in the languages of the document
+/// \param kinds  what records of each kind show
 /// \throws gum::StorageError if the wording lacks a text
-[[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const nlohmann::json& wording,
+[[nodiscard]] nlohmann::json certificate_view(const EvaluationRecord& record, const Wording& words,
                                               std::span<const DocumentKind> kinds = document_kinds());
 
 /// The budget report, for the technical manager and the assessor: everything that a certificate states and everything
@@ -50,7 +51,7 @@ namespace gumcert::reports {
 /// no certificate and says so on every page: `identity` is empty, `mark` is that of an internal document.
 /// \param record  with results; not of a comparison, whose own report holds its budgets
 /// \throws gum::StorageError if the wording lacks a text
-[[nodiscard]] nlohmann::json budget_report_view(const EvaluationRecord& record, const nlohmann::json& wording,
+[[nodiscard]] nlohmann::json budget_report_view(const EvaluationRecord& record, const Wording& words,
                                                 std::span<const DocumentKind> kinds = document_kinds());
 
 }  // namespace gumcert::reports

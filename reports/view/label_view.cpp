@@ -57,8 +57,7 @@ std::string date_in_words(const std::string& date, const Wording& words) {
         .first();
 }
 
-json label_view(const EvaluationRecord& record, const json& wording) {
-    const Wording words(wording);
+json label_view(const EvaluationRecord& record, const Wording& words) {
     const certificate::CertificateData& data = record.certificate->data;
     const auto row = [](const Text& label, const std::string& value) {
         return json{{"label", label.first()}, {"value", printable(value)}};

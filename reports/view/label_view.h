@@ -21,9 +21,9 @@ namespace gumcert::reports {
 ///     code        what the QR code says, see text_of_code()
 ///
 /// \param record   with certificate data
-/// \param wording  as of certificate_view()
+/// \param words  as of certificate_view()
 /// \throws gum::StorageError if the wording lacks a text
-[[nodiscard]] nlohmann::json label_view(const EvaluationRecord& record, const nlohmann::json& wording);
+[[nodiscard]] nlohmann::json label_view(const EvaluationRecord& record, const Wording& words);
 
 /// Number of the certificate and SHA-256 of its record, in capital letters, which make the code smaller:
 /// "EX-2026-0042 SHA-256 0A1B…". The number alone, where the record states no digest.

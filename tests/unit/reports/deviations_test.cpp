@@ -18,7 +18,7 @@ std::vector<std::string> in_words(const certificate::CertificateData& data, cons
     RenderAssets in = assets();
     in.languages = {language};
     std::vector<std::string> texts;
-    for (const Text& text : deviations_in_words(Wording(read_wording(in)), data)) {
+    for (const Text& text : deviations_in_words(read_wording(in), data)) {
         texts.push_back(text.first());
     }
     return texts;

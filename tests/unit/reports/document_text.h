@@ -29,13 +29,17 @@ inline std::filesystem::path program(const std::string& name) {
     return {};
 }
 
+/// Those of the tree; one program of tests reads each wording once.
 inline RenderAssets assets() {
-    RenderAssets a;
-    a.templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
-    a.node_program = program("node");
-    a.node_modules = std::filesystem::path(GUMCERT_SOURCE_DIR) / "node_modules";
-    a.temporary_folder = ::testing::TempDir();
-    return a;
+    static const RenderAssets of_the_tree = [] {
+        RenderAssets a;
+        a.templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
+        a.node_program = program("node");
+        a.node_modules = std::filesystem::path(GUMCERT_SOURCE_DIR) / "node_modules";
+        a.temporary_folder = ::testing::TempDir();
+        return a;
+    }();
+    return of_the_tree;
 }
 
 inline bool pdf_is_possible() {

@@ -39,8 +39,7 @@ TEST(AuditPlots, ABarIsAsLongAsItsShare) {
 }
 
 TEST(AuditPlots, TheRangeIsDrawnWhereAllResultsHaveOneUnit) {
-    const nlohmann::json texts = read_wording(assets());
-    const Wording wording(texts);
+    const Wording wording = read_wording(assets());
     const AuditWords words(wording);
     EXPECT_FALSE(has_range_plot(plotted(test::sample_audit()).files[0]));
     AuditedFileView file = plotted(test::sample_audit_of_points()).files[0];
@@ -55,8 +54,7 @@ TEST(AuditPlots, TheRangeIsDrawnWhereAllResultsHaveOneUnit) {
 }
 
 TEST(AuditPlots, SharesBeyondTheTenthAreOneBar) {
-    const nlohmann::json texts = read_wording(assets());
-    const Wording wording(texts);
+    const Wording wording = read_wording(assets());
     const AuditWords words(wording);
     AuditedResultView result = plotted(test::sample_audit()).files[0].results[0];
     EXPECT_EQ(audited_share_plot(result, words, "shares").bars.size(), 7U);

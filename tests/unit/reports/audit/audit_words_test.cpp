@@ -17,13 +17,11 @@ protected:
     AuditWords in(const std::string& language) {
         RenderAssets from = assets();
         from.languages = {language};
-        texts_ = read_wording(from);
-        wording_ = std::make_unique<Wording>(texts_);
+        wording_ = std::make_unique<Wording>(read_wording(from));
         return AuditWords(*wording_);
     }
 
 private:
-    nlohmann::json texts_;
     std::unique_ptr<Wording> wording_;
 };
 

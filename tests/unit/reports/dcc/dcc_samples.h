@@ -19,9 +19,14 @@
 
 namespace gumcert::test {
 
+/// Those of the tree; one program of tests reads each wording once.
 inline reports::RenderAssets dcc_assets(const std::vector<std::string>& languages = {}) {
-    reports::RenderAssets assets;
-    assets.templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
+    static const reports::RenderAssets of_the_tree = [] {
+        reports::RenderAssets assets;
+        assets.templates = std::filesystem::path(GUMCERT_SOURCE_DIR) / "templates";
+        return assets;
+    }();
+    reports::RenderAssets assets = of_the_tree;
     assets.languages = languages;
     return assets;
 }

@@ -56,18 +56,20 @@ TEST(WordingOfARecord, HasTheTermsOfItsProfile) {
     record.certificate.emplace();
     record.certificate->data.languages = {"zh-Hant", "es"};
     const auto type_of = [&](std::size_t language) {
-        return read_wording(assets(), record).at(language).at("document").at("type").get<std::string>();
+        return read_wording(assets(), record)("document", "type").in(language);
     };
     const std::string spanish = type_of(1);
     EXPECT_EQ(type_of(0), "校正證書");
     record.certificate->profile.terms = {{.language = "zh-Hant", .word = "校正證書", .term = "校正報告"}};
     EXPECT_EQ(type_of(0), "校正報告");
     EXPECT_EQ(type_of(1), spanish);
-    const nlohmann::json wording = read_wording(assets(), record);
-    EXPECT_EQ(wording.at(0).dump().find("校正證書"), std::string::npos);
+    const Wording wording = read_wording(assets(), record);
+    for (const char* group : {"document", "certificate_status", "dcc"}) {
+        EXPECT_EQ(wording.group(group).dump().find("校正證書"), std::string::npos) << group;
+    }
     const std::string sentences = read_asset(assets().templates / "wording" / "sentences.json");
     ASSERT_NE(sentences.find("校正證書"), std::string::npos) << "a sentence with the word, for this test";
-    EXPECT_EQ(Wording(wording).language(), "zh-Hant");
+    EXPECT_EQ(wording.language(), "zh-Hant");
 }
 
 }  // namespace

@@ -36,12 +36,17 @@ protected:
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    void replace(const std::string& file, const std::string& what, const std::string& with) const {
+    void replace(const std::string& file, const std::string& what, const std::string& with) {
         std::string text = read_asset(folder_ / file);
         const std::size_t at = text.find(what);
         ASSERT_NE(at, std::string::npos) << file << " does not hold " << what;
         text.replace(at, what.size(), with);
+        write(file, text);
+    }
+    /// The next document is one of another command: it reads the files anew.
+    void write(const std::string& file, const std::string& text) {
         std::ofstream(folder_ / file, std::ios::binary) << text;
+        own_.wordings = std::make_shared<ReadWordings>();
     }
 
     RenderAssets own_;
@@ -156,9 +161,7 @@ TEST(Profiles, AreComplete) {
 
 TEST_F(TemplateReplacement, TakesSingleTextsOfALaboratory) {
     const EvaluationRecord record = test::certified_budget_record();
-    const auto put = [&](const std::string& text) {
-        std::ofstream(folder_ / "wording/en.own.json", std::ios::binary) << text;
-    };
+    const auto put = [&](const std::string& text) { write("wording/en.own.json", text); };
     put(R"({"certificate": {"order": "Your order"}})");
     EXPECT_THAT(render_html(record, own_), HasSubstr("Your order"));
     EXPECT_THAT(render_html(record, own_), Not(HasSubstr("Order number")));

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-json english_wording() {
+Wording english_wording() {
     RenderAssets of_english = assets();
     of_english.languages = {"en"};
     return read_wording(of_english);
@@ -46,7 +46,7 @@ EvaluationRecord with_annexes(const std::string& extent) {
 }
 
 TEST(Annexes, AreAsTheLaboratoryWantsThem) {
-    const json wording = english_wording();
+    const Wording wording = english_wording();
     const std::vector<std::string> full = annexes_of(certificate_view(with_annexes("full"), wording));
     EXPECT_EQ(annexes_of(certificate_view(with_annexes(""), wording)), full);
     EXPECT_THAT(full, Contains("monte_carlo"));
@@ -57,7 +57,7 @@ TEST(Annexes, AreAsTheLaboratoryWantsThem) {
 }
 
 TEST(Annexes, WithoutThemNothingOfTheCertifiedPartIsMissing) {
-    const json wording = english_wording();
+    const Wording wording = english_wording();
     std::vector<json> before;
     for (const json& section : certificate_view(with_annexes("full"), wording)["sections"]) {
         if (section["kind"] == "" && section["id"] != "statement_of_uncertainty") {

@@ -29,7 +29,7 @@ using ::testing::Not;
 
 json view_of(const EvaluationRecord& record) {
     std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/en.json");
-    return certificate_view(record, json::parse(file));
+    return certificate_view(record, Wording(json::parse(file)));
 }
 
 std::vector<std::string> section_ids(const json& view) {

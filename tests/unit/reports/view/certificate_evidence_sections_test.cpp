@@ -43,7 +43,7 @@ TEST(EvidenceSections, StandInARecord) {
 
 TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     const EvaluationRecord record = record_with_evidence();
-    const json view = certificate_view(record, evidence_wording());
+    const json view = certificate_view(record, Wording(evidence_wording()));
     EXPECT_EQ(view["sections"][0]["id"], "overview");
     const auto rows = rows_of(view, "overview");
     ASSERT_EQ(rows.size(), 6U + 3U + 4U);
@@ -74,7 +74,7 @@ TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     scatter.pass = "";
     scatter.unit = "1";
     record.rotary->group_tests->kinds.insert(record.rotary->group_tests->kinds.end(), {drift, point, scatter});
-    const auto rows = rows_of(certificate_view(record, evidence_wording()), "group-tests");
+    const auto rows = rows_of(certificate_view(record, Wording(evidence_wording())), "group-tests");
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_THAT(rows[0], ElementsAre("distances of a visit, one error in common", "216", "station P2, pass P2-1, 20°",
                                      "61.2", "21.2", "4.9 µm", "1.8 µm", "not suspicious"));
@@ -148,7 +148,7 @@ TEST(EvidenceSections, ShowRunsMeansAndSpreadOfThePositioning) {
 }
 
 TEST(EvidenceSections, StateHarmonicsWithTheirUncertainty) {
-    const json view = certificate_view(record_with_evidence(), evidence_wording());
+    const json view = certificate_view(record_with_evidence(), Wording(evidence_wording()));
     const auto rows = rows_of(view, "harmonics-linear");
     ASSERT_EQ(rows.size(), 3U);
     EXPECT_THAT(rows[0], ElementsAre("1", "1.234", "0.060", "271", "1.234", "0.060", "271", "1.234", "0.060", "271"));
@@ -159,7 +159,7 @@ TEST(EvidenceSections, StateHarmonicsWithTheirUncertainty) {
 
 TEST(EvidenceSections, SayWhatTheTemperaturesDid) {
     const EvaluationRecord record = record_with_evidence();
-    const auto rows = rows_of(certificate_view(record, evidence_wording()), "environment");
+    const auto rows = rows_of(certificate_view(record, Wording(evidence_wording())), "environment");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_THAT(rows[0], ElementsAre("1", "P1", "20.100", "0.030", "0.36", "–")) << "no pressure, no humidity";
     EXPECT_THAT(rows[1], ElementsAre("2", "P2", "20.300", "0.030", "1.08", "20.26"));
@@ -173,7 +173,7 @@ TEST(EvidenceSections, ListDistancesOfASmallMeasurementInAnAnnex) {
     record.rotary->reliability.resize(2);
     record.rotary->reliability[0].printed_length = "808.831212";
     record.rotary->reliability[1].printed_length = "715.346954";
-    const json view = certificate_view(record, evidence_wording());
+    const json view = certificate_view(record, Wording(evidence_wording()));
     const auto rows = rows_of(view, "distances");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0][4], "808.831212");
@@ -192,7 +192,7 @@ TEST(EvidenceSections, ThinTablesOfManyAnglesAndKeepExtremes) {
         r.errors.back().printed_angle = std::to_string(i);
     }
     r.errors[333].errors[4].value = 1e3;
-    const json view = certificate_view(record, evidence_wording());
+    const json view = certificate_view(record, Wording(evidence_wording()));
     const auto rows = rows_of(view, "errors");
     EXPECT_LT(rows.size(), 90U);
     EXPECT_GT(rows.size(), 70U);
@@ -201,7 +201,7 @@ TEST(EvidenceSections, ThinTablesOfManyAnglesAndKeepExtremes) {
 }
 
 TEST(EvidenceSections, OfRecordsWithoutEvidenceAreLeftOut) {
-    const json view = certificate_view(test::sample_record(), evidence_wording());
+    const json view = certificate_view(test::sample_record(), Wording(evidence_wording()));
     for (const json& section : view["sections"]) {
         EXPECT_THAT(section["id"].get<std::string>(),
                     Not(::testing::AnyOf("group_tests", "harmonics", "environment", "distances")));

@@ -272,11 +272,11 @@ TEST(CertificateIdentity, TellsInTheTitleWhatIsAmendedOrReplaced) {
 TEST(CertificateIdentity, SaysOnEveryPageWhatTheDocumentIs) {
     EvaluationRecord record = test::certified_budget_record();
     EXPECT_EQ(document_status(record), "issued");
-    const json issued = certificate_view(record, english());
+    const json issued = certificate_view(record, Wording(english()));
     EXPECT_EQ(texts_of(issued.at("status")), "issued 2026-11-21\n");
     EXPECT_THAT(issued.at("mark"), IsEmpty());
     record.certificate->superseded_by = "EX-2";
-    const json superseded = certificate_view(record, english());
+    const json superseded = certificate_view(record, Wording(english()));
     EXPECT_EQ(document_status(record), "superseded");
     EXPECT_THAT(superseded.at("status"), IsEmpty());
     EXPECT_EQ(superseded.at("mark").at(0).at("text"), "SUPERSEDED by EX-2");

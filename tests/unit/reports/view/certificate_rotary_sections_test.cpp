@@ -26,7 +26,7 @@ using ::testing::Not;
 
 json rotary_view_of(const EvaluationRecord& record) {
     std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/en.json");
-    return certificate_view(record, json::parse(file));
+    return certificate_view(record, Wording(json::parse(file)));
 }
 
 std::string rotary_text_of(const EvaluationRecord& record) {

@@ -44,11 +44,11 @@ const json& table_of_view(const json& view, const std::string& id) {
 }
 
 TEST(CertificateView, HoldsStringsOnly) {
-    expect_strings_only(certificate_view(test::sample_record(), wording()), "");
+    expect_strings_only(certificate_view(test::sample_record(), Wording(wording())), "");
 }
 
 TEST(CertificateView, SectionsComeInTheOrderOfACertificate) {
-    const json view = certificate_view(test::sample_record(), wording());
+    const json view = certificate_view(test::sample_record(), Wording(wording()));
     std::vector<std::string> ids;
     for (const json& section : view["sections"]) {
         ids.push_back(section["id"]);
@@ -63,7 +63,7 @@ TEST(CertificateView, DecimalSignsStandBelowEachOther) {
     EvaluationRecord record = test::sample_record();
     record.rotary->errors[0].errors[0].printed = {.value = "12", .U = "3", .unit = "µm"};
     record.rotary->errors[1].errors[0].printed = {.value = "1.5", .U = "0.25", .unit = "µm"};
-    const json view = certificate_view(record, wording());
+    const json view = certificate_view(record, Wording(wording()));
     const json& rows = table_of_view(view, "errors")["rows"];
     EXPECT_EQ(rows[0]["cells"][1]["text"], "12");
     EXPECT_EQ(rows[0]["cells"][1]["pad"], ".00");
@@ -76,7 +76,7 @@ TEST(CertificateView, NamesTheErrorMotionsOfEveryAxis) {
     EvaluationRecord record = test::sample_record();
     record.rotary->axis = "C";
     record.rotary->error_names = {"EXC", "EYC", "EZC", "EAC", "EBC", "ECC"};
-    const std::string text = certificate_view(record, wording()).dump();
+    const std::string text = certificate_view(record, Wording(wording())).dump();
     EXPECT_THAT(text, ::testing::HasSubstr("d_z: linear, along z (axial)"));
     EXPECT_THAT(text, ::testing::HasSubstr("e_c: angular, about z (positioning)"));
     EXPECT_THAT(text, ::testing::HasSubstr("e_a: angular, about x (tilt)"));
@@ -86,7 +86,7 @@ TEST(CertificateView, NamesTheErrorMotionsOfEveryAxis) {
 TEST(CertificateView, AMissingTextIsAnError) {
     json texts = wording();
     texts["sentence"].erase("validity");
-    EXPECT_THROW(static_cast<void>(certificate_view(test::sample_record(), texts)), gum::StorageError);
+    EXPECT_THROW(static_cast<void>(certificate_view(test::sample_record(), Wording(texts))), gum::StorageError);
 }
 
 TEST(Wording, PlacesValuesOnce) {

@@ -54,7 +54,7 @@ RenderAssets in(const std::string& language) {
 }
 
 json view_of(const EvaluationRecord& record, const std::string& language = "en") {
-    return certificate_view(record, comparison_wording(language));
+    return certificate_view(record, Wording(comparison_wording(language)));
 }
 
 std::string text_of(const EvaluationRecord& record, const std::string& language = "en") {
@@ -688,7 +688,7 @@ TEST(ComparisonReport, HoldsStringsOnlyAndIsTheSameTwice) {
 TEST(ComparisonReport, ATextThatIsMissingIsAnError) {
     json words = comparison_wording("en");
     words["comparison_verdict"].erase("reference_not_better");
-    EXPECT_THROW(static_cast<void>(certificate_view(with_verdicts({"reference_not_better"}), words)),
+    EXPECT_THROW(static_cast<void>(certificate_view(with_verdicts({"reference_not_better"}), Wording(words))),
                  gum::StorageError);
 }
 

@@ -12,17 +12,14 @@
 namespace gumcert::reports {
 namespace {
 
-nlohmann::json wording_in(const std::string& language) {
+Wording wording_in(const std::string& language) {
     RenderAssets of_language = assets();
     of_language.languages = {language};
     return read_wording(of_language);
 }
 
 TEST(Label, WritesTheMonthAsAWord) {
-    const auto in = [](const char* language, const char* date) {
-        const nlohmann::json wording = wording_in(language);
-        return date_in_words(date, Wording(wording));
-    };
+    const auto in = [](const char* language, const char* date) { return date_in_words(date, wording_in(language)); };
     EXPECT_EQ(in("en", "2026-11-09"), "9 November 2026");
     EXPECT_EQ(in("de", "2026-03-21"), "21. März 2026");
     EXPECT_EQ(in("es", "2026-01-01"), "1 de enero de 2026");

@@ -273,8 +273,7 @@ TEST(Languages, TheSecondLanguageStandsWhereItDiffersOnly) {
 }
 
 TEST(Languages, TextsOfTheCertificateDataFollowTheDocument) {
-    const json wording = read_wording(in_languages({"de", "es"}));
-    const Wording words(wording);
+    const Wording words = read_wording(in_languages({"de", "es"}));
     certificate::LocalisedText text;
     text.by_language = {{"en", "laser"}, {"de", "Laser-"}};
     EXPECT_EQ(words.localised(text).in(0), "Laser-");
@@ -283,8 +282,7 @@ TEST(Languages, TextsOfTheCertificateDataFollowTheDocument) {
 }
 
 TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
-    const json wording = read_wording(in_languages({"de", "en"}));
-    const Wording words(wording);
+    const Wording words = read_wording(in_languages({"de", "en"}));
     EXPECT_EQ(words.number("-12.340").in(0), "\u221212,340");
     EXPECT_EQ(words.number("-12.340").in(1), "\u221212.340");
     EXPECT_EQ(words.number("1.2E+3").in(0), "1,2\u00A0×\u00A010³");
@@ -308,7 +306,7 @@ TEST(Languages, WhatIsMissingIsNamed) {
     json incomplete = json::array({wording_file("en"), wording_file("de")});
     incomplete[1]["sentence"].erase("validity");
     try {
-        static_cast<void>(certificate_view(test::sample_record(), incomplete));
+        static_cast<void>(certificate_view(test::sample_record(), Wording(incomplete)));
         FAIL() << "no message";
     } catch (const gum::StorageError& e) {
         EXPECT_THAT(e.what(), HasSubstr("wording de#/sentence/validity"));
