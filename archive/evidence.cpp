@@ -160,7 +160,8 @@ private:
                 "an entry is as it was when it was written");
         }
         if ((entry.seq == 1) != (entry.hash == evidence_.head.archive) ||
-            (entry.seq == evidence_.head.size && entry.hash != evidence_.head.chain) ||
+            (entry.seq == evidence_.head.size &&
+             (entry.hash != evidence_.head.chain || entry.at != evidence_.head.at)) ||
             root_of_proof(entry.hash, static_cast<std::size_t>(entry.seq - 1),
                           static_cast<std::size_t>(evidence_.head.size), proven.proof) != evidence_.head.root) {
             add("GC-ARCHIVE-0048", where, "its proof does not lead to the head",

@@ -91,6 +91,12 @@ def root_of_proof(entry, index, size, proof):
     return root if last == 0 else None
 
 
+def unhex(digits):
+    if not re.fullmatch("([0-9a-f]{2})*", digits):
+        raise ValueError("hexadecimal digits are missing")
+    return bytes.fromhex(digits)
+
+
 def strict_object(text):
     """A JSON object without duplicate keys and without NaN; None for everything else."""
     def unique(pairs):
@@ -356,7 +362,7 @@ class Head:
         if not isinstance(value, dict) or value.get("schema") != "gumcert/archive-head/1":
             raise ValueError("no head of an archive")
         try:
-            self.archive, self.root, self.chain = (bytes.fromhex(value[key]) for key in ("archive", "root", "chain"))
+            self.archive, self.root, self.chain = (unhex(value[key]) for key in ("archive", "root", "chain"))
             self.size, self.at, self.signature = value["size"], value["at"].encode(), value.get("signature")
         except (KeyError, TypeError, AttributeError) as missing:
             raise ValueError("no head of an archive") from missing
@@ -367,7 +373,7 @@ class Head:
     def faults(self, name, public_key):
         if self.signature is not None:
             key, value = text(self.signature, "public_key"), text(self.signature, "value")
-            if not is_signed(self.signed, bytes.fromhex(key), bytes.fromhex(value)):
+            if not is_signed(self.signed, unhex(key), unhex(value)):
                 yield f"{name}: the signature is not one of this head"
             elif public_key and key != public_key:
                 yield f"{name}: the head is signed with another key than the trusted one"
@@ -451,15 +457,15 @@ def findings_of(database, heads):
             yield f"head of {head.size} entries: the entries of the archive up to there are others"
 
 
-def verify_evidence(value, heads, public_key):
-    """Findings of the evidence of one certificate; then its state."""
+def verify_evidence(value, heads, public_key, tell):
+    """Findings of the evidence of one certificate; its state is told."""
     head = Head(value.get("head"))
     yield from head.faults("the head of the evidence", public_key if head.signature else "")
     rules, needed, last = Rules(judges_numbers=False), {}, 0
     number = value["certificate"]
     for written in value["entries"]:
         entry = {name: written[name] if name == "seq" else
-                 bytes.fromhex(written[name]) if name in ("prev", "hash") else written[name].encode() for name in FIELDS}
+                 unhex(written[name]) if name in ("prev", "hash") else written[name].encode() for name in FIELDS}
         name, seq = f"entry {entry['seq']}", entry["seq"]
         if not last < seq <= head.size:
             yield f"{name} stands at a wrong place"
@@ -467,8 +473,8 @@ def verify_evidence(value, heads, public_key):
         last = seq
         if entry_hash(entry) != entry["hash"]:
             yield f"{name}: its fields give another hash than the one it has"
-        if ((seq == 1) != (entry["hash"] == head.archive) or (seq == head.size and entry["hash"] != head.chain) or
-                root_of_proof(entry["hash"], seq - 1, head.size, [bytes.fromhex(one) for one in written["proof"]]) != head.root):
+        if ((seq == 1) != (entry["hash"] == head.archive) or (seq == head.size and (entry["hash"], entry["at"]) != (head.chain, head.at)) or
+                root_of_proof(entry["hash"], seq - 1, head.size, [unhex(one) for one in written["proof"]]) != head.root):
             yield f"{name}: its proof does not lead to the head"
         wrong = rules.accept(entry)
         if wrong:
@@ -494,11 +500,11 @@ def verify_evidence(value, heads, public_key):
         if other.archive != head.archive or (other.size == head.size and (other.root, other.chain) != (head.root, head.chain)):
             yield f"head of {other.size} entries: the evidence is of another archive, or of a log that was rewritten"
     if life is not None:
-        print(f"certificate {number}: {life['state']}" + (f", see {life['later']}" if life["later"] else "") +
-              f", as the archive stood at {head.at.decode()} ({head.size} entries)")
+        tell(f"certificate {number}: {life['state']}" + (f", see {life['later']}" if life["later"] else "") +
+             f", as the archive stood at {head.at.decode()} ({head.size} entries)")
 
 
-def findings(path, head_files=(), public_key=""):
+def findings(path, head_files=(), public_key="", tell=lambda text: None):
     """Everything that is wrong with an archive or evidence."""
     heads = []
     for file in head_files:
@@ -517,7 +523,7 @@ def findings(path, head_files=(), public_key=""):
         yield "neither an archive nor evidence"
         return
     try:
-        yield from verify_evidence(value, heads, public_key)
+        yield from verify_evidence(value, heads, public_key, tell)
     except (KeyError, TypeError, AttributeError, ValueError, binascii.Error) as missing:
         yield f"no evidence: {missing}"
 
@@ -529,7 +535,7 @@ def main():
     parser.add_argument("--public-key", default="", help="Ed25519 key that heads must be signed with, 64 hexadecimal digits")
     arguments = parser.parse_args()
     try:
-        found = list(findings(arguments.file, arguments.head, arguments.public_key.lower()))
+        found = list(findings(arguments.file, arguments.head, arguments.public_key.lower(), print))
     except OSError as trouble:
         print(f"{trouble.filename}: {trouble.strerror}", file=sys.stderr)
         return 5

@@ -1,7 +1,8 @@
 // What the tests of the archive need beside the program: stores of chance, many verdicts, and writers that can be killed.
 //
 //   archive_driver make FILE SEED CERTIFICATES [HEAD]   a valid archive of chance, and its head
-//   archive_driver judge                                reads lines "STORE [HEAD]", answers "sound" or "not sound: CODE …"
+//   archive_driver judge                                reads lines "STORE [HEAD]" or "EVIDENCE [HEAD]", answers "sound" or
+//                                                       "not sound: CODE …"
 //   archive_driver write FILE WHO COUNT                 drafts COUNT certificates, and says of each one when it is kept
 //   archive_driver number FILE WHO COUNT                takes COUNT numbers, and prints them
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "archive/archive.h"
+#include "archive/evidence.h"
 #include "archive/store/sqlite_store.h"
 #include "archive/verification.h"
 #include "gum/quantity/diagnostic.h"
@@ -38,16 +40,22 @@ int make(const std::vector<std::string>& words) {
     return 0;
 }
 
+std::vector<gumcert::gum::Diagnostic> findings_of(const std::string& file, const std::vector<Head>& heads) {
+    if (file.ends_with(".json")) {
+        return verify_evidence(evidence_from_json(content_of(file), file), heads).findings;
+    }
+    const auto store = open_sqlite_store(file, Access::read_only);
+    return verify_store(*store, heads).findings;
+}
+
 std::string verdict(const std::string& file, const std::string& head_file) {
     try {
         std::vector<Head> heads;
         if (!head_file.empty()) {
             heads.push_back(head_from_json(content_of(head_file), head_file));
         }
-        const auto store = open_sqlite_store(file, Access::read_only);
-        const Verification verification = verify_store(*store, heads);
         std::set<std::string> codes;
-        for (const gumcert::gum::Diagnostic& one : verification.findings) {
+        for (const gumcert::gum::Diagnostic& one : findings_of(file, heads)) {
             codes.insert(one.code);
         }
         std::string text = codes.empty() ? "sound" : "not sound:";

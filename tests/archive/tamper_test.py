@@ -26,6 +26,7 @@ SPEC = importlib.util.spec_from_file_location("verify_archive", ROOT / "tools" /
 verify_archive = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(verify_archive)
 
+EVIDENCE = ROOT / "tests" / "fuzz" / "corpus" / "archive" / "superseded.json"
 faults = []
 
 
@@ -323,6 +324,18 @@ def main():
             counts["changed what is stored, found" if not same else "changed nothing, silent" if is_sound else "changed nothing, found"] += 1
         for what, count in sorted(counts.items()):
             print(f"{count:6} flips {what}")
+        # A flipped bit of evidence is found, or hits a text that nothing depends on.
+        data, spoiled, silent = EVIDENCE.read_bytes(), folder / "spoiled.json", 0
+        shutil.copy(EVIDENCE, spoiled)
+        judges.agree(spoiled, None, "evidence", sound=True)
+        for _ in range(options.flips):
+            bit = rng.randrange(8 * len(data))
+            flipped = bytearray(data)
+            flipped[bit // 8] ^= 1 << bit % 8
+            spoiled.write_bytes(flipped)
+            silent += judges.agree(spoiled, None, f"flipped bit {bit} of evidence")
+        print(f"{silent:6} flips of evidence are silent")
+        expect(silent < options.flips / 50, "too many flips of evidence are silent")
     judges.process.stdin.close()
     judges.process.wait()
     print(f"{options.stores} valid stores, {len(ATTACKS) + len(ATTACKS_ON_THE_END)} kinds of attacks, {options.flips} flips, {len(faults)} faults")
