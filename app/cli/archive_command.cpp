@@ -313,6 +313,13 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
     return done;
 }
 
+void require_output(const std::string& output, const ArchiveOptions& options) {
+    if (!output.empty() && output != "-") {
+        app::require_writable(output);
+        app::require_not_inputs({output}, {options.store, options.sign});
+    }
+}
+
 /// Writes an output of a reading action: to a file, or to the terminal.
 ExitCode write_output(const std::string& text, const std::string& output, const ArchiveOptions& options,
                       const CommonOptions& common) {
@@ -320,7 +327,7 @@ ExitCode write_output(const std::string& text, const std::string& output, const 
         write_to_stdout(text);
         return done;
     }
-    app::write_files({{output, text}}, {options.store});
+    app::write_files({{output, text}}, {options.store, options.sign});
     if (!common.quiet) {
         fmt::print("Written: {}\n", output);
     }
@@ -334,28 +341,28 @@ std::string file_name_of(std::string number) {
     return number;
 }
 
+void sign(archive::Head& head, const std::string& key) {
+    if (!key.empty()) {
+        signing::Ed25519Signature signature = signing::sign_ed25519(archive::signed_bytes(head), key);
+        head.signature = archive::Head::Signature{std::move(signature.public_key), std::move(signature.value)};
+    }
+}
+
 ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
     const std::string output =
         options.output.empty() ? file_name_of(options.named.front()) + "-evidence.json" : options.output;
     const auto store = opened(options, archive::Access::read_only);
-    if (output != "-") {
-        app::require_writable(output);
-        app::require_not_an_input(output, {options.store});
-    }
-    return write_output(archive::to_json(archive::evidence_of(*store, options.named.front())), output, options, common);
+    require_output(output, options);
+    archive::Evidence evidence = archive::evidence_of(*store, options.named.front());
+    sign(evidence.head, options.sign);
+    return write_output(archive::to_json(evidence), output, options, common);
 }
 
 ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_only);
-    if (!options.output.empty() && options.output != "-") {
-        app::require_writable(options.output);
-        app::require_not_inputs({options.output}, {options.store, options.sign});
-    }
+    require_output(options.output, options);
     archive::Head head = archive::Archive(*store).head();
-    if (!options.sign.empty()) {
-        signing::Ed25519Signature signature = signing::sign_ed25519(archive::signed_bytes(head), options.sign);
-        head.signature = archive::Head::Signature{std::move(signature.public_key), std::move(signature.value)};
-    }
+    sign(head, options.sign);
     return write_output(archive::to_json(head), options.output, options, common);
 }
 
@@ -581,7 +588,7 @@ constexpr std::array<Action, 15> k_actions = {{
     {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
     {"list", 0, 0, "nothing more", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
-    {"export", 1, 1, "the number of a certificate", " store output ", export_certificate},
+    {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
     {"head", 0, 0, "nothing more", " store output sign ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},

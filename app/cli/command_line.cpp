@@ -333,7 +333,7 @@ void add_archive(CLI::App& program, Arguments& a) {
     command.add_option("--head", o.heads, "For verify: an earlier head, which the archive must still begin with")
         ->allow_extra_args(false)
         ->type_name("FILE");
-    add_file(command, "--sign", o.sign, "For head: private key of kind Ed25519 (PEM)");
+    add_file(command, "--sign", o.sign, "For head and export: private key of kind Ed25519 (PEM) that signs the head");
     add_file(command, "--trust", o.trust,
              "For add and amend: certificates that are trusted, as of gumcert verify. For verify: the public key\n"
              "(PEM, Ed25519) that heads must be signed with");
