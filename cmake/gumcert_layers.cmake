@@ -15,7 +15,8 @@ set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum
                           reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/audit reports/studies reports/dcc audit/sources signing imports app app/cli)
+                          reports/audit reports/studies reports/dcc audit/sources signing imports archive/store archive
+                          app app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -96,6 +97,8 @@ set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/c
 set(GUMCERT_EDGES_signing                            text encoding gum/quantity json)
 set(GUMCERT_EDGES_imports                            gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
+set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
+set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)
 set(GUMCERT_EDGES_app                                text encoding gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
@@ -104,10 +107,11 @@ set(GUMCERT_EDGES_app                                text encoding gum/quantity 
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
-                                                     imports workbook audit audit/rules audit/sources)
+                                                     imports workbook audit audit/rules audit/sources archive)
 set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
-                                                     imports jobs/laboratory app audit/rules reports/audit)
+                                                     imports jobs/laboratory app audit/rules reports/audit archive/store
+                                                     archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
@@ -162,19 +166,22 @@ set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
+set(GUMCERT_THIRD_PARTY_archive_store                      sqlite3.h sys/vfs.h)
+set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
 set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gumcert_build_info.h gumcert_templates.h nlohmann unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES encoding jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing app app/cli)
+set(GUMCERT_MAY_TOUCH_FILES encoding jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)
 # A header of ours, and the headers from outside that stand nowhere else: what they bring is compiled once, behind it.
 set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eigen/SVD)
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
-set(GUMCERT_PRIVATE_HEADERS gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
+set(GUMCERT_PRIVATE_HEADERS archive/store/sqlite_schema.h archive/store/sqlite_statement.h
+                            gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h
                             signing/xml_tree.h workbook/letters.h workbook/operand.h workbook/package_parts.h

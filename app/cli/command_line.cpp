@@ -298,6 +298,63 @@ void add_verify(CLI::App& program, Arguments& a) {
         "is not valid. docs/signing.md");
 }
 
+void add_archive(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand(
+        "archive", "Certificates and their evidence: kept so that nothing is lost, and no change goes unseen");
+    ArchiveOptions& o = a.archive;
+    command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
+    command.add_option("NAME", o.named,
+                       "Numbers of certificates; of add and amend a record and its documents; of verify "
+                       "evidence");
+    add_file(command, "--store", o.store, "The archive: one file on a disk of this machine");
+    command.add_option("--by", o.by, "Who does this: a name, as it will stand in the log")->type_name("PERSON");
+    command.add_option("--why", o.why, "The reason, for the log; withdraw needs it")->type_name("TEXT");
+    command
+        .add_option("--request-key", o.request_key,
+                    "A text of your own that makes the request one: asked again with it, nothing happens twice")
+        ->type_name("KEY");
+    command.add_option("--format", o.format, "text (for people) or json (for programs). Default: text")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "json"}));
+    add_file(command, "-o,--output", o.output,
+             "File of export (default: the number with -evidence.json), head (default: the terminal) or backup");
+    command
+        .add_option("--numbering", o.numbering,
+                    "Pattern of certificate numbers for init, such as EX-YYYY-####; default: the archive gives none")
+        ->type_name("PATTERN");
+    command
+        .add_option("--person", o.persons,
+                    "A person with roles for init, as NAME=author,reviewer,authoriser,keeper; once for each. Default: "
+                    "anybody may do everything")
+        ->allow_extra_args(false)
+        ->type_name("PERSON");
+    command.add_flag("--no-four-eyes", o.one_pair_of_eyes,
+                     "For init: who drafted a certificate may review and authorise it");
+    command.add_option("--head", o.heads, "For verify: an earlier head, which the archive must still begin with")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    add_file(command, "--sign", o.sign, "For head and export: private key of kind Ed25519 (PEM) that signs the head");
+    add_file(command, "--trust", o.trust,
+             "For add and amend: certificates that are trusted, as of gumcert verify. For verify: the public key\n"
+             "(PEM, Ed25519) that heads must be signed with");
+    add_share(command, o.share);
+    command.footer(
+        "Example: gumcert archive init --store lab.archive --by \"A. Keeper\" --numbering EX-YYYY-####\n"
+        "         gumcert archive number --store lab.archive --by \"R. Lin\"       the next certificate number\n"
+        "         gumcert archive add record.json certificate.pdf certificate.xml --store lab.archive --by \"R. Lin\"\n"
+        "         gumcert archive issue EX-2026-0042 --store lab.archive --by \"M. Weber\"\n"
+        "         gumcert archive verify --store lab.archive --head head.json\n"
+        "init begins an archive; number takes the next number; add brings a record with its documents in as a draft, "
+        "or\n"
+        "in place of one; review, authorise and issue lead it on, and nobody reviews or authorises what he drafted.\n"
+        "amend brings in an amendment: when it is issued, its original is amended or superseded. withdraw ends a\n"
+        "certificate, a draft or a number. list and show read; export writes the evidence of one certificate, which\n"
+        "verify reads without the archive; head writes what proves later that nothing was changed: keep it elsewhere.\n"
+        "verify computes every hash again, backup copies while others write, and verifies the copy; replay evaluates\n"
+        "archived records with this program, and reports what differs. Exit code 1 where verify or replay finds\n"
+        "something. docs/archive.md");
+}
+
 void add_simulate(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand(
         "simulate", "Simulate measurements of a rotary-table job with a known truth, and evaluate them");
@@ -401,6 +458,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_check(*program, a);
     add_audit(*program, a);
     add_verify(*program, a);
+    add_archive(*program, a);
     add_simulate(*program, a);
     add_plan(*program, a);
     add_laboratory_command(*program, a);

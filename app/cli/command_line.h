@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/archive_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/terminal.h"
@@ -25,6 +26,7 @@ struct Arguments {
     std::string job, file, output, format, share, trust_store, standard, date, method, folder;
     DocumentOptions documents;
     AuditOptions audit;
+    ArchiveOptions archive;
     std::optional<std::size_t> runs;
     std::optional<std::int64_t> seed;
 };

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/cli/archive_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/certificate_commands.h"
 #include "app/cli/command_line.h"
@@ -81,6 +82,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "verify") {
         return verify_files(a.files, a.trust_store, a.revocation_lists, a.common);
+    }
+    if (a.command == "archive") {
+        return use_archive(a.archive, a.common);
     }
     if (a.command == "simulate") {
         return simulate(a.job, a.runs, a.seed, a.output, a.share, a.common);

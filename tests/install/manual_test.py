@@ -130,6 +130,14 @@ def check_page(check, page, name, help_text, options):
             check.holds(f"{page.name}: {part.strip()!r}", squeezed(part) in flat)
 
 
+# Words that the first argument of a command may be.
+WORDS_OF_ARGUMENTS = {
+    "import": ["dcc"],
+    "archive": ["init", "number", "add", "review", "authorise", "issue", "amend", "withdraw", "list", "show", "export", "head",
+                "verify", "backup", "replay"]
+}
+
+
 def replies_of_bash(script, *words):
     asked = run("bash", "--norc", "-c", QUESTIONS_OF_BASH, "bash", str(script), "gumcert", *words)
     return sorted(asked.stdout.split()) + asked.stderr.split()
@@ -147,8 +155,8 @@ def check_bash(check, script, helps):
         for option in options:
             for name in option.names:
                 expected = sorted(option.choices) if option.value else ([] if command else commands)
-                if command == "import" and not option.value:
-                    expected = ["dcc"]
+                if command in WORDS_OF_ARGUMENTS and not option.value:
+                    expected = sorted(WORDS_OF_ARGUMENTS[command])
                 check.equal(f"bash: values of {command} {name}", replies_of_bash(script, *words, name, ""), expected)
                 if option.choices:
                     for typed in (["=", ""], ["="]):

@@ -9,7 +9,8 @@ import collections
 import pathlib
 import re
 
-LAYERS = ("encoding", "gum", "json", "certificate", "laboratory", "engine", "workbook", "audit", "jobs", "reports", "signing", "imports", "app")
+LAYERS = ("encoding", "gum", "json", "certificate", "laboratory", "engine", "workbook", "audit", "jobs", "reports", "signing", "imports", "archive",
+          "app")
 CODE = re.compile(r"GC-[A-Z]+-\d{4}")
 CLASSES = {"UsageError": "usage", "InputError": "refused", "NoResultError": "no_result", "StorageError": "storage"}
 THROWN = re.compile(rf"\b({'|'.join(CLASSES)})\b")

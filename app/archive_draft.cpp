@@ -1,0 +1,203 @@
+#include "app/archive_draft.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/document_identity.h"
+#include "app/read_file.h"
+#include "app/recompute_record.h"
+#include "certificate/gates/day_of_issue.h"
+#include "encoding/sha2.h"
+#include "imports/foreign_certificate.h"
+#include "reports/printable_text.h"
+#include "reports/record/make/certificate/amended_record.h"
+#include "signing/verify.h"
+#include "text/markup.h"
+
+namespace gumcert::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse_document(const fs::path& file, std::string what, std::string rule, std::string action) {
+    throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0029",
+                                          .where = file.string(),
+                                          .what = std::move(what),
+                                          .rule = std::move(rule),
+                                          .action = std::move(action)});
+}
+
+[[noreturn]] void refuse_as_other(const fs::path& file, const std::string& number, const std::string& wanted) {
+    refuse_document(
+        file,
+        number.empty() ? "does not say which certificate it is" : "is a document of certificate \"" + number + "\"",
+        "documents belong to the record, which is that of \"" + wanted + "\"",
+        "name the documents that were made of this record");
+}
+
+/// Keeps remarks, and refuses with all errors together.
+class CheckFindings {
+public:
+    void take(std::vector<gum::Diagnostic> found) {
+        for (gum::Diagnostic& one : found) {
+            (one.severity == gum::Severity::error ? errors_ : remarks_).push_back(std::move(one));
+        }
+    }
+    [[nodiscard]] std::vector<gum::Diagnostic> remarks() && {
+        if (!errors_.empty()) {
+            throw gum::InputError(std::move(errors_));
+        }
+        return std::move(remarks_);
+    }
+
+private:
+    std::vector<gum::Diagnostic> errors_, remarks_;
+};
+
+/// Signatures, as far as they can be judged: without a trust store it is not asked who the signer is.
+void check_pdf_signatures(const signing::Verification& verification, bool trust_named, CheckFindings& findings) {
+    for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
+        for (const signing::SignatureReport& signature : *signatures) {
+            std::vector<gum::Diagnostic> found = signature.findings;
+            if (!trust_named) {
+                std::erase_if(found, [](const gum::Diagnostic& one) {
+                    return one.code == "GC-SIGN-0130" || one.code == "GC-SIGN-0133";
+                });
+            }
+            findings.take(std::move(found));
+        }
+    }
+}
+
+archive::Document checked_document(const fs::path& file, const std::string& number, const ArchiveChecks& checks,
+                                   CheckFindings& findings) {
+    archive::Document document{.name = file.filename().string(), .media_type = {}, .bytes = read_file(file)};
+    const std::string_view bytes = document.bytes;
+    const std::string_view start = bytes.substr(0, bytes.find_first_of("\r\n"));
+    if (start.starts_with("<!DOCTYPE html") || start.starts_with("<!doctype html")) {
+        document.media_type = "text/html";
+        if (bytes.find(text::escaped_markup(number)) == std::string_view::npos) {
+            refuse_as_other(file, "", number);
+        }
+        return document;
+    }
+    const bool is_pdf = bytes.starts_with("%PDF-");
+    if (!is_pdf && !start.starts_with('<') && !start.starts_with("\xEF\xBB\xBF<")) {
+        refuse_document(file, "is neither a PDF, nor a digital certificate, nor HTML",
+                        "an archive keeps records and the documents that are made of them",
+                        "name the documents that gumcert run or gumcert render has written");
+    }
+    const signing::Verification verification = signing::verify_signatures(
+        document.bytes, file.string(), checks.trusted.value_or(std::vector<signing::Bytes>()), checks.now);
+    if (is_pdf) {
+        document.media_type = "application/pdf";
+        if (reports::printable(verification.pdf_keywords) != number) {
+            refuse_as_other(file, verification.pdf_keywords, number);
+        }
+        check_pdf_signatures(verification, checks.trusted.has_value(), findings);
+    } else {
+        document.media_type = "application/xml";
+        findings.take(
+            imports::check_certificate(document.bytes, file.string(), {.trusted = checks.trusted, .now = checks.now}));
+    }
+    for (const DocumentIdentity& identity : identities_in(document.bytes, file.string(), verification)) {
+        if (identity.number != number) {
+            refuse_as_other(file, identity.number, number);
+        }
+        if (!identity.state.empty()) {
+            refuse_document(file, "is a " + identity.state, "what is issued are the documents as they are archived",
+                            "mend what the findings of the record say, and make the documents anew");
+        }
+    }
+    return document;
+}
+
+std::string worded(const certificate::LocalisedText& text, const certificate::CertificateData& data) {
+    return text.in(data.languages.empty() ? "en" : data.languages.front());
+}
+
+}  // namespace
+
+CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::path>& documents,
+                           const ArchiveChecks& checks) {
+    CheckedDraft checked;
+    const std::string name = record_file.string();
+    checked.draft.record = read_file(record_file);
+    checked.record = reports::record_from_json(checked.draft.record, name);
+    if (!checked.record.certificate || checked.record.certificate->data.number.empty()) {
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-ARCHIVE-0028",
+                            .where = name,
+                            .what = "a record without certificate data",
+                            .rule = "an archive keeps certificates, each under its number",
+                            .action = "state the certificate data in the job, docs/certificate_data.md"});
+    }
+    reports::EvaluationRecord again = checked.record;
+    if (const std::optional<gum::Diagnostic> why =
+            recompute_record(again, name, checks.threads, checks.templates, checks.progress)) {
+        throw gum::InputError(*why);
+    }
+    const certificate::CertificateData& data = checked.record.certificate->data;
+    checked.draft.number = data.number;
+    checked.draft.item = worded(data.item.description, data);
+    if (const std::string& serial = data.item.serial_number; !serial.empty()) {
+        checked.draft.item += ", " + serial;
+    }
+    CheckFindings findings;
+    for (const fs::path& document : documents) {
+        if (checks.progress) {
+            checks.progress("checking " + document.filename().string());
+        }
+        checked.draft.documents.push_back(checked_document(document, data.number, checks, findings));
+    }
+    checked.remarks = std::move(findings).remarks();
+    return checked;
+}
+
+void state_amendment(CheckedDraft& amendment, const std::string& original) {
+    const certificate::Certificate& later = *amendment.record.certificate;
+    const certificate::Amendment& stated = *later.data.amendment;
+    const auto refuse = [&](std::string what, std::string rule, std::string action) {
+        throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0035",
+                                              .where = amendment.draft.number,
+                                              .what = std::move(what),
+                                              .rule = std::move(rule),
+                                              .action = std::move(action)});
+    };
+    if (!later.amended_record_sha256.empty() && later.amended_record_sha256 != encoding::sha256(original)) {
+        refuse("was compared with another record of \"" + stated.number + "\" than the archived one",
+               "an amendment is compared with what was issued",
+               "take the record of the original out of the archive, and evaluate the job again");
+    }
+    const reports::EvaluationRecord earlier = reports::record_from_json(original, "record of " + stated.number);
+    amendment.draft.amends = archive::Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
+    if (earlier.certificate) {
+        for (const certificate::Change& change : reports::changes_between(*earlier.certificate, later)) {
+            amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
+        }
+    }
+    if (amendment.draft.amends->changes.empty()) {
+        refuse("states nothing else than \"" + stated.number + '"', "an amendment changes something",
+               "change what is to be amended, or do not amend it");
+    }
+}
+
+void require_issuable(const std::string& record, const std::string& number, const std::string& day) {
+    reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
+    certificate::Certificate& certificate = *read.certificate;
+    const bool specimen = certificate.data.status == "specimen";
+    const bool early = certificate::block_issue_ahead_of_time(certificate, day);
+    if (specimen || certificate.blocked) {
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-ARCHIVE-0030",
+                            .where = number,
+                            .what = specimen ? "is a specimen"
+                                    : early  ? "is dated later than today"
+                                             : "has critical findings",
+                            .rule = "certificates are issued that nothing blocks, and not ahead of their date",
+                            .action = "mend the certificate data or the measurement, and add the new record"});
+    }
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,661 @@
+#include "app/cli/archive_command.h"
+
+#include <fmt/core.h>
+#include <gumcert_build_info.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "app/archive_draft.h"
+#include "app/archive_replay.h"
+#include "app/cli/clock.h"
+#include "app/cli/share_folder.h"
+#include "app/output_files.h"
+#include "app/read_file.h"
+#include "archive/archive.h"
+#include "archive/evidence.h"
+#include "archive/store/sqlite_store.h"
+#include "archive/verification.h"
+#include "encoding/sha2.h"
+#include "signing/ed25519.h"
+#include "signing/verify.h"
+
+namespace gumcert::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Which options an action takes, and how many names.
+struct Action {
+    const char* name;
+    std::size_t least, most;  ///< of what is named
+    const char* what;         ///< for the message where the count is another one
+    std::string_view takes;   ///< options beside --share and the common ones, with blanks around
+    ExitCode (*work)(const ArchiveOptions&, const CommonOptions&);
+};
+
+constexpr std::size_t k_any = 100'000;
+
+std::string time_now() {
+    const std::int64_t now = seconds_now();
+    const std::chrono::sys_seconds time{std::chrono::seconds(now)};
+    const std::chrono::hh_mm_ss clock{time - std::chrono::floor<std::chrono::days>(time)};
+    const std::chrono::year_month_day day{std::chrono::floor<std::chrono::days>(time)};
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(day.year()),
+                       static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()), clock.hours().count(),
+                       clock.minutes().count(), clock.seconds().count());
+}
+
+archive::Request request_of(const ArchiveOptions& options) {
+    return {.actor = options.by, .at = time_now(), .request_key = options.request_key, .why = options.why};
+}
+
+std::unique_ptr<archive::Store> opened(const ArchiveOptions& options, archive::Access access) {
+    return archive::open_sqlite_store(options.store, access);
+}
+
+bool as_json(const ArchiveOptions& options) {
+    return options.format == "json";
+}
+
+void print_json(const json& value) {
+    write_to_stdout(value.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+/// The outcome of an action that writes an entry.
+ExitCode told(const archive::Written& written, const ArchiveOptions& options, const CommonOptions& common) {
+    const archive::LogEntry& entry = written.entry;
+    if (as_json(options)) {
+        print_json({{"seq", entry.seq},
+                    {"at", entry.at},
+                    {"kind", entry.kind},
+                    {"certificate", entry.certificate},
+                    {"hash", encoding::hexadecimal(entry.hash)},
+                    {"repeated", written.repeated}});
+    } else if (!common.quiet) {
+        fmt::print("{}{}{}: entry {}, {}{}\n", entry.certificate, entry.certificate.empty() ? "" : " ", entry.kind,
+                   entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
+    }
+    return done;
+}
+
+std::string random_nonce() {
+    std::random_device source;
+    std::string bytes;
+    for (int i = 0; i < 16; ++i) {
+        bytes += static_cast<char>(source() & 0xFFU);
+    }
+    return encoding::hexadecimal(bytes);
+}
+
+/// "R. Lin=author,reviewer" of each --person.
+std::map<std::string, std::set<std::string>> persons_of(const ArchiveOptions& options) {
+    std::map<std::string, std::set<std::string>> persons;
+    for (const std::string& word : options.persons) {
+        const std::size_t equals = word.find('=');
+        std::set<std::string>& roles = persons[word.substr(0, equals)];
+        std::size_t start = equals == std::string::npos ? word.size() : equals + 1;
+        while (start < word.size()) {
+            const std::size_t end = std::min(word.find(',', start), word.size());
+            roles.insert(word.substr(start, end - start));
+            start = end + 1;
+        }
+        if (equals == 0 || roles.empty() ||
+            !std::all_of(roles.begin(), roles.end(), [](const std::string& role) { return archive::is_role(role); })) {
+            refuse_usage("--person " + word, "is no name with roles",
+                         "NAME=ROLE,ROLE with the roles author, reviewer, authoriser, keeper", "correct it");
+        }
+    }
+    return persons;
+}
+
+ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common) {
+    const archive::Settings settings{
+        .four_eyes = !options.one_pair_of_eyes, .numbering = options.numbering, .persons = persons_of(options)};
+    const archive::LogEntry first = archive::first_entry(
+        settings, fmt::format("gumcert {} (commit {})", k_version, k_commit), random_nonce(), request_of(options));
+    (void)archive::create_sqlite_store(options.store, first);
+    if (!common.quiet) {
+        fmt::print("Begun: {}\n", options.store);
+    }
+    return told({first, false}, options, common);
+}
+
+ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto store = opened(options, archive::Access::read_and_write);
+    return told(archive::Archive(*store).take_number(request_of(options)), options, common);
+}
+
+void print_remarks(const std::vector<gum::Diagnostic>& remarks, const CommonOptions& common) {
+    for (const gum::Diagnostic& remark : remarks) {
+        if (!common.quiet || remark.severity != gum::Severity::note) {
+            print_message(remark, common);
+        }
+    }
+}
+
+ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, bool is_amendment) {
+    const auto store = opened(options, archive::Access::read_and_write);
+    archive::Archive archive(*store);
+    ProgressLine progress(!common.quiet);
+    app::ArchiveChecks checks{.threads = static_cast<unsigned>(common.threads),
+                              .templates = templates_folder(options.share),
+                              .trusted = {},
+                              .now = seconds_now(),
+                              .progress = [&](const std::string& text) { progress(text); }};
+    if (!options.trust.empty()) {
+        checks.trusted = signing::read_trust_store(options.trust);
+    }
+    app::CheckedDraft checked =
+        app::checked_draft(options.named.front(), {options.named.begin() + 1, options.named.end()}, checks);
+    progress.clear();
+    archive::Request request = request_of(options);
+    const certificate::CertificateData& data = checked.record.certificate->data;
+    if (data.amendment.has_value() != is_amendment) {
+        refuse_usage(options.named.front(), is_amendment ? "amends no certificate" : "amends another certificate",
+                     "an amendment comes in by gumcert archive amend, every other certificate by add",
+                     is_amendment ? "state the amendment in the certificate data, or use add" : "use amend");
+    }
+    if (is_amendment) {
+        app::state_amendment(checked, archive.record_of(data.amendment->number));
+        if (request.why.empty()) {
+            request.why = data.amendment->reason.in(data.languages.empty() ? "en" : data.languages.front());
+        }
+    }
+    print_remarks(checked.remarks, common);
+    return told(archive.draft(checked.draft, request), options, common);
+}
+
+ExitCode add_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return add_draft(options, common, false);
+}
+
+ExitCode amend_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return add_draft(options, common, true);
+}
+
+ExitCode advance(const ArchiveOptions& options, const CommonOptions& common, const std::string& kind) {
+    const auto store = opened(options, archive::Access::read_and_write);
+    archive::Archive archive(*store);
+    if (kind == "issued" && !archive.life(options.named.front()).record.empty()) {
+        app::require_issuable(archive.record_of(options.named.front()), options.named.front(), today());
+    }
+    return told(archive.advance(options.named.front(), kind, request_of(options)), options, common);
+}
+
+ExitCode review_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return advance(options, common, "reviewed");
+}
+
+ExitCode authorise_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return advance(options, common, "authorised");
+}
+
+ExitCode issue_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return advance(options, common, "issued");
+}
+
+ExitCode withdraw_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    return advance(options, common, "withdrawn");
+}
+
+ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /*common*/) {
+    const auto store = opened(options, archive::Access::read_only);
+    const std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
+    if (as_json(options)) {
+        json list = json::array();
+        for (const archive::ListedCertificate& one : certificates) {
+            list.push_back({{"number", one.number},
+                            {"state", one.state},
+                            {"since", one.since},
+                            {"item", one.item},
+                            {"record", one.record}});
+        }
+        print_json({{"schema", "gumcert/archive-list/1"}, {"certificates", list}});
+        return done;
+    }
+    std::string text;
+    for (const archive::ListedCertificate& one : certificates) {
+        text += fmt::format("{:<24}  {:<10}  {}  {}\n", one.number, one.state, one.since, one.item);
+    }
+    write_to_stdout(text.empty() ? "No certificates.\n" : text);
+    return done;
+}
+
+json shown_entry(const archive::LogEntry& entry) {
+    return {{"seq", entry.seq},
+            {"at", entry.at},
+            {"by", entry.actor},
+            {"kind", entry.kind},
+            {"record", entry.record},
+            {"request_key", entry.request_key},
+            {"body", archive::body_of(entry).value_or(json())},
+            {"hash", encoding::hexadecimal(entry.hash)}};
+}
+
+std::string shown_changes(const json& body) {
+    std::string text;
+    const auto amends = body.find("amends");
+    if (amends == body.end() || !amends->is_object() || !amends->contains("changes")) {
+        return text;
+    }
+    for (const json& change : (*amends)["changes"]) {
+        const auto part = [&](const char* key) {
+            const auto found = change.find(key);
+            const std::string value = found != change.end() && found->is_string() ? found->get<std::string>() : "";
+            return value.empty() ? std::string("nothing") : value;
+        };
+        text += fmt::format("        {} {}: {} -> {}\n", part("where"), part("kind"), part("before"), part("after"));
+    }
+    return text;
+}
+
+ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*common*/) {
+    const auto store = opened(options, archive::Access::read_only);
+    archive::Archive archive(*store);
+    const std::string& number = options.named.front();
+    const std::vector<archive::LogEntry> entries = archive.history(number);
+    const archive::CertificateLife life = archive.life(number);
+    if (as_json(options)) {
+        json list = json::array();
+        for (const archive::LogEntry& entry : entries) {
+            list.push_back(shown_entry(entry));
+        }
+        print_json({{"schema", "gumcert/archive-certificate/1"},
+                    {"number", number},
+                    {"state", life.state},
+                    {"since", life.since},
+                    {"record", life.record},
+                    {"documents", life.documents},
+                    {"amends", life.amends},
+                    {"amended_by", life.later},
+                    {"entries", list}});
+        return done;
+    }
+    std::string text = fmt::format("{}: {} since {}\n", number, life.state, life.since);
+    if (!life.amends.empty()) {
+        text += fmt::format("  {} {}\n", life.amendment_kind == "replaced" ? "replaces" : "amends", life.amends);
+    }
+    if (!life.later.empty()) {
+        text += fmt::format("  see {}\n", life.later);
+    }
+    for (const archive::LogEntry& entry : entries) {
+        const json body = archive::body_of(entry).value_or(json::object());
+        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, entry.at, entry.kind, entry.actor);
+        const auto why = body.find("why");
+        text += why != body.end() && why->is_string() && !why->get_ref<const std::string&>().empty()
+                    ? ": " + why->get<std::string>() + "\n"
+                    : "\n";
+        if (entry.kind == "drafted") {
+            text += fmt::format("        record {}\n", entry.record);
+            const json documents = body.value("new", json::object()).value("documents", json::array());
+            for (const json& document : documents) {
+                text += fmt::format("        {} {}\n", document.value("name", ""), document.value("sha256", ""));
+            }
+            text += shown_changes(body);
+        }
+    }
+    write_to_stdout(text);
+    return done;
+}
+
+void require_output(const std::string& output, const ArchiveOptions& options) {
+    if (!output.empty() && output != "-") {
+        app::require_writable(output);
+        app::require_not_inputs({output}, {options.store, options.sign});
+    }
+}
+
+/// Writes an output of a reading action: to a file, or to the terminal.
+ExitCode write_output(const std::string& text, const std::string& output, const ArchiveOptions& options,
+                      const CommonOptions& common) {
+    if (output.empty() || output == "-") {
+        write_to_stdout(text);
+        return done;
+    }
+    app::write_files({{output, text}}, {options.store, options.sign});
+    if (!common.quiet) {
+        fmt::print("Written: {}\n", output);
+    }
+    return done;
+}
+
+/// A name of a file in which nothing of the number leads elsewhere.
+std::string file_name_of(std::string number) {
+    std::replace_if(
+        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
+    return number;
+}
+
+void sign(archive::Head& head, const std::string& key) {
+    if (!key.empty()) {
+        signing::Ed25519Signature signature = signing::sign_ed25519(archive::signed_bytes(head), key);
+        head.signature = archive::Head::Signature{std::move(signature.public_key), std::move(signature.value)};
+    }
+}
+
+ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    const std::string output =
+        options.output.empty() ? file_name_of(options.named.front()) + "-evidence.json" : options.output;
+    const auto store = opened(options, archive::Access::read_only);
+    require_output(output, options);
+    archive::Evidence evidence = archive::evidence_of(*store, options.named.front());
+    sign(evidence.head, options.sign);
+    return write_output(archive::to_json(evidence), output, options, common);
+}
+
+ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto store = opened(options, archive::Access::read_only);
+    require_output(options.output, options);
+    archive::Head head = archive::Archive(*store).head();
+    sign(head, options.sign);
+    return write_output(archive::to_json(head), options.output, options, common);
+}
+
+/// Reads heads and looks at their signatures.
+class Heads {
+public:
+    explicit Heads(const ArchiveOptions& options)
+        : trusted_(options.trust.empty() ? "" : signing::ed25519_public_key(options.trust)) {
+        for (const std::string& file : options.heads) {
+            heads_.push_back(archive::head_from_json(app::read_file(file), file));
+            look_at(heads_.back(), file);
+        }
+    }
+    void look_at(const archive::Head& head, const std::string& name) {
+        const bool is_signed = head.signature.has_value();
+        const bool fits = is_signed && signing::is_signed_ed25519(archive::signed_bytes(head),
+                                                                  {head.signature->public_key, head.signature->value});
+        const bool is_trusted = trusted_.empty() || (fits && head.signature->public_key == trusted_);
+        if ((is_signed && !fits) || !is_trusted) {
+            findings_.push_back({.code = "GC-ARCHIVE-0050",
+                                 .where = name,
+                                 .what = !is_signed ? "the head is not signed"
+                                         : !fits    ? "the signature is not one of this head"
+                                                    : "the head is signed with another key than the trusted one",
+                                 .rule = "a signed head is one that the laboratory made",
+                                 .action = "ask the laboratory for its head and its public key"});
+        }
+    }
+    [[nodiscard]] const std::vector<archive::Head>& all() const { return heads_; }
+    [[nodiscard]] const std::vector<gum::Diagnostic>& findings() const { return findings_; }
+
+private:
+    std::string trusted_;
+    std::vector<archive::Head> heads_;
+    std::vector<gum::Diagnostic> findings_;
+};
+
+json shown_findings(const std::vector<gum::Diagnostic>& findings) {
+    json list = json::array();
+    for (const gum::Diagnostic& one : findings) {
+        list.push_back(
+            {{"code", one.code}, {"where", one.where}, {"what", one.what}, {"rule", one.rule}, {"action", one.action}});
+    }
+    return list;
+}
+
+void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOptions& common) {
+    for (const gum::Diagnostic& one : findings) {
+        print_message(one, common);
+    }
+}
+
+ExitCode verify_bundle(const std::string& file, const ArchiveOptions& options, const CommonOptions& common) {
+    const archive::Evidence evidence = archive::evidence_from_json(app::read_file(file), file);
+    Heads heads(options);
+    if (evidence.head.signature) {
+        heads.look_at(evidence.head, file + "#/head");
+    }
+    archive::EvidenceVerdict verdict = archive::verify_evidence(evidence, heads.all());
+    verdict.findings.insert(verdict.findings.end(), heads.findings().begin(), heads.findings().end());
+    print_findings(verdict.findings, common);
+    const bool sound = verdict.findings.empty();
+    if (as_json(options)) {
+        print_json({{"schema", "gumcert/archive-verification/1"},
+                    {"sound", sound},
+                    {"certificate", evidence.certificate},
+                    {"state", verdict.state},
+                    {"amended_by", verdict.later},
+                    {"entries", evidence.entries.size()},
+                    {"contents", evidence.contents.size()},
+                    {"findings", shown_findings(verdict.findings)}});
+    } else if (!common.quiet) {
+        fmt::print("{}: {}\n", file, sound ? "sound" : "NOT SOUND");
+        fmt::print("  certificate {}, {}{}, as the archive stood at {} ({} entries)\n", evidence.certificate,
+                   verdict.state.empty() ? "of unknown state" : verdict.state,
+                   verdict.later.empty() ? "" : ", see " + verdict.later, evidence.head.at, evidence.head.size);
+    }
+    return sound ? done : negative_answer;
+}
+
+ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& common) {
+    if (!options.named.empty()) {
+        ExitCode code = done;
+        for (const std::string& file : options.named) {
+            code = std::max(code, explained(common, [&] { return verify_bundle(file, options, common); }));
+        }
+        return code;
+    }
+    const Heads heads(options);
+    const auto store = opened(options, archive::Access::read_only);
+    ProgressLine progress(!common.quiet);
+    archive::Verification verification =
+        archive::verify_store(*store, heads.all(), [&](const std::string& text) { progress(text); });
+    progress.clear();
+    verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
+    print_findings(verification.findings, common);
+    if (as_json(options)) {
+        json head;
+        if (verification.head) {
+            head = json::parse(archive::to_json(*verification.head));
+        }
+        print_json({{"schema", "gumcert/archive-verification/1"},
+                    {"sound", verification.sound()},
+                    {"entries", verification.entries},
+                    {"contents", verification.contents},
+                    {"certificates", verification.certificates},
+                    {"heads", heads.all().size()},
+                    {"head", head},
+                    {"findings", shown_findings(verification.findings)}});
+    } else if (!common.quiet) {
+        fmt::print("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n", options.store,
+                   verification.sound() ? "sound" : "NOT SOUND", verification.entries, verification.contents,
+                   verification.certificates, heads.all().size());
+        if (verification.head) {
+            fmt::print("  head {} of {}\n", encoding::hexadecimal(verification.head->root), verification.head->at);
+        }
+        if (heads.all().empty()) {
+            fmt::print(
+                "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n");
+        }
+    }
+    return verification.sound() ? done : negative_answer;
+}
+
+/// The copy is looked at before it gets its name, and noted in the log before anybody relies on it.
+ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
+    const fs::path file = options.output;
+    const fs::path part = file.string() + ".part";
+    const auto store = opened(options, archive::Access::read_and_write);
+    std::error_code error;
+    for (const fs::path& place : {file, part}) {
+        if (fs::exists(place, error) || error) {
+            refuse_usage(place.string(), "is there already", "a backup is a new file", "choose another name");
+        }
+    }
+    struct Removed {
+        fs::path path;
+        ~Removed() {
+            std::error_code ignored;
+            fs::remove(path, ignored);
+        }
+    } const removed{part};
+    store->copy_to(part);
+    ProgressLine progress(!common.quiet);
+    archive::Verification verification;
+    {
+        const auto copy = archive::open_sqlite_store(part, archive::Access::read_only);
+        verification =
+            archive::verify_store(*copy, {}, [&](const std::string& text) { progress("verifying: " + text); });
+    }
+    progress.clear();
+    if (!verification.sound() || !verification.head) {
+        print_findings(verification.findings, common);
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-ARCHIVE-0011",
+                                                .where = file.string(),
+                                                .what = "the copy cannot be verified, and was removed",
+                                                .rule = "a backup is verified before it counts as one",
+                                                .action = "see what gumcert archive verify says of the archive"});
+    }
+    fs::rename(part, file);
+    return told(archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options)),
+                options, common);
+}
+
+ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto store = opened(options, archive::Access::read_only);
+    archive::Archive archive(*store);
+    std::vector<std::string> numbers = options.named;
+    if (numbers.empty()) {
+        for (const archive::ListedCertificate& one : archive.list()) {
+            if (!one.record.empty()) {
+                numbers.push_back(one.number);
+            }
+        }
+    }
+    const fs::path templates = templates_folder(options.share);
+    ProgressLine progress(!common.quiet);
+    json list = json::array();
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::string& number = numbers[i];
+        progress(fmt::format("{} of {}: {}", i + 1, numbers.size(), number));
+        const app::Replay one =
+            app::replay_record(archive.record_of(number), number, static_cast<unsigned>(common.threads), templates);
+        progress.clear();
+        print_findings(one.differences, common);
+        same += one.differences.empty() ? std::size_t{1} : 0;
+        list.push_back({{"number", number},
+                        {"made_by", one.made_by},
+                        {"evaluated", one.evaluated},
+                        {"same", one.differences.empty()},
+                        {"differences", shown_findings(one.differences)}});
+    }
+    if (as_json(options)) {
+        print_json({{"schema", "gumcert/archive-replay/1"},
+                    {"program", fmt::format("{} (commit {})", k_version, k_commit)},
+                    {"records", numbers.size()},
+                    {"same", same},
+                    {"certificates", list}});
+    } else if (!common.quiet) {
+        for (const json& one : list) {
+            fmt::print("{:<24}  {}  made by gumcert {}\n", one["number"].get<std::string>(),
+                       one["same"].get<bool>()        ? "same     "
+                       : one["evaluated"].get<bool>() ? "DIFFERENT"
+                                                      : "NOT DONE ",
+                       one["made_by"].get<std::string>());
+        }
+        fmt::print("{} of {} records give the same with gumcert {} (commit {})\n", same, numbers.size(), k_version,
+                   k_commit);
+    }
+    return same == numbers.size() ? done : negative_answer;
+}
+
+constexpr std::array<Action, 15> k_actions = {{
+    {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
+    {"number", 0, 0, "nothing more", " store by why key format ", take_number},
+    {"add", 1, k_any, "a record and its documents", " store by why key format trust ", add_certificate},
+    {"review", 1, 1, "the number of a certificate", " store by why key format ", review_certificate},
+    {"authorise", 1, 1, "the number of a certificate", " store by why key format ", authorise_certificate},
+    {"issue", 1, 1, "the number of a certificate", " store by why key format ", issue_certificate},
+    {"amend", 1, k_any, "the record of the amendment and its documents", " store by why key format trust ",
+     amend_certificate},
+    {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
+    {"list", 0, 0, "nothing more", " store format ", list_certificates},
+    {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
+    {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
+    {"head", 0, 0, "nothing more", " store output sign ", write_head},
+    {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
+    {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
+    {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format ", replay},
+}};
+
+struct GivenOption {
+    const char* word;  ///< in Action::takes
+    const char* name;  ///< as it is typed
+    bool given;
+};
+
+void require_options(const Action& action, const ArchiveOptions& o) {
+    const std::array<GivenOption, 12> given = {{{"store", "--store", !o.store.empty()},
+                                                {"by", "--by", !o.by.empty()},
+                                                {"why", "--why", !o.why.empty()},
+                                                {"key", "--request-key", !o.request_key.empty()},
+                                                {"format", "--format", !o.format.empty()},
+                                                {"output", "--output", !o.output.empty()},
+                                                {"numbering", "--numbering", !o.numbering.empty()},
+                                                {"person", "--person", !o.persons.empty()},
+                                                {"four", "--no-four-eyes", o.one_pair_of_eyes},
+                                                {"head", "--head", !o.heads.empty()},
+                                                {"sign", "--sign", !o.sign.empty()},
+                                                {"trust", "--trust", !o.trust.empty()}}};
+    const auto takes = [&](const char* word) {
+        return action.takes.find(" " + std::string(word) + " ") != std::string_view::npos;
+    };
+    const std::string command = std::string("archive ") + action.name;
+    for (const GivenOption& option : given) {
+        if (option.given && !takes(option.word)) {
+            refuse_usage(command, std::string(option.name) + " says nothing here", "see gumcert archive --help",
+                         "leave it out");
+        }
+    }
+    if (o.named.size() < action.least || o.named.size() > action.most) {
+        refuse_usage(command, std::to_string(o.named.size()) + " names", std::string("takes ") + action.what,
+                     "see gumcert archive --help");
+    }
+    const bool of_files = std::string_view(action.name) == "verify" && !o.named.empty();
+    if (o.store.empty() != of_files) {
+        refuse_usage(command, o.store.empty() ? "--store is missing" : "--store and files of evidence",
+                     "an action has one archive; evidence is verified without any",
+                     o.store.empty() ? "name the file of the archive" : "leave one of them out");
+    }
+    if (takes("by") && o.by.empty()) {
+        refuse_usage(command, "--by is missing", "every entry of the log says who", "name the person who does this");
+    }
+    if (std::string_view(action.name) == "backup" && o.output.empty()) {
+        refuse_usage(command, "--output is missing", "a backup is a new file", "name it with -o");
+    }
+    if (std::string_view(action.name) == "withdraw" && o.why.empty()) {
+        refuse_usage(command, "--why is missing", "a certificate or number is withdrawn with a reason",
+                     "say why it is withdrawn");
+    }
+}
+
+}  // namespace
+
+ExitCode use_archive(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto* const action =
+        std::find_if(k_actions.begin(), k_actions.end(), [&](const Action& a) { return options.action == a.name; });
+    if (action == k_actions.end()) {
+        throw std::logic_error("an action that nothing does: " + options.action);
+    }
+    require_options(*action, options);
+    return action->work(options, common);
+}
+
+}  // namespace gumcert::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cli/terminal.h"
+
+namespace gumcert::cli {
+
+/// What `gumcert archive` may be told beside its action.
+struct ArchiveOptions {
+    std::string action;              ///< "init", "add" …
+    std::vector<std::string> named;  ///< numbers of certificates, or files
+    std::string store, by, why, request_key, format, output, numbering, sign, trust, share;
+    std::vector<std::string> heads, persons;
+    bool one_pair_of_eyes = false;
+};
+
+/// The actions, in the order of --help.
+[[nodiscard]] std::vector<std::string> archive_actions();
+
+/// `gumcert archive ACTION …`: certificates and their evidence, in a store that only grows.
+[[nodiscard]] ExitCode use_archive(const ArchiveOptions& options, const CommonOptions& common);
+
+}  // namespace gumcert::cli

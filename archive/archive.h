@@ -1,0 +1,104 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "archive/head.h"
+#include "archive/log_rules.h"
+#include "archive/settings.h"
+#include "archive/store/store.h"
+
+namespace gumcert::archive {
+
+/// Who asks for an entry, when and why.
+struct Request {
+    std::string actor;
+    std::string at;           ///< UTC, "2026-11-24T18:52:52Z"
+    std::string request_key;  ///< the same key gives the same entry: a client may ask again after a crash; "" without
+    std::string why;
+};
+
+/// A document that belongs to a record.
+struct Document {
+    std::string name;        ///< of its file
+    std::string media_type;  ///< "application/pdf"
+    std::string bytes;
+};
+
+/// Something that an amendment states otherwise than its original.
+struct AmendedPlace {
+    std::string kind, where, before, after;
+};
+
+/// A record with its documents, as it comes into the archive.
+struct Draft {
+    std::string number;  ///< of the certificate
+    std::string item;    ///< what was calibrated, for lists
+    std::string record;  ///< bytes
+    std::vector<Document> documents;
+    struct Amends {
+        std::string number, kind;  ///< of the original; "amended" or "replaced"
+        std::vector<AmendedPlace> changes;
+    };
+    std::optional<Amends> amends = {};
+};
+
+struct Written {
+    LogEntry entry;
+    bool repeated = false;  ///< the entry was there already, asked for with the same key
+};
+
+/// A certificate in a list.
+struct ListedCertificate {
+    std::string number, state, since, item, record;
+};
+
+/// First entry of an archive.
+/// \param software  that makes it, with its version
+/// \param nonce     some random text, by which two archives differ
+/// \throws gum::InputError  GC-ARCHIVE-0020, -0025
+[[nodiscard]] LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
+                                   const Request& request);
+
+/// An archive of certificates on some store. Each function that writes is one transaction; several programs may write at
+/// the same time.
+///
+/// \throws gum::InputError  where a rule of the log refuses it, GC-ARCHIVE-0020 to -0027, -0031, -0032; nothing is
+///                          written then
+class Archive {
+public:
+    explicit Archive(Store& store) : store_(store) {}
+
+    /// Takes the next certificate number; where it is not used in the end, it is withdrawn with a reason.
+    /// \return its entry names it
+    Written take_number(const Request& request);
+    Written draft(const Draft& draft, const Request& request);
+    /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
+    ///              amended or superseded, in one transaction.
+    Written advance(const std::string& certificate, const std::string& kind, const Request& request);
+    Written change_settings(const Settings& settings, const Request& request);
+    /// \param file  name of the copy
+    /// \param copy  head of the copy
+    Written note_backup(const std::string& file, const Head& copy, const Request& request);
+
+    [[nodiscard]] Settings settings();
+    /// \throws gum::InputError  GC-ARCHIVE-0026 where it is not in the archive
+    [[nodiscard]] CertificateLife life(const std::string& certificate);
+    [[nodiscard]] std::vector<LogEntry> history(const std::string& certificate);
+    [[nodiscard]] std::vector<ListedCertificate> list();
+    /// Bytes of the record that holds.
+    [[nodiscard]] std::string record_of(const std::string& certificate);
+    [[nodiscard]] Head head();
+
+private:
+    Store& store_;
+
+    [[nodiscard]] LogRules rules_for(const std::vector<std::string>& certificates, const std::string& series);
+    LogEntry append(LogRules& rules, LogEntry entry);
+    Written write(const LogEntry& wanted, const std::function<LogEntry()>& work);
+    void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);
+};
+
+}  // namespace gumcert::archive

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "archive/settings.h"
+#include "archive/store/entry.h"
+
+namespace gumcert::archive {
+
+/// A certificate as its entries tell it so far.
+struct CertificateLife {
+    std::string state;                   ///< kind of the newest entry that changed it: "issued"; "" before the first
+    std::string since;                   ///< time of that entry
+    std::string record;                  ///< SHA-256 of the record that holds; "" before one is there
+    std::vector<std::string> documents;  ///< SHA-256 of those that hold
+    std::set<std::string> authors;       ///< of all its drafts
+    std::string amends;                  ///< number of the certificate that it amends or replaces; "" else
+    std::string amendment_kind;          ///< "amended" or "replaced"; "" else
+    std::string later;                   ///< number of the certificate that amends or replaces it; "" else
+};
+
+/// A rule of the log that an entry breaks.
+struct Breach {
+    enum class Kind { form, order, life, four_eyes, role, number, amendment, settings };
+    Kind kind = Kind::form;
+    std::string what;  ///< what the entry has, in words
+    std::string rule;
+};
+
+/// The rules that one entry after the other obeys, whoever wrote it and however: life of a certificate, four eyes,
+/// roles, numbers, amendments, times. The writer asks them before it writes, and the verifier of every entry again.
+/// They know nothing of hashes. (docs/adr/0053-the-archive.md has all of them in words)
+class LogRules {
+public:
+    /// Takes an entry, where it breaks no rule.
+    [[nodiscard]] std::optional<Breach> accept(const LogEntry& entry);
+    /// Takes an entry that was accepted before: of a part of the log that is enough for the next one.
+    void take(const LogEntry& entry);
+
+    [[nodiscard]] const Settings& settings() const { return settings_; }
+    /// \return none where no entry named it
+    [[nodiscard]] const CertificateLife* life(const std::string& certificate) const;
+    [[nodiscard]] const std::map<std::string, CertificateLife>& lives() const { return lives_; }
+    /// The highest ordinal of a series that is taken; 0 where none is.
+    [[nodiscard]] long long last_ordinal(const std::string& series) const;
+    /// What must come next: "amended-by EX-1": an amendment that is issued, and the entry of the original is missing. ""
+    /// where anything may come.
+    [[nodiscard]] std::string due() const;
+
+private:
+    Settings settings_;
+    bool created_ = false;
+    std::string last_at_;
+    std::map<std::string, CertificateLife> lives_;
+    std::map<std::string, long long> ordinals_;
+    std::string due_kind_, due_certificate_, due_by_;
+
+    std::optional<Breach> breach_of(const LogEntry& entry, const nlohmann::json& body) const;
+    std::optional<Breach> breach_of_archive(const LogEntry& entry, const nlohmann::json& body) const;
+    std::optional<Breach> breach_of_life(const LogEntry& entry, const nlohmann::json& body) const;
+    std::optional<Breach> breach_of_draft(const LogEntry& entry, const nlohmann::json& body) const;
+    std::optional<Breach> breach_of_person(const LogEntry& entry) const;
+    void apply(const LogEntry& entry, const nlohmann::json& body);
+};
+
+/// Body of an entry as JSON; none where it is none, or not an object.
+[[nodiscard]] std::optional<nlohmann::json> body_of(const LogEntry& entry);
+/// A text of the body, such as "state" in its part "new"; "" where there is none.
+[[nodiscard]] std::string text_in(const nlohmann::json& body, const char* part, const char* key);
+/// SHA-256 of the documents that the body of a draft names.
+[[nodiscard]] std::vector<std::string> documents_in(const nlohmann::json& body);
+/// Kinds of entries that change the state of a certificate, in the order of its life.
+[[nodiscard]] const std::vector<std::string>& kinds_of_life();
+[[nodiscard]] bool is_of_life(std::string_view kind);
+/// What a person needs to be for an entry of a kind: "author" of "drafted".
+[[nodiscard]] std::string role_of(std::string_view kind);
+
+}  // namespace gumcert::archive

@@ -1,0 +1,89 @@
+#include "archive/store/merkle.h"
+
+#include <bit>
+#include <cstdint>
+
+#include "encoding/sha2.h"
+
+namespace gumcert::archive {
+
+namespace {
+
+std::string leaf_hash(const std::string& entry) {
+    return encoding::sha256_bytes(std::string(1, '\0') + entry);
+}
+
+std::string node_hash(const std::string& left, const std::string& right) {
+    return encoding::sha256_bytes('\x01' + left + right);
+}
+
+/// The largest power of two below n, which is at least 2.
+std::size_t left_part(std::size_t n) {
+    return std::bit_floor(n - 1);
+}
+
+/// Root of `count` leaves from `first` on.
+std::string subtree(const std::vector<std::string>& leaves, std::size_t first, std::size_t count) {
+    if (count == 1) {
+        return leaves[first];
+    }
+    const std::size_t left = left_part(count);
+    return node_hash(subtree(leaves, first, left), subtree(leaves, first + left, count - left));
+}
+
+}  // namespace
+
+void MerkleTree::add(const std::string& entry) {
+    leaves_.push_back(leaf_hash(entry));
+}
+
+std::string MerkleTree::root(std::size_t size) const {
+    return size == 0 ? encoding::sha256_bytes("") : subtree(leaves_, 0, size);
+}
+
+std::vector<std::string> MerkleTree::inclusion_proof(std::size_t index, std::size_t size) const {
+    std::vector<std::string> from_the_top;
+    std::size_t first = 0;
+    while (size > 1) {
+        const std::size_t left = left_part(size);
+        if (index < left) {
+            from_the_top.push_back(subtree(leaves_, first + left, size - left));
+            size = left;
+        } else {
+            from_the_top.push_back(subtree(leaves_, first, left));
+            first += left;
+            index -= left;
+            size -= left;
+        }
+    }
+    return {from_the_top.rbegin(), from_the_top.rend()};
+}
+
+std::optional<std::string> root_of_proof(const std::string& entry, std::size_t index, std::size_t size,
+                                         const std::vector<std::string>& proof) {
+    if (index >= size) {
+        return std::nullopt;
+    }
+    std::size_t node = index;
+    std::size_t last = size - 1;
+    std::string root = leaf_hash(entry);
+    for (const std::string& beside : proof) {
+        if (last == 0) {
+            return std::nullopt;
+        }
+        if (node % 2 == 1 || node == last) {
+            root = node_hash(beside, root);
+            while (node % 2 == 0 && node != 0) {
+                node /= 2;
+                last /= 2;
+            }
+        } else {
+            root = node_hash(root, beside);
+        }
+        node /= 2;
+        last /= 2;
+    }
+    return last == 0 ? std::optional(root) : std::nullopt;
+}
+
+}  // namespace gumcert::archive

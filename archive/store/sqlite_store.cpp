@@ -1,0 +1,341 @@
+#include "archive/store/sqlite_store.h"
+
+#include <sqlite3.h>
+#include <sys/vfs.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "archive/store/sqlite_schema.h"
+#include "archive/store/sqlite_statement.h"
+#include "encoding/sha2.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::archive {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int k_patience_ms = 60'000;
+constexpr const char* k_entry_columns = "seq, at, actor, kind, certificate, record, request_key, body, prev, hash";
+
+[[noreturn]] void refuse_store(const char* code, const fs::path& file, std::string what, const char* rule,
+                               const char* action) {
+    throw gum::StorageError(
+        gum::Diagnostic{.code = code, .where = file.string(), .what = std::move(what), .rule = rule, .action = action});
+}
+
+LogEntry entry_of(const Statement& row) {
+    return {.seq = row.integer_column(0),
+            .at = row.column(1),
+            .actor = row.column(2),
+            .kind = row.column(3),
+            .certificate = row.column(4),
+            .record = row.column(5),
+            .request_key = row.column(6),
+            .body = row.column(7),
+            .prev = row.column(8),
+            .hash = row.column(9)};
+}
+
+std::string select_entries(const char* rest) {
+    return std::string("SELECT ") + k_entry_columns + " FROM log " + rest;
+}
+
+Database open_database(const fs::path& file, int flags) {
+    sqlite3* opened = nullptr;
+    const int result = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_EXRESCODE, nullptr);
+    Database database(opened);
+    if (result != SQLITE_OK) {
+        refuse_sqlite(database.get(), result, file.string());
+    }
+    (void)sqlite3_busy_timeout(database.get(), k_patience_ms);
+    (void)sqlite3_db_config(database.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    return database;
+}
+
+std::string pragma(sqlite3* database, const std::string& name, const std::string& store) {
+    Statement statement(database, "PRAGMA " + name, store);
+    return statement.next() ? statement.column(0) : "";
+}
+
+struct Setting {
+    const char* name;
+    const char* value;      // as it is written
+    const char* read_back;  // as SQLite tells it
+};
+
+constexpr std::array<Setting, 4> k_settings_of_readers = {{{"foreign_keys", "ON", "1"},
+                                                           {"recursive_triggers", "ON", "1"},
+                                                           {"trusted_schema", "OFF", "0"},
+                                                           {"cell_size_check", "ON", "1"}}};
+constexpr std::array<Setting, 2> k_settings_of_writers = {
+    {{"journal_mode", "WAL", "wal"}, {"synchronous", "FULL", "2"}}};
+
+void set(sqlite3* database, const Setting& setting, const fs::path& file) {
+    const std::string name = setting.name;
+    (void)pragma(database, name + " = " + setting.value, file.string());
+    if (const std::string now = pragma(database, name, file.string()); now != setting.read_back) {
+        refuse_store("GC-ARCHIVE-0009", file, name + " is " + now,
+                     "an archive is written with settings that survive a power cut",
+                     "keep the archive on a disk of this machine, and see docs/archive.md");
+    }
+}
+
+void prepare(sqlite3* database, const fs::path& file, Access access) {
+    for (const Setting& setting : k_settings_of_readers) {
+        set(database, setting, file);
+    }
+    if (access == Access::read_and_write) {
+        for (const Setting& setting : k_settings_of_writers) {
+            set(database, setting, file);
+        }
+    }
+}
+
+/// The write-ahead log needs memory that all writers share: they run on one machine.
+void refuse_network_share(const fs::path& folder) {
+    constexpr std::array<unsigned long, 4> k_network = {0x6969UL, 0x517BUL, 0xFF534D42UL, 0xFE534D42UL};  // NFS, SMB
+    struct statfs found {};
+    if (statfs(folder.empty() ? "." : folder.c_str(), &found) != 0) {
+        return;  // a folder that is not there: opening says it
+    }
+    const auto type = static_cast<unsigned long>(found.f_type) & 0xFFFFFFFFUL;
+    if (std::find(k_network.begin(), k_network.end(), type) != k_network.end()) {
+        refuse_store("GC-ARCHIVE-0010", folder, "lies on a network share",
+                     "an archive lies on a disk of the machine that writes it",
+                     "choose a folder of this machine, and copy backups to the share");
+    }
+}
+
+std::vector<std::string> schema_lines(sqlite3* database, const std::string& name) {
+    std::vector<std::string> lines;
+    Statement rows(database, "SELECT type, name, sql FROM sqlite_schema", name);
+    while (rows.next()) {
+        lines.push_back(rows.column(0) + '\t' + rows.column(1) + '\t' + rows.column(2));
+    }
+    std::sort(lines.begin(), lines.end());
+    return lines;
+}
+
+class SqliteStore : public Store {
+public:
+    SqliteStore(fs::path file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
+
+    [[nodiscard]] std::string name() const override { return file_.string(); }
+
+    void read(const std::function<void()>& work) override { transact("BEGIN", work); }
+    void write(const std::function<void()>& work) override { transact("BEGIN IMMEDIATE", work); }
+
+    void append(const LogEntry& e) override {
+        Statement insert = statement("INSERT INTO log VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
+        insert.integer(e.seq).text(e.at).text(e.actor).text(e.kind).text(e.certificate);
+        if (e.record.empty()) {
+            insert.null();
+        } else {
+            insert.text(e.record);
+        }
+        insert.text(e.request_key).text(e.body).bytes(e.prev).bytes(e.hash).run();
+    }
+
+    void put(const Content& content) override {
+        Statement insert = statement("INSERT INTO content VALUES(?1, ?2)");
+        insert.text(content.sha256).bytes(content.bytes).run();
+    }
+
+    [[nodiscard]] bool has(const std::string& sha256) override {
+        Statement row = statement("SELECT 1 FROM content WHERE sha256 = ?1");
+        return row.text(sha256).next();
+    }
+
+    [[nodiscard]] std::optional<std::string> content(const std::string& sha256) override {
+        Statement row = statement("SELECT bytes FROM content WHERE sha256 = ?1");
+        return row.text(sha256).next() ? std::optional(row.column(0)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<LogEntry> last_entry() override {
+        Statement row = statement(select_entries("ORDER BY seq DESC LIMIT 1"));
+        return row.next() ? std::optional(entry_of(row)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<LogEntry> entry_of_request(const std::string& request_key) override {
+        Statement row = statement(select_entries("WHERE request_key = ?1 AND request_key <> ''"));
+        return row.text(request_key).next() ? std::optional(entry_of(row)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::vector<LogEntry> entries_of(const std::string& certificate) override {
+        std::vector<LogEntry> entries;
+        Statement rows = statement(select_entries("WHERE certificate = ?1 ORDER BY seq"));
+        rows.text(certificate);
+        while (rows.next()) {
+            entries.push_back(entry_of(rows));
+        }
+        return entries;
+    }
+
+    void entries_of_kind(const std::string& kind, const std::function<bool(const LogEntry&)>& more) override {
+        Statement rows = statement(select_entries("WHERE kind = ?1 ORDER BY seq DESC"));
+        rows.text(kind);
+        while (rows.next() && more(entry_of(rows))) {
+        }
+    }
+
+    [[nodiscard]] std::vector<LogEntry> newest_entries(const std::vector<std::string>& kinds) override {
+        std::string list;
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            list += (i == 0 ? "?" : ", ?") + std::to_string(i + 1);
+        }
+        Statement rows = statement(select_entries(("WHERE seq IN (SELECT max(seq) FROM log WHERE certificate <> '' AND "
+                                                   "kind IN (" +
+                                                   list + ") GROUP BY certificate) ORDER BY certificate")
+                                                      .c_str()));
+        for (const std::string& kind : kinds) {
+            rows.text(kind);
+        }
+        std::vector<LogEntry> entries;
+        while (rows.next()) {
+            entries.push_back(entry_of(rows));
+        }
+        return entries;
+    }
+
+    void each_entry(const std::function<void(const LogEntry&)>& visit) override {
+        Statement rows = statement(select_entries("NOT INDEXED ORDER BY seq"));
+        while (rows.next()) {
+            visit(entry_of(rows));
+        }
+    }
+
+    void each_content(const std::function<void(const Content&)>& visit) override {
+        Statement rows = statement("SELECT sha256, bytes FROM content NOT INDEXED");
+        while (rows.next()) {
+            visit({rows.column(0), rows.column(1)});
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> own_problems() override;
+    void copy_to(const fs::path& file) override;
+
+private:
+    fs::path file_;
+    Database database_;
+
+    [[nodiscard]] Statement statement(std::string_view sql) { return {database_.get(), sql, name()}; }
+
+    void transact(const char* begin, const std::function<void()>& work) {
+        execute(database_.get(), begin, name());
+        try {
+            work();
+            execute(database_.get(), "COMMIT", name());
+        } catch (...) {
+            // Some troubles have rolled back already; what counts is why, and that is thrown.
+            (void)sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+            throw;
+        }
+    }
+};
+
+std::vector<std::string> SqliteStore::own_problems() {
+    std::vector<std::string> problems;
+    Statement integrity = statement("PRAGMA integrity_check(20)");
+    while (integrity.next()) {
+        if (const std::string line = integrity.column(0); line != "ok") {
+            problems.push_back("SQLite finds: " + line);
+        }
+    }
+    Statement keys = statement("PRAGMA foreign_key_check");
+    while (keys.next()) {
+        problems.push_back("a row of " + keys.column(0) + " names a content that is not there");
+    }
+    std::string lines;
+    for (const std::string& line : schema_lines(database_.get(), name())) {
+        lines += (lines.empty() ? "" : "\n") + line;
+    }
+    if (encoding::sha256(lines) != schema_digest()) {
+        problems.emplace_back("tables, indices or triggers are not those of an archive");
+    }
+    return problems;
+}
+
+void SqliteStore::copy_to(const fs::path& file) {
+    const Database copy = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    sqlite3_backup* const backup = sqlite3_backup_init(copy.get(), "main", database_.get(), "main");
+    if (backup == nullptr) {
+        refuse_sqlite(copy.get(), sqlite3_errcode(copy.get()), file.string());
+    }
+    // In one step: with several, every write of somebody else would begin the copy anew.
+    const int stepped = sqlite3_backup_step(backup, -1);
+    const int finished = sqlite3_backup_finish(backup);
+    if (stepped != SQLITE_DONE || finished != SQLITE_OK) {
+        refuse_sqlite(copy.get(), stepped != SQLITE_DONE ? stepped : finished, file.string());
+    }
+    // One file that can be read from a disc that nobody writes.
+    (void)pragma(copy.get(), "journal_mode = DELETE", file.string());
+}
+
+void require_archive(sqlite3* database, const fs::path& file) {
+    constexpr const char* rule = "an archive of gumcert has its mark and a version that this program knows";
+    if (pragma(database, "application_id", file.string()) != std::to_string(k_application_id)) {
+        refuse_store("GC-ARCHIVE-0003", file, "is a SQLite file of something else", rule, "check the name");
+    }
+    if (const std::string version = pragma(database, "user_version", file.string());
+        version != std::to_string(k_schema_version)) {
+        refuse_store("GC-ARCHIVE-0003", file, "has version " + version + " of the tables", rule,
+                     "use the version of gumcert that made it, or a later one");
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first) {
+    std::error_code error;
+    if (fs::exists(file, error) || error) {
+        refuse_store("GC-ARCHIVE-0002", file, error ? error.message() : "is there already",
+                     "an archive is begun in a new file", "choose another name");
+    }
+    refuse_network_share(file.parent_path());
+    Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    prepare(database.get(), file, Access::read_and_write);
+    sqlite3* const raw = database.get();
+    auto store = std::make_unique<SqliteStore>(file, std::move(database));
+    store->write([&] {
+        if (pragma(raw, "user_version", file.string()) != "0") {  // somebody else was faster
+            refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
+                         "choose another name");
+        }
+        execute(raw, k_schema, file.string());
+        (void)pragma(raw, "application_id = " + std::to_string(k_application_id), file.string());
+        (void)pragma(raw, "user_version = " + std::to_string(k_schema_version), file.string());
+        store->append(first);
+    });
+    return store;
+}
+
+std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) {
+        refuse_store("GC-ARCHIVE-0001", file, "there is no such file", "an archive is begun before it is used",
+                     "check the name, or begin one with gumcert archive init");
+    }
+    refuse_network_share(file.parent_path());
+    Database database = open_database(file, access == Access::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
+    require_archive(database.get(), file);
+    prepare(database.get(), file, access);
+    return std::make_unique<SqliteStore>(file, std::move(database));
+}
+
+std::string schema_digest() {
+    const Database database = open_database(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    execute(database.get(), k_schema, ":memory:");
+    std::string lines;
+    for (const std::string& line : schema_lines(database.get(), ":memory:")) {
+        lines += (lines.empty() ? "" : "\n") + line;
+    }
+    return encoding::sha256(lines);
+}
+
+}  // namespace gumcert::archive

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "archive/store/entry.h"
+#include "archive/store/store.h"
+
+namespace gumcert::archive {
+
+enum class Access { read_only, read_and_write };
+
+/// A new archive in one file of SQLite, with its first entry.
+/// \throws gum::StorageError  GC-ARCHIVE-0002 where the file is there already, -0010 on a network share, and others
+[[nodiscard]] std::unique_ptr<Store> create_sqlite_store(const std::filesystem::path& file, const LogEntry& first);
+
+/// An archive that is there. Writing is durable when Store::write() returns: write-ahead log, synchronous = FULL, each
+/// setting read back before it is relied on.
+/// \throws gum::StorageError  GC-ARCHIVE-0001 where there is no file, -0003 where it is no archive or one of a later
+///                            program, -0009 where a setting did not take, and others
+[[nodiscard]] std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file, Access access);
+
+/// SHA-256 of the tables, indices and triggers that a store of this version has, hexadecimal: lines
+/// "type TAB name TAB sql", sorted, with LF between them.
+[[nodiscard]] std::string schema_digest();
+
+}  // namespace gumcert::archive

@@ -1,0 +1,177 @@
+#include "archive/verification.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "archive/log_rules.h"
+#include "archive/store/merkle.h"
+#include "encoding/sha2.h"
+
+namespace gumcert::archive {
+
+namespace {
+
+constexpr std::size_t k_between_reports = 4096;
+
+std::string entry_name(std::int64_t seq) {
+    return "entry " + std::to_string(seq);
+}
+
+class StoreVerifier {
+public:
+    StoreVerifier(Store& store, const std::function<void(const std::string&)>& progress)
+        : store_(store), progress_(progress) {}
+
+    Verification verify(const std::vector<Head>& heads) {
+        store_.read([&] {
+            for (const std::string& problem : store_.own_problems()) {
+                add("GC-ARCHIVE-0046", store_.name(), problem, "the file of an archive is as gumcert made it",
+                    "keep the file as it is, and restore the newest backup that can be verified");
+            }
+            store_.each_entry([&](const LogEntry& entry) { look_at(entry); });
+            if (const std::string due = rules_.due(); !due.empty()) {
+                add("GC-ARCHIVE-0043", "the end of the log", "\"" + due + "\" is missing",
+                    "an amendment is issued together with the entry of its original",
+                    "something was removed: compare with a backup");
+            }
+            store_.each_content([&](const Content& content) { look_at(content); });
+            for (const auto& [sha256, seq] : needed_) {
+                if (!kept_.contains(sha256)) {
+                    add("GC-ARCHIVE-0044", entry_name(seq), "the content " + sha256 + " is not there",
+                        "records and documents that the log names are kept",
+                        "restore it from a backup, or from whoever received it");
+                }
+            }
+            for (const Head& head : heads) {
+                compare_with(head);
+            }
+        });
+        found_.entries = tree_.size();
+        found_.contents = kept_.size();
+        found_.certificates = rules_.lives().size();
+        if (tree_.size() > 0) {
+            head_.size = static_cast<std::int64_t>(tree_.size());
+            head_.root = tree_.root();
+            found_.head = head_;
+        } else {
+            add("GC-ARCHIVE-0042", store_.name(), "the log is empty", "the log has the entries 1, 2, 3 … without gaps",
+                "restore the newest backup that can be verified");
+        }
+        if (left_out_ > 0) {
+            found_.findings.push_back({.code = "GC-ARCHIVE-0043",
+                                       .where = store_.name(),
+                                       .what = std::to_string(left_out_) + " more findings",
+                                       .rule = "the first " + std::to_string(k_most_findings) + " are listed",
+                                       .action = "restore the newest backup that can be verified"});
+        }
+        return std::move(found_);
+    }
+
+private:
+    Store& store_;
+    const std::function<void(const std::string&)>& progress_;
+    Verification found_;
+    std::size_t left_out_ = 0;
+    LogRules rules_;
+    MerkleTree tree_;
+    Head head_;
+    std::vector<std::pair<std::string, std::string>> chains_;  // hash and time of every entry
+    std::set<std::string> keys_;
+    std::map<std::string, std::int64_t> needed_;  // content → entry that names it
+    std::set<std::string> kept_;
+
+    void add(const char* code, std::string where, std::string what, std::string rule, std::string action) {
+        if (found_.findings.size() >= k_most_findings) {
+            ++left_out_;
+            return;
+        }
+        found_.findings.push_back({.code = code,
+                                   .where = std::move(where),
+                                   .what = std::move(what),
+                                   .rule = std::move(rule),
+                                   .action = std::move(action)});
+    }
+
+    void look_at(const LogEntry& entry) {
+        const std::string where = entry_name(entry.seq);
+        const std::string expected_prev = tree_.size() == 0 ? std::string(32, '\0') : head_.chain;
+        if (entry.seq != static_cast<std::int64_t>(tree_.size()) + 1) {
+            add("GC-ARCHIVE-0042", where, "stands where entry " + std::to_string(tree_.size() + 1) + " belongs",
+                "the log has the entries 1, 2, 3 … without gaps", "compare with a backup what was removed or added");
+        }
+        if (entry.prev != expected_prev) {
+            add("GC-ARCHIVE-0041", where, "does not follow the entry before it",
+                "an entry holds the hash of the one before", "compare with a backup what was removed or added");
+        }
+        if (entry_hash(entry) != entry.hash) {
+            add("GC-ARCHIVE-0040", where, "its fields give another hash than the one it has",
+                "an entry is as it was when it was written", "compare with a backup what was changed");
+        }
+        if (const std::optional<Breach> breach = rules_.accept(entry)) {
+            add("GC-ARCHIVE-0043", where, breach->what, breach->rule,
+                "find out who wrote this entry, and with which program");
+            rules_.take(entry);
+        }
+        if (!entry.request_key.empty() && !keys_.insert(entry.request_key).second) {
+            add("GC-ARCHIVE-0043", where, "its key \"" + entry.request_key + "\" was used before",
+                "a key belongs to one request", "find out who wrote this entry, and with which program");
+        }
+        if (entry.kind == "drafted") {
+            needed_.emplace(entry.record, entry.seq);
+            for (const std::string& sha256 : documents_in(body_of(entry).value_or(nlohmann::json::object()))) {
+                needed_.emplace(sha256, entry.seq);
+            }
+        }
+        if (tree_.size() == 0) {
+            head_.archive = entry.hash;
+        }
+        head_.chain = entry.hash;
+        head_.at = entry.at;
+        tree_.add(entry.hash);
+        chains_.emplace_back(entry.hash, entry.at);
+        if (progress_ && tree_.size() % k_between_reports == 0) {
+            progress_(std::to_string(tree_.size()) + " entries");
+        }
+    }
+
+    void look_at(const Content& content) {
+        if (encoding::sha256(content.bytes) != content.sha256) {
+            add("GC-ARCHIVE-0044", "content " + content.sha256, "its bytes have another hash",
+                "a content is found by the hash of its bytes", "restore it from a backup");
+        } else if (!needed_.contains(content.sha256)) {
+            add("GC-ARCHIVE-0044", "content " + content.sha256, "no entry of the log names it",
+                "the archive holds what its log names", "find out who put it there");
+        }
+        kept_.insert(content.sha256);
+        if (progress_ && kept_.size() % k_between_reports == 0) {
+            progress_(std::to_string(kept_.size()) + " contents");
+        }
+    }
+
+    void compare_with(const Head& head) {
+        const std::string where = "head of " + std::to_string(head.size) + " entries, " + head.at;
+        const char* const rule = "an archive begins with what its earlier heads say";
+        const char* const action =
+            "the log was cut off, rewritten, or belongs to another archive: compare with a backup";
+        if (tree_.size() == 0 || head.archive != head_.archive) {
+            add("GC-ARCHIVE-0045", where, "is one of another archive", rule, action);
+        } else if (head.size < 1 || static_cast<std::size_t>(head.size) > tree_.size()) {
+            add("GC-ARCHIVE-0045", where, "the archive has " + std::to_string(tree_.size()) + " entries", rule, action);
+        } else if (const auto& [chain, at] = chains_[static_cast<std::size_t>(head.size) - 1];
+                   tree_.root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||
+                   at != head.at) {
+            add("GC-ARCHIVE-0045", where, "the entries of the archive up to there are others", rule, action);
+        }
+    }
+};
+
+}  // namespace
+
+Verification verify_store(Store& store, const std::vector<Head>& heads,
+                          const std::function<void(const std::string&)>& progress) {
+    return StoreVerifier(store, progress).verify(heads);
+}
+
+}  // namespace gumcert::archive

@@ -1,0 +1,354 @@
+// The archive as a laboratory uses it: from the record to the issued certificate, its amendment, its evidence.
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "tests/cli/job_files.h"
+#include "tests/cli/program.h"
+
+namespace gumcert::cli {
+namespace {
+
+using nlohmann::json;
+
+bool tells(const Ended& ended, const std::string& part) {
+    return (ended.out + ended.err).find(part) != std::string::npos;
+}
+
+class ArchiveOfALaboratory : public ProgramTest {
+protected:
+    ArchiveOfALaboratory() {
+        fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "certificate", folder(),
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    }
+    [[nodiscard]] std::string path(const char* name) const { return (folder() / name).string(); }
+    [[nodiscard]] std::string store() const { return path("lab.archive"); }
+
+    /// `gumcert archive` on the store of the test.
+    Ended archive(std::vector<std::string> words, const std::string& by = "") const {
+        words.insert(words.begin(), "archive");
+        words.insert(words.end(), {"--store", store(), "--share", GUMCERT_SOURCE_DIR});
+        if (!by.empty()) {
+            words.insert(words.end(), {"--by", by});
+        }
+        return gumcert(words);
+    }
+    void begin(std::vector<std::string> more = {}) const {
+        more.insert(more.begin(), "init");
+        const Ended ended = archive(more, "K. Keeper");
+        ASSERT_EQ(ended.code, 0) << ended.err;
+    }
+    /// Record, digital certificate and HTML of the job as it stands, under a name.
+    void evaluate(const std::string& name) const {
+        const std::string record = path((name + ".json").c_str());
+        Ended ended = gumcert({"evaluate", path("end_gauge.json"), "-o", record, "--share", GUMCERT_SOURCE_DIR, "-q"});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        for (const auto& [form, ending] : {std::pair("dcc", ".xml"), std::pair("html", ".html")}) {
+            ended = gumcert({"render", record, "--format", form, "-o", path((name + ending).c_str()), "--share",
+                             GUMCERT_SOURCE_DIR, "-q"});
+            ASSERT_EQ(ended.code, 0) << ended.err;
+        }
+    }
+    [[nodiscard]] std::vector<std::string> files(const std::string& action, const std::string& name) const {
+        return {action, path((name + ".json").c_str()), path((name + ".xml").c_str()), path((name + ".html").c_str())};
+    }
+    void change_certificate(const std::function<void(json&)>& change) const {
+        change_json(folder() / "end_gauge_certificate.json", change);
+    }
+    void lead_to_issue(const std::string& number) const {
+        for (const char* const action : {"review", "authorise", "issue"}) {
+            const Ended ended = archive({action, number}, "M. Weber");
+            ASSERT_EQ(ended.code, 0) << ended.err;
+        }
+    }
+    void issue_the_example() const {
+        begin();
+        evaluate("first");
+        const Ended added = archive(files("add", "first"), "R. Lin");
+        ASSERT_EQ(added.code, 0) << added.err;
+        lead_to_issue("EX-2026-0042");
+    }
+    [[nodiscard]] json shown(std::vector<std::string> words) const {
+        words.insert(words.end(), {"--format", "json"});
+        const Ended ended = archive(words);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return json::parse(ended.out, nullptr, false);
+    }
+    /// The second verifier.
+    [[nodiscard]] Ended verified_elsewhere(std::vector<std::string> words) const {
+        words.insert(words.begin(), {"-B", (fs::path(GUMCERT_SOURCE_DIR) / "tools" / "verify_archive.py").string()});
+        return run_process("/usr/bin/python3", words, {}, folder());
+    }
+};
+
+TEST_F(ArchiveOfALaboratory, LeadsFromTheRecordToTheIssuedCertificate) {
+    issue_the_example();
+    const json list = shown({"list"});
+    ASSERT_EQ(list["certificates"].size(), 1U);
+    EXPECT_EQ(list["certificates"][0]["state"], "issued");
+    EXPECT_NE(archive({"list"}).out.find("EX-2026-0042              issued"), std::string::npos);
+    const json one = shown({"show", "EX-2026-0042"});
+    EXPECT_EQ(one["documents"].size(), 2U);
+    EXPECT_EQ(one["entries"].size(), 4U);
+    EXPECT_EQ(one["entries"][0]["by"], "R. Lin");
+    EXPECT_EQ(one["entries"][3]["body"]["old"]["state"], "authorised");
+    EXPECT_TRUE(tells(archive({"show", "EX-2026-0042"}), "authorised  M. Weber"));
+    const Ended verified = archive({"verify"});
+    EXPECT_EQ(verified.code, 0) << verified.err;
+    EXPECT_TRUE(tells(verified, "sound; 5 entries, 3 contents, 1 certificates"));
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+}
+
+TEST_F(ArchiveOfALaboratory, SaysThatThereIsNone) {
+    for (const char* const action : {"list", "verify", "head", "replay"}) {
+        const Ended ended = archive({action});
+        EXPECT_EQ(ended.code, 5) << action;
+        EXPECT_TRUE(tells(ended, "[GC-ARCHIVE-0001]")) << ended.err;
+    }
+    EXPECT_FALSE(fs::exists(store()));
+    begin();
+    EXPECT_TRUE(tells(archive({"init"}, "K. Keeper"), "[GC-ARCHIVE-0002]"));
+}
+
+TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
+    begin();
+    const std::vector<std::vector<std::string>> wrong = {
+        {"archive"},
+        {"archive", "burn", "--store", store()},
+        {"archive", "list"},
+        {"archive", "list", "EX-1", "--store", store()},
+        {"archive", "list", "--store", store(), "--by", "R. Lin"},
+        {"archive", "issue", "EX-1", "--store", store()},
+        {"archive", "add", "--store", store(), "--by", "R. Lin"},
+        {"archive", "withdraw", "EX-1", "--store", store(), "--by", "R. Lin"},
+        {"archive", "backup", "--store", store(), "--by", "R. Lin"},
+        {"archive", "verify"},
+        {"archive", "verify", "evidence.json", "--store", store()},
+        {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin"},
+        {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin=boss"}};
+    for (const std::vector<std::string>& words : wrong) {
+        const Ended ended = gumcert(words);
+        EXPECT_EQ(ended.code, 2) << words.back() << ": " << ended.err;
+    }
+    EXPECT_FALSE(fs::exists(path("b.archive")));
+    EXPECT_EQ(archive({"init", "--numbering", "EX"}, "K. Keeper").code, 3);
+}
+
+TEST_F(ArchiveOfALaboratory, RefusesWhatCheckWouldRefuse) {
+    begin();
+    evaluate("first");
+    const json before = shown({"verify"});
+    const std::string record = bytes_of(folder() / "first.json");
+    std::string spoiled = record;
+    spoiled.replace(spoiled.find("\"printed\""), 9, "\"prinfed\"");
+    write_bytes(folder() / "first.json", spoiled);
+    EXPECT_EQ(archive(files("add", "first"), "R. Lin").code, 3);
+    write_bytes(folder() / "first.json", record);
+
+    const std::string xml = bytes_of(folder() / "first.xml");
+    std::string other = xml;
+    for (std::size_t at = other.find("EX-2026-0042"); at != std::string::npos; at = other.find("EX-2026-0042", at)) {
+        other.replace(at, 12, "EX-2026-0043");
+    }
+    write_bytes(folder() / "first.xml", other);
+    const Ended ended = archive(files("add", "first"), "R. Lin");
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_TRUE(tells(ended, "[GC-ARCHIVE-0029]")) << ended.err;
+    write_bytes(folder() / "first.xml", xml.substr(0, xml.size() / 2));
+    EXPECT_EQ(archive(files("add", "first"), "R. Lin").code, 3);
+    write_bytes(folder() / "first.xml", "plain text");
+    EXPECT_TRUE(tells(archive(files("add", "first"), "R. Lin"), "[GC-ARCHIVE-0029]"));
+    EXPECT_EQ(shown({"verify"}), before) << "nothing was kept of what was refused";
+}
+
+TEST_F(ArchiveOfALaboratory, TakesARecordOfACertificateOnly) {
+    begin();
+    change_json(folder() / "end_gauge.json", [](json& job) { job.erase("certificate"); });
+    const Ended made =
+        gumcert({"evaluate", path("end_gauge.json"), "-o", path("plain.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_TRUE(tells(archive({"add", path("plain.json")}, "R. Lin"), "[GC-ARCHIVE-0028]"));
+}
+
+TEST_F(ArchiveOfALaboratory, IssuesNoSpecimen) {
+    begin();
+    change_certificate([](json& c) { c["status"] = "specimen"; });
+    const Ended made =
+        gumcert({"evaluate", path("end_gauge.json"), "-o", path("s.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_LE(made.code, 1) << made.err;
+    ASSERT_EQ(archive({"add", path("s.json")}, "R. Lin").code, 0);
+    EXPECT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
+    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, "M. Weber").code, 0);
+    EXPECT_TRUE(tells(archive({"issue", "EX-2026-0042"}, "M. Weber"), "[GC-ARCHIVE-0030]"));
+    EXPECT_EQ(shown({"show", "EX-2026-0042"})["state"], "authorised");
+}
+
+TEST_F(ArchiveOfALaboratory, KeepsFourEyesAndRoles) {
+    begin({"--person", "R. Lin=author,reviewer", "--person", "M. Weber=reviewer"});
+    evaluate("first");
+    EXPECT_TRUE(tells(archive(files("add", "first"), "M. Weber"), "[GC-ARCHIVE-0023]"));
+    EXPECT_EQ(archive(files("add", "first"), "R. Lin").code, 0);
+    EXPECT_TRUE(tells(archive({"review", "EX-2026-0042"}, "R. Lin"), "[GC-ARCHIVE-0022]"));
+    EXPECT_TRUE(tells(archive({"issue", "EX-2026-0042"}, "M. Weber"), "[GC-ARCHIVE-0021]"));
+    EXPECT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
+}
+
+TEST_F(ArchiveOfALaboratory, GivesNumbersAndAnswersTheSameRequestOnce) {
+    begin({"--numbering", "EX-YYYY-####"});
+    const Ended first = archive({"number", "--request-key", "order 17", "--format", "json"}, "R. Lin");
+    const Ended again = archive({"number", "--request-key", "order 17", "--format", "json"}, "R. Lin");
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(json::parse(first.out)["certificate"], json::parse(again.out)["certificate"]);
+    EXPECT_EQ(json::parse(again.out)["repeated"], true);
+    evaluate("first");
+    EXPECT_TRUE(tells(archive(files("add", "first"), "R. Lin"), "[GC-ARCHIVE-0024]")) << "EX-2026-0042 was not taken";
+    const std::string number = json::parse(first.out)["certificate"];
+    EXPECT_EQ(number.substr(number.size() - 5), "-0001");
+    EXPECT_EQ(archive({"withdraw", number, "--why", "the customer took the item back"}, "M. Weber").code, 0);
+    EXPECT_EQ(shown({"show", number})["state"], "withdrawn");
+}
+
+TEST_F(ArchiveOfALaboratory, AmendsACertificate) {
+    issue_the_example();
+    fs::copy_file(folder() / "first.json", folder() / "original.json");
+    const auto amend = [](json& c) {
+        c["number"] = "EX-2026-0042/A1";
+        c["amendment"] = {{"kind", "replaced"},
+                          {"number", "EX-2026-0042"},
+                          {"reason", "The serial number was written wrongly."},
+                          {"changes", {"serial number"}},
+                          {"record", "original.json"}};
+        c["item"]["serial_number"] = "SN-1007";
+    };
+    change_certificate(amend);
+    evaluate("second");
+    EXPECT_EQ(archive(files("add", "second"), "R. Lin").code, 2) << "an amendment comes in by amend";
+    const Ended ended = archive(files("amend", "second"), "R. Lin");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const json draft = shown({"show", "EX-2026-0042/A1"})["entries"][0]["body"];
+    EXPECT_EQ(draft["why"], "The serial number was written wrongly.");
+    ASSERT_EQ(draft["amends"]["changes"].size(), 1U);
+    EXPECT_EQ(draft["amends"]["changes"][0]["where"], "/item/serial_number");
+    EXPECT_EQ(draft["amends"]["changes"][0]["after"], "SN-1007");
+    EXPECT_EQ(shown({"show", "EX-2026-0042"})["state"], "issued") << "until the amendment is issued";
+    lead_to_issue("EX-2026-0042/A1");
+    EXPECT_EQ(shown({"show", "EX-2026-0042"})["state"], "superseded");
+    EXPECT_EQ(shown({"show", "EX-2026-0042"})["amended_by"], "EX-2026-0042/A1");
+
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("old.json")}).code, 0);
+    const Ended told = gumcert({"archive", "verify", path("old.json")});
+    EXPECT_EQ(told.code, 0) << told.err;
+    EXPECT_TRUE(tells(told, "superseded, see EX-2026-0042/A1"));
+    EXPECT_TRUE(tells(verified_elsewhere({path("old.json")}), "superseded, see EX-2026-0042/A1"));
+    EXPECT_TRUE(tells(archive(files("amend", "second"), "R. Lin"), "[GC-ARCHIVE-0021]")) << "it is issued already";
+}
+
+TEST_F(ArchiveOfALaboratory, ComparesAnAmendmentWithWhatWasIssued) {
+    issue_the_example();
+    change_certificate([](json& c) { c["item"]["serial_number"] = "SN-1003"; });
+    evaluate("original");  // somebody keeps another record of the same number
+    change_certificate([](json& c) {
+        c["number"] = "EX-2026-0042/A1";
+        c["amendment"] = {{"kind", "amended"},
+                          {"number", "EX-2026-0042"},
+                          {"reason", "The serial number was written wrongly."},
+                          {"changes", {"serial number"}},
+                          {"record", "original.json"}};
+        c["item"]["serial_number"] = "SN-1007";
+    });
+    evaluate("second");
+    EXPECT_TRUE(tells(archive(files("amend", "second"), "R. Lin"), "[GC-ARCHIVE-0035]"));
+}
+
+TEST_F(ArchiveOfALaboratory, SeesThatTheEndWasCutOff) {
+    issue_the_example();
+    ASSERT_EQ(archive({"backup", "-o", path("early.archive")}, "K. Keeper").code, 0);
+    ASSERT_EQ(archive({"withdraw", "EX-2026-0042", "--why", "the standard was wrong"}, "M. Weber").code, 0);
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    EXPECT_EQ(archive({"verify", "--head", path("head.json")}).code, 0);
+    fs::copy_file(path("early.archive"), store(), fs::copy_options::overwrite_existing);
+    EXPECT_EQ(archive({"verify"}).code, 0) << "by itself it is sound";
+    const Ended ended = archive({"verify", "--head", path("head.json")});
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_TRUE(tells(ended, "[GC-ARCHIVE-0045]")) << ended.err;
+    EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json")}).code, 1);
+}
+
+TEST_F(ArchiveOfALaboratory, SignsItsHead) {
+    issue_the_example();
+    write_bytes(folder() / "key.pem",
+                "-----BEGIN PRIVATE KEY-----\nMC4CAQAwBQYDK2VwBCIEINTuctv5E1hK1bbY8fdp+K06/nwoy/HU++CXqI9EdVhC\n"
+                "-----END PRIVATE KEY-----\n");  // RFC 8410, 10.3
+    write_bytes(folder() / "public.pem",
+                "-----BEGIN PUBLIC KEY-----\nMCowBQYDK2VwAyEAGb9ECWmEzf6FQbrBZ9w7lshQhqowtrbLDFw4rXAxZuE=\n"
+                "-----END PUBLIC KEY-----\n");
+    ASSERT_EQ(archive({"head", "--sign", path("key.pem"), "-o", path("head.json")}).code, 0);
+    EXPECT_EQ(archive({"verify", "--head", path("head.json"), "--trust", path("public.pem")}).code, 0);
+    const std::string key = "19bf44096984cdfe8541bac167dc3b96c85086aa30b6b6cb0c5c38ad703166e1";
+    EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json"), "--public-key", key}).code, 0);
+    change_json(folder() / "head.json", [](json& head) { head["at"] = "2026-01-01T00:00:00Z"; });
+    EXPECT_TRUE(tells(archive({"verify", "--head", path("head.json")}), "[GC-ARCHIVE-0050]"));
+    EXPECT_TRUE(
+        tells(verified_elsewhere({store(), "--head", path("head.json")}), "the signature is not one of this head"));
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    EXPECT_TRUE(
+        tells(archive({"verify", "--head", path("head.json"), "--trust", path("public.pem")}), "[GC-ARCHIVE-0050]"));
+    EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json"), "--public-key", key}).code, 1);
+}
+
+TEST_F(ArchiveOfALaboratory, BacksUpAndReplays) {
+    issue_the_example();
+    const Ended ended = archive({"backup", "-o", path("copy.archive")}, "K. Keeper");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(archive({"backup", "-o", path("copy.archive")}, "K. Keeper").code, 2) << "a backup is a new file";
+    fs::rename(path("copy.archive"), store());
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    const json replayed = shown({"replay"});
+    EXPECT_EQ(replayed["records"], 1);
+    EXPECT_EQ(replayed["same"], 1);
+    EXPECT_TRUE(tells(archive({"replay", "EX-2026-0042"}), "1 of 1 records give the same"));
+    EXPECT_TRUE(tells(archive({"replay", "EX-1"}), "[GC-ARCHIVE-0026]"));
+}
+
+TEST_F(ArchiveOfALaboratory, ProvesEachCertificateWithoutTheArchive) {
+    issue_the_example();
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("evidence.json")}).code, 0);
+    fs::remove(store());
+    EXPECT_EQ(gumcert({"archive", "verify", path("evidence.json")}).code, 0);
+    EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 0);
+    const json good = json::parse(bytes_of(folder() / "evidence.json"));
+    const std::vector<std::function<void(json&)>> attacks = {
+        [](json& e) { e["entries"].back()["actor"] = "N. Obody"; },
+        [](json& e) { e["entries"].erase(1); },
+        [](json& e) { e["contents"].erase(0); },
+        [](json& e) { e["contents"][0]["base64"] = "AAAA"; },
+        [](json& e) { e["head"]["root"] = std::string(64, '0'); },
+        [](json& e) { e["entries"][1]["proof"][0] = std::string(64, '0'); },
+        [](json& e) { e["certificate"] = "EX-2026-0043"; }};
+    for (std::size_t i = 0; i < attacks.size(); ++i) {
+        json spoiled = good;
+        attacks[i](spoiled);
+        write_bytes(folder() / "evidence.json", spoiled.dump());
+        EXPECT_EQ(gumcert({"archive", "verify", path("evidence.json")}).code, 1) << i;
+        EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 1) << i;
+    }
+    write_bytes(folder() / "evidence.json", "{}");
+    EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "[GC-ARCHIVE-0047]"));
+}
+
+TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
+    if (const std::string why = why_no_pdf(); !why.empty()) {
+        GTEST_SKIP() << why;
+    }
+    begin();
+    ASSERT_EQ(run(folder() / "end_gauge.json", folder() / "out").code, 0);
+    const Ended ended = archive({"add", path("out/record.json"), path("out/certificate.pdf")}, "R. Lin");
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    change_certificate([](json& c) { c["number"] = "EX-2026-0099"; });
+    evaluate("other");
+    EXPECT_TRUE(
+        tells(archive({"add", path("other.json"), path("out/certificate.pdf")}, "R. Lin"), "[GC-ARCHIVE-0029]"));
+}
+
+}  // namespace
+}  // namespace gumcert::cli

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "archive/archive.h"
+
+namespace gumcert::archive::test {
+
+/// Times that follow each other, one minute apart.
+class Clock {
+public:
+    std::string next() {
+        const int minute = minutes_++;
+        char text[32];
+        (void)std::snprintf(text, sizeof text, "2026-%02d-%02dT%02d:%02d:00Z", 1 + minute / 40320 % 12,
+                            1 + minute / 1440 % 28, minute / 60 % 24, minute % 60);
+        return text;
+    }
+
+private:
+    int minutes_ = 0;
+};
+
+inline Draft sample_draft(const std::string& number, const std::string& content = "1") {
+    return {.number = number,
+            .item = "End gauge, SN-" + content,
+            .record = R"({"record": ")" + number + " " + content + "\"}\n",
+            .documents = {{"certificate.pdf", "application/pdf", "%PDF-1.7 " + number + " " + content},
+                          {"certificate.xml", "application/xml", "<dcc>" + number + " " + content + "</dcc>"}}};
+}
+
+/// A valid archive of chance: certificates on all ways of their life, amendments, changes of settings.
+class ArchiveOfChance {
+public:
+    ArchiveOfChance(std::uint64_t seed) : random_(seed) {  // NOLINT(google-explicit-constructor)
+        settings_.four_eyes = chance(2) == 0;
+        settings_.numbering = chance(2) == 0 ? "EX-YYYY-####" : "";
+        if (chance(2) == 0) {
+            settings_.persons = {{"A. Author", {"author"}},
+                                 {"B. Author", {"author"}},
+                                 {"R. Reviewer", {"reviewer", "authoriser"}},
+                                 {"K. Keeper", {"keeper"}}};
+        }
+    }
+
+    [[nodiscard]] LogEntry first() {
+        return first_entry(settings_, "gumcert of the tests", std::to_string(random_()), by("K. Keeper"));
+    }
+
+    void fill(Archive& archive, int certificates) {
+        for (int i = 0; i < certificates; ++i) {
+            if (chance(8) == 0) {
+                settings_.four_eyes = !settings_.four_eyes;
+                (void)archive.change_settings(settings_, by("K. Keeper", "agreed in the review"));
+            }
+            if (chance(8) == 0) {
+                (void)archive.note_backup("backup.archive", archive.head(), by("K. Keeper"));
+            }
+            std::string number = "L-" + std::to_string(i);
+            if (!settings_.numbering.empty() || chance(3) == 0) {
+                if (settings_.numbering.empty()) {
+                    number = "O-" + std::to_string(i);
+                } else {
+                    number = archive.take_number(by("A. Author")).entry.certificate;
+                }
+            }
+            live(archive, sample_draft(number, std::to_string(chance(1000))));
+        }
+    }
+
+private:
+    std::mt19937_64 random_;
+    Settings settings_;
+    Clock clock_;
+    int keys_ = 0;
+
+    [[nodiscard]] int chance(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
+
+    [[nodiscard]] Request by(const std::string& who, const std::string& why = "") {
+        return {.actor = who,
+                .at = clock_.next(),
+                .request_key = chance(2) == 0 ? "key-" + std::to_string(keys_++) : "",
+                .why = why};
+    }
+
+    void live(Archive& archive, const Draft& draft, bool is_amendment = false) {
+        (void)archive.draft(draft, by("A. Author", is_amendment ? "a digit was wrong" : ""));
+        if (chance(6) == 0) {
+            Draft again = draft;
+            again.record += " ";
+            (void)archive.draft(again, by("B. Author", "typing error"));
+        }
+        const int steps = is_amendment ? 3 : chance(6);
+        const std::vector<std::string> kinds = {"reviewed", "authorised", "issued"};
+        for (int i = 0; i < std::min(steps, 3); ++i) {
+            (void)archive.advance(draft.number, kinds[static_cast<std::size_t>(i)], by("R. Reviewer"));
+        }
+        if (chance(5) == 0) {
+            (void)archive.advance(draft.number, "withdrawn", by("R. Reviewer", "the item was damaged"));
+        } else if (steps >= 3 && !is_amendment && chance(3) == 0) {
+            Draft amendment = sample_draft(draft.number + "/A1", std::to_string(chance(1000)));
+            amendment.amends = Draft::Amends{.number = draft.number,
+                                             .kind = chance(2) == 0 ? "amended" : "replaced",
+                                             .changes = {{"U", "l", "0.1", "0.2"}}};
+            live(archive, amendment, true);
+        }
+    }
+};
+
+}  // namespace gumcert::archive::test

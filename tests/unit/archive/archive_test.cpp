@@ -1,0 +1,172 @@
+#include "archive/archive.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "archive/store/sqlite_store.h"
+#include "archive/verification.h"
+#include "encoding/sha2.h"
+#include "tests/support/archive_folder.h"
+#include "tests/support/sample_archive.h"
+
+namespace gumcert::archive {
+namespace {
+
+using test::code_of;
+using test::sample_draft;
+
+class ArchiveOnSqlite : public testing::Test {
+protected:
+    explicit ArchiveOnSqlite(const Settings& settings = {.four_eyes = true, .numbering = "EX-YYYY-###"})
+        : store_(create_sqlite_store(folder_.file(), first_entry(settings, "gumcert", "nonce", by("K. Keeper")))),
+          archive_(*store_) {}
+
+    Request by(const std::string& who, const std::string& why = "", const std::string& key = "") {
+        return {.actor = who, .at = clock_.next(), .request_key = key, .why = why};
+    }
+    /// A certificate with the next number.
+    std::string issued() {
+        const std::string number = archive_.take_number(by("A. Author")).entry.certificate;
+        (void)archive_.draft(sample_draft(number), by("A. Author"));
+        lead_to_issue(number);
+        return number;
+    }
+    void lead_to_issue(const std::string& number) {
+        for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+            (void)archive_.advance(number, kind, by("R. Reviewer"));
+        }
+    }
+
+    test::StoreFolder folder_;
+    test::Clock clock_;
+    std::unique_ptr<Store> store_;
+    Archive archive_;
+};
+
+TEST_F(ArchiveOnSqlite, LeadsACertificateThroughItsLife) {
+    const std::string number = issued();
+    EXPECT_EQ(number, "EX-2026-001");
+    const CertificateLife life = archive_.life(number);
+    EXPECT_EQ(life.state, "issued");
+    EXPECT_EQ(life.documents.size(), 2U);
+    EXPECT_EQ(archive_.record_of(number), sample_draft(number).record);
+    EXPECT_EQ(archive_.history(number).size(), 5U);
+    const std::vector<ListedCertificate> list = archive_.list();
+    ASSERT_EQ(list.size(), 1U);
+    EXPECT_EQ(list[0].state, "issued");
+    EXPECT_EQ(list[0].item, "End gauge, SN-1");
+    (void)archive_.advance(number, "withdrawn", by("R. Reviewer", "the standard was wrong"));
+    EXPECT_EQ(archive_.life(number).state, "withdrawn");
+    EXPECT_TRUE(verify_store(*store_).sound());
+}
+
+TEST_F(ArchiveOnSqlite, RefusesWithTheCodeOfTheRule) {
+    const std::string number = archive_.take_number(by("A. Author")).entry.certificate;
+    const Head before = archive_.head();
+    const auto drafted = [&](const std::string& other) {
+        return code_of([&] { (void)archive_.draft(sample_draft(other), by("A. Author")); });
+    };
+    const auto stepped = [&](const std::string& kind, const std::string& who) {
+        return code_of([&] { (void)archive_.advance(number, kind, by(who)); });
+    };
+    EXPECT_EQ(drafted("EX-2026-007"), "GC-ARCHIVE-0024");
+    EXPECT_EQ(stepped("issued", "R. Reviewer"), "GC-ARCHIVE-0021");
+    EXPECT_EQ(code_of([&] { (void)archive_.advance("EX-2026-009", "issued", by("R")); }), "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)archive_.life("EX-2026-009"); }), "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)archive_.history("EX-2026-009"); }), "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)archive_.record_of(number); }), "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)archive_.take_number(by("")); }), "GC-ARCHIVE-0020");
+    EXPECT_EQ(archive_.head(), before) << "nothing is written, no content either";
+    EXPECT_TRUE(verify_store(*store_).sound());
+    (void)archive_.draft(sample_draft(number), by("A. Author"));
+    EXPECT_EQ(stepped("reviewed", "A. Author"), "GC-ARCHIVE-0022");
+    (void)archive_.change_settings({.four_eyes = true, .numbering = "", .persons = {{"K. Keeper", {"keeper"}}}},
+                                   by("K. Keeper", "only the keeper is left"));
+    EXPECT_EQ(stepped("reviewed", "R. Reviewer"), "GC-ARCHIVE-0023");
+    EXPECT_EQ(archive_.settings().persons.size(), 1U);
+    EXPECT_EQ(code_of([&] { (void)archive_.take_number(by("K. Keeper")); }), "GC-ARCHIVE-0025");
+}
+
+TEST_F(ArchiveOnSqlite, RefusesAClockThatGoesBack) {
+    Request request = by("A. Author");
+    (void)archive_.take_number(request);
+    request.at = "2025-01-01T00:00:00Z";
+    EXPECT_EQ(code_of([&] { (void)archive_.take_number(request); }), "GC-ARCHIVE-0032");
+    Request second = by("A. Author");
+    second.at.replace(17, 2, "30");
+    (void)archive_.take_number(second);
+    second.at.replace(17, 2, "10");  // a server set the clock right, by some seconds
+    EXPECT_EQ(archive_.take_number(second).entry.at.substr(17, 2), "30");
+}
+
+TEST_F(ArchiveOnSqlite, DoesNothingTwiceForOneKey) {
+    const Request request = by("A. Author", "", "key");
+    const Written first = archive_.take_number(request);
+    EXPECT_FALSE(first.repeated);
+    const Written again = archive_.take_number(request);
+    EXPECT_TRUE(again.repeated);
+    EXPECT_EQ(again.entry, first.entry);
+    EXPECT_EQ(archive_.head().size, 2);
+    EXPECT_EQ(code_of([&] { (void)archive_.draft(sample_draft(first.entry.certificate), by("A. Author", "", "key")); }),
+              "GC-ARCHIVE-0027");
+    (void)archive_.draft(sample_draft(first.entry.certificate), by("A. Author", "", "draft"));
+    EXPECT_EQ(code_of([&] {
+                  (void)archive_.draft(sample_draft(first.entry.certificate, "2"), by("A. Author", "", "draft"));
+              }),
+              "GC-ARCHIVE-0027")
+        << "the same key with another record";
+}
+
+TEST_F(ArchiveOnSqlite, IssuesAnAmendmentTogetherWithTheEndOfItsOriginal) {
+    const std::string number = issued();
+    Draft amendment = sample_draft(number + "/A1", "2");
+    amendment.amends = Draft::Amends{number, "replaced", {{"U", "l", "0.1", "0.2"}}};
+    EXPECT_EQ(code_of([&] { (void)archive_.draft(amendment, by("A. Author")); }), "GC-ARCHIVE-0031")
+        << "without reason";
+    (void)archive_.draft(amendment, by("A. Author", "U was too small"));
+    EXPECT_EQ(archive_.life(number).state, "issued");
+    lead_to_issue(amendment.number);
+    EXPECT_EQ(archive_.life(number).state, "superseded");
+    EXPECT_EQ(archive_.life(number).later, amendment.number);
+    EXPECT_EQ(archive_.record_of(number), sample_draft(number).record) << "the original stays as it was issued";
+    Draft second = sample_draft(amendment.number + "/A1", "3");
+    second.amends = Draft::Amends{amendment.number, "amended", {{"text", "/remarks/0", "", "a remark"}}};
+    (void)archive_.draft(second, by("A. Author", "a remark was missing"));
+    lead_to_issue(second.number);
+    EXPECT_EQ(archive_.life(amendment.number).state, "amended-by");
+    EXPECT_TRUE(verify_store(*store_).sound());
+}
+
+TEST_F(ArchiveOnSqlite, KeepsOneContentOnce) {
+    const std::string number = archive_.take_number(by("A. Author")).entry.certificate;
+    (void)archive_.draft(sample_draft(number), by("A. Author"));
+    (void)archive_.draft(sample_draft(number), by("A. Author", "once more"));
+    EXPECT_EQ(verify_store(*store_).contents, 3U);
+}
+
+TEST_F(ArchiveOnSqlite, EndsASeriesOfNumbers) {
+    (void)archive_.change_settings({.four_eyes = true, .numbering = "N#"}, by("K. Keeper"));
+    for (int i = 0; i < 9; ++i) {
+        (void)archive_.take_number(by("A. Author"));
+    }
+    EXPECT_EQ(code_of([&] { (void)archive_.take_number(by("A. Author")); }), "GC-ARCHIVE-0025");
+}
+
+TEST_F(ArchiveOnSqlite, NotesABackup) {
+    const Head head = archive_.head();
+    const LogEntry entry = archive_.note_backup("copy.archive", head, by("K. Keeper")).entry;
+    EXPECT_EQ(text_in(*body_of(entry), "new", "root"), encoding::hexadecimal(head.root));
+    EXPECT_EQ(archive_.head().chain, entry.hash);
+    EXPECT_EQ(archive_.head().archive, head.archive);
+}
+
+TEST(FirstEntry, RefusesAPatternWithoutOrdinal) {
+    const Request request{.actor = "K. Keeper", .at = "2026-11-24T18:52:52Z", .request_key = "", .why = ""};
+    EXPECT_EQ(code_of([&] { (void)first_entry({.four_eyes = true, .numbering = "EX"}, "gumcert", "n", request); }),
+              "GC-ARCHIVE-0025");
+    EXPECT_NE(first_entry({}, "gumcert", "n", request).hash, first_entry({}, "gumcert", "m", request).hash);
+}
+
+}  // namespace
+}  // namespace gumcert::archive

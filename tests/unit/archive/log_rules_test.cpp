@@ -1,0 +1,266 @@
+#include "archive/log_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace gumcert::archive {
+namespace {
+
+using nlohmann::json;
+
+const std::string k_record(64, 'a');
+
+/// A log that is told entry by entry; hashes are nothing that these rules look at.
+class ToldLog {
+public:
+    explicit ToldLog(const Settings& settings = {}) {
+        EXPECT_EQ(tell("created", "", {{"schema", "gumcert/archive/1"}, {"settings", to_json(settings)}}, "K. Keeper"),
+                  "");
+    }
+    /// \return the rule that is broken; "" where none is
+    std::string tell(const std::string& kind, const std::string& certificate, const json& body,
+                     const std::string& actor = "A. Author", const std::string& record = "") {
+        const std::optional<Breach> breach = rules.accept({.seq = 0,
+                                                           .at = at,
+                                                           .actor = actor,
+                                                           .kind = kind,
+                                                           .certificate = certificate,
+                                                           .record = record,
+                                                           .request_key = "",
+                                                           .body = body.dump(),
+                                                           .prev = "",
+                                                           .hash = ""});
+        return breach ? breach->rule : "";
+    }
+    std::string draft(const std::string& number, const json& more = json::object(),
+                      const std::string& actor = "A. Author") {
+        const CertificateLife* const life = rules.life(number);
+        json body{
+            {"old", {{"state", life == nullptr ? "" : life->state}, {"record", life == nullptr ? "" : life->record}}},
+            {"new",
+             {{"state", "drafted"},
+              {"record", k_record},
+              {"documents", {{{"name", "a.pdf"}, {"sha256", std::string(64, 'b')}}}}}},
+            {"why", "because"}};
+        body.update(more);
+        return tell("drafted", number, body, actor, k_record);
+    }
+    std::string step(const std::string& number, const std::string& kind, const std::string& actor = "R. Reviewer",
+                     const json& more = json::object()) {
+        const CertificateLife* const life = rules.life(number);
+        json body{
+            {"old", {{"state", life == nullptr ? "" : life->state}}}, {"new", {{"state", kind}}}, {"why", "because"}};
+        body["new"].update(more);
+        return tell(kind, number, body, actor, life == nullptr ? "" : life->record);
+    }
+    void issue(const std::string& number) {
+        EXPECT_EQ(draft(number), "");
+        for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+            EXPECT_EQ(step(number, kind), "");
+        }
+    }
+    json amends(const std::string& number, const std::string& kind = "amended") const {
+        return {
+            {"amends",
+             {{"number", number}, {"kind", kind}, {"changes", {{{"where", "l"}, {"before", "1"}, {"after", "2"}}}}}}};
+    }
+
+    LogRules rules;
+    std::string at = "2026-11-24T18:52:52Z";
+};
+
+constexpr const char* k_life_rule =
+    "a certificate is drafted, reviewed, authorised, issued; then amended, superseded or withdrawn";
+
+TEST(LifeOfACertificate, GoesStepByStep) {
+    ToldLog log;
+    EXPECT_EQ(log.step("C", "issued"), k_life_rule);
+    EXPECT_EQ(log.draft("C"), "");
+    EXPECT_EQ(log.step("C", "authorised"), k_life_rule);
+    EXPECT_EQ(log.step("C", "reviewed"), "");
+    EXPECT_EQ(log.step("C", "issued"), k_life_rule);
+    EXPECT_EQ(log.step("C", "authorised"), "");
+    EXPECT_EQ(log.draft("C"), "") << "a draft may take the place of one that is authorised";
+    EXPECT_EQ(log.step("C", "issued"), k_life_rule) << "and then everything is done again";
+    EXPECT_EQ(log.step("C", "reviewed"), "");
+    EXPECT_EQ(log.step("C", "authorised"), "");
+    EXPECT_EQ(log.step("C", "issued"), "");
+    EXPECT_EQ(log.draft("C"), k_life_rule) << "what is issued is not drafted again";
+    EXPECT_EQ(log.step("C", "withdrawn"), "");
+    EXPECT_EQ(log.step("C", "issued"), k_life_rule);
+    EXPECT_EQ(log.rules.life("C")->state, "withdrawn");
+    EXPECT_EQ(log.rules.life("D"), nullptr);
+}
+
+TEST(LifeOfACertificate, IsAboutOneRecord) {
+    ToldLog log;
+    EXPECT_EQ(log.draft("C"), "");
+    EXPECT_EQ(log.tell("reviewed", "C", {{"old", {{"state", "drafted"}}}, {"new", {{"state", "reviewed"}}}}, "R",
+                       std::string(64, 'c')),
+              "what is reviewed, authorised and issued is what was drafted");
+    EXPECT_EQ(
+        log.tell("reviewed", "C", {{"old", {{"state", "issued"}}}, {"new", {{"state", "reviewed"}}}}, "R", k_record),
+        "an entry states the old and the new state");
+}
+
+TEST(LifeOfACertificate, HasDocumentsAndReasons) {
+    ToldLog log;
+    EXPECT_EQ(log.draft("C", {{"new", {{"state", "drafted"}, {"record", k_record}, {"documents", json::array()}}}}),
+              "");
+    EXPECT_EQ(log.step("C", "reviewed"), "");
+    EXPECT_EQ(log.step("C", "authorised"), "");
+    EXPECT_EQ(log.step("C", "issued"), "a certificate is issued with its documents");
+    EXPECT_EQ(log.tell("withdrawn", "C", {{"old", {{"state", "authorised"}}}, {"new", {{"state", "withdrawn"}}}}, "R",
+                       k_record),
+              "a certificate or number is withdrawn with a reason");
+}
+
+TEST(FourEyes, AreThoseOfAnother) {
+    constexpr const char* rule = "nobody reviews or authorises what he has drafted (four eyes)";
+    ToldLog log;
+    EXPECT_EQ(log.draft("C"), "");
+    EXPECT_EQ(log.draft("C", json::object(), "B. Author"), "");
+    EXPECT_EQ(log.step("C", "reviewed", "A. Author"), rule) << "who has drafted once is an author for ever";
+    EXPECT_EQ(log.step("C", "reviewed", "B. Author"), rule);
+    EXPECT_EQ(log.step("C", "reviewed"), "");
+    EXPECT_EQ(log.step("C", "authorised", "A. Author"), rule);
+    EXPECT_EQ(log.step("C", "authorised"), "");
+    EXPECT_EQ(log.step("C", "issued", "A. Author"), "");
+    ToldLog alone(Settings{.four_eyes = false, .numbering = ""});
+    EXPECT_EQ(alone.draft("C"), "");
+    EXPECT_EQ(alone.step("C", "reviewed", "A. Author"), "");
+}
+
+TEST(RolesOfPersons, AreNeededWhereTheyAreStated) {
+    ToldLog log(
+        Settings{.four_eyes = true,
+                 .numbering = "",
+                 .persons = {{"K. Keeper", {"keeper"}}, {"A. Author", {"author"}}, {"R. Reviewer", {"reviewer"}}}});
+    constexpr const char* rule = "whoever does something has the role for it";
+    EXPECT_EQ(log.draft("C", json::object(), "N. Obody"), rule);
+    EXPECT_EQ(log.draft("C"), "");
+    EXPECT_EQ(log.step("C", "reviewed"), "");
+    EXPECT_EQ(log.step("C", "authorised"), rule);
+    EXPECT_EQ(role_of("numbered"), "author");
+    EXPECT_EQ(role_of("issued"), "authoriser");
+    EXPECT_EQ(role_of("settings"), "keeper");
+}
+
+TEST(CertificateNumbers, FollowWithoutGaps) {
+    ToldLog log(Settings{.four_eyes = true, .numbering = "EX-YYYY-##"});
+    constexpr const char* rule = "certificate numbers follow each other without gaps";
+    const auto take = [&](const std::string& number, int ordinal, const std::string& series = "EX-2026-##") {
+        return log.tell(
+            "numbered", number,
+            {{"old", {{"state", ""}}}, {"new", {{"state", "numbered"}, {"ordinal", ordinal}, {"series", series}}}});
+    };
+    EXPECT_EQ(take("EX-2026-02", 2), rule);
+    EXPECT_EQ(take("EX-2026-01", 1), "");
+    EXPECT_EQ(take("EX-2026-01", 1), k_life_rule) << "no number twice";
+    EXPECT_EQ(take("EX-2026-03", 3), rule);
+    EXPECT_EQ(take("EX-2026-02", 3), rule);
+    EXPECT_EQ(take("EX-2027-02", 2, "EX-2027-##"), rule) << "of another year";
+    EXPECT_EQ(take("EX-2026-02", 2), "");
+    EXPECT_EQ(log.rules.last_ordinal("EX-2026-##"), 2);
+    log.at = "2027-01-01T00:00:00Z";
+    EXPECT_EQ(take("EX-2027-01", 1, "EX-2027-##"), "");
+    EXPECT_NE(log.draft("EX-2026-07"), "") << "a number that was not taken";
+    EXPECT_EQ(log.draft("EX-2026-01"), "");
+}
+
+TEST(Amendments, EndTheirOriginal) {
+    ToldLog log;
+    log.issue("C");
+    EXPECT_EQ(log.draft("C/A1", log.amends("D")),
+              "an amendment amends or replaces a certificate that is issued and holds");
+    EXPECT_EQ(log.draft("C/A1", log.amends("C")), "");
+    EXPECT_EQ(log.step("C", "amended-by", "R. Reviewer", {{"by", "C/A1"}}),
+              "an original is amended or superseded when its amendment is issued");
+    EXPECT_EQ(log.step("C/A1", "reviewed"), "");
+    EXPECT_EQ(log.step("C/A1", "authorised"), "");
+    EXPECT_EQ(log.step("C/A1", "issued"), "");
+    EXPECT_EQ(log.rules.due(), "amended-by C");
+    EXPECT_EQ(log.draft("E"), "an amendment is issued together with the entry of its original");
+    EXPECT_EQ(log.step("C", "amended-by", "R. Reviewer", {{"by", "D"}}),
+              "an original is amended or superseded when its amendment is issued");
+    EXPECT_EQ(log.step("C", "amended-by", "R. Reviewer", {{"by", "C/A1"}}), "");
+    EXPECT_EQ(log.rules.due(), "");
+    EXPECT_EQ(log.rules.life("C")->later, "C/A1");
+    EXPECT_EQ(log.rules.life("C/A1")->amends, "C");
+    EXPECT_EQ(log.draft("C/A2", log.amends("C")),
+              "an amendment amends or replaces a certificate that is issued and holds");
+}
+
+TEST(Amendments, StateKindReasonAndChanges) {
+    constexpr const char* rule = "an amendment states its kind, the reason and what has changed";
+    ToldLog log;
+    log.issue("C");
+    json more = log.amends("C");
+    more["amends"]["changes"] = json::array();
+    EXPECT_EQ(log.draft("C/A1", more), rule);
+    more = log.amends("C", "corrected");
+    EXPECT_EQ(log.draft("C/A1", more), rule);
+    more = log.amends("C");
+    more["why"] = "";
+    EXPECT_EQ(log.draft("C/A1", more), rule);
+}
+
+TEST(EntriesOfALog, HaveTheirForm) {
+    ToldLog log;
+    EXPECT_EQ(log.tell("created", "", json::object()), "the first entry, and no other one, is \"created\"");
+    EXPECT_EQ(log.tell("numbred", "C", json::object()), "an entry of the archive itself concerns no certificate");
+    EXPECT_EQ(log.tell("paid", "", json::object()), "kinds of entries are those of docs/archive.md");
+    EXPECT_EQ(log.tell("drafted", "", json::object()), "an entry of a certificate names it");
+    EXPECT_EQ(log.draft("C", json::object(), ""), "an entry says who");
+    EXPECT_EQ(log.draft("C", json::object(), "A\nB"), "names and keys are plain text");
+    EXPECT_EQ(log.draft("C", {{"new", {{"state", "drafted"}, {"record", k_record}}}}),
+              "a draft names the record and the documents by their SHA-256");
+    log.at = "2026-11-24 18:52:52";
+    EXPECT_EQ(log.draft("C"), "an entry says when, such as 2026-11-24T18:52:52Z");
+    log.at = "2026-11-24T18:52:51Z";
+    EXPECT_EQ(log.draft("C"), "no entry is earlier than the one before");
+    EXPECT_TRUE(log.rules.lives().empty());
+    LogRules empty;
+    const std::optional<Breach> breach = empty.accept({.seq = 1,
+                                                       .at = "2026-11-24T18:52:52Z",
+                                                       .actor = "A",
+                                                       .kind = "created",
+                                                       .certificate = "",
+                                                       .record = "",
+                                                       .request_key = "",
+                                                       .body = "[]",
+                                                       .prev = "",
+                                                       .hash = ""});
+    ASSERT_TRUE(breach.has_value());
+    EXPECT_EQ(breach->rule, "an entry says what happened");
+}
+
+TEST(EntriesOfALog, ChangeSettingsFromTheOldOnes) {
+    ToldLog log;
+    const Settings changed{.four_eyes = false, .numbering = ""};
+    EXPECT_EQ(log.tell("settings", "", {{"old", to_json(changed)}, {"new", to_json(changed)}}),
+              "a change of settings states the old and the new ones");
+    EXPECT_EQ(log.tell("settings", "", {{"old", to_json(Settings{})}, {"new", to_json(changed)}}), "");
+    EXPECT_EQ(log.rules.settings(), changed);
+}
+
+TEST(BodyOfAnEntry, IsReadWithoutTrust) {
+    LogEntry entry;
+    entry.body = "[1]";
+    EXPECT_EQ(body_of(entry), std::nullopt);
+    entry.body = R"({"new":{"state":1,"documents":{"a":"b"}}})";
+    const json body = *body_of(entry);
+    EXPECT_EQ(text_in(body, "new", "state"), "");
+    EXPECT_EQ(text_in(body, "old", "state"), "");
+    EXPECT_EQ(documents_in(body), std::vector<std::string>{""});
+    EXPECT_TRUE(is_of_life("issued"));
+    EXPECT_FALSE(is_of_life("backed-up"));
+    EXPECT_EQ(kinds_of_life().size(), 8U);
+    LogRules rules;
+    rules.take(entry);
+    EXPECT_TRUE(rules.lives().empty());
+}
+
+}  // namespace
+}  // namespace gumcert::archive

@@ -1,0 +1,549 @@
+#!/usr/bin/env python3
+"""Verifies an archive of gumcert, or the evidence of one certificate, without gumcert.
+
+    verify_archive.py ARCHIVE [--head FILE]... [--public-key HEX]
+    verify_archive.py EVIDENCE.json [--head FILE]... [--public-key HEX]
+
+Needs Python 3.11 and nothing else. It shares no code with gumcert and is short enough to be read: it was written after
+docs/adr/0053-the-archive.md, which says what is hashed and which rules the log obeys. Computes every hash again, the chain,
+the Merkle root (RFC 6962), the life of every certificate, and compares with earlier heads.
+
+Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the command line is wrong; 5: a file cannot be read.
+"""
+
+import argparse
+import base64
+import binascii
+import hashlib
+import json
+import pathlib
+import re
+import sqlite3
+import sys
+import urllib.parse
+
+APPLICATION_ID = 0x67634172
+SCHEMA_VERSION = 1
+# SHA-256 of the lines "type TAB name TAB sql" of sqlite_schema, sorted, with LF between them.
+SCHEMA_SHA256 = "6731650982c8f934c3d33781f4ab2651259bf5ab761c843c54e87fb0d3659e9e"
+TAG = b"gumcert/archive/entry/1"
+FIELDS = ("seq", "at", "actor", "kind", "certificate", "record", "request_key", "body", "prev", "hash")
+TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
+DIGEST = re.compile(r"[0-9a-f]{64}")
+CONTROL = re.compile(r"[\x00-\x1f\x7f]")
+ROLES = {"author", "reviewer", "authoriser", "keeper"}
+ROLE_OF = {"numbered": "author", "drafted": "author", "reviewed": "reviewer", "created": "keeper", "settings": "keeper",
+           "backed-up": "keeper"}  # every other kind: authoriser
+MAY_FOLLOW = {
+    "": {"numbered", "drafted"},
+    "numbered": {"drafted", "withdrawn"},
+    "drafted": {"drafted", "reviewed", "withdrawn"},
+    "reviewed": {"drafted", "authorised", "withdrawn"},
+    "authorised": {"drafted", "issued", "withdrawn"},
+    "issued": {"amended-by", "superseded", "withdrawn"},
+    "amended-by": set(),
+    "superseded": set(),
+    "withdrawn": set(),
+}
+KINDS_OF_LIFE = set().union(*MAY_FOLLOW.values())
+
+
+def sha256(data):
+    return hashlib.sha256(data).digest()
+
+
+def entry_hash(entry):
+    data = b""
+    for field in (TAG, entry["prev"], str(entry["seq"]).encode(), *(entry[name] for name in FIELDS[1:8])):
+        data += len(field).to_bytes(8, "big") + field
+    return sha256(data)
+
+
+def leaf(entry):
+    return sha256(b"\x00" + entry)
+
+
+def root_of(leaves):
+    """Merkle tree hash of RFC 6962, 2.1, of hashes of leaves."""
+    if not leaves:
+        return sha256(b"")
+    if len(leaves) == 1:
+        return leaves[0]
+    left = 1 << (len(leaves) - 1).bit_length() - 1
+    return sha256(b"\x01" + root_of(leaves[:left]) + root_of(leaves[left:]))
+
+
+def root_of_proof(entry, index, size, proof):
+    """RFC 9162, 2.1.3.2; None where the proof has a wrong length."""
+    if not 0 <= index < size:
+        return None
+    node, last, root = index, size - 1, leaf(entry)
+    for beside in proof:
+        if last == 0:
+            return None
+        if node & 1 or node == last:
+            root = sha256(b"\x01" + beside + root)
+            while not node & 1 and node:
+                node, last = node >> 1, last >> 1
+        else:
+            root = sha256(b"\x01" + root + beside)
+        node, last = node >> 1, last >> 1
+    return root if last == 0 else None
+
+
+def unhex(digits):
+    if not re.fullmatch("([0-9a-f]{2})*", digits):
+        raise ValueError("hexadecimal digits are missing")
+    return bytes.fromhex(digits)
+
+
+def strict_object(text):
+    """A JSON object without duplicate keys and without NaN; None for everything else."""
+    def unique(pairs):
+        if len({key for key, _ in pairs}) != len(pairs):
+            raise ValueError("duplicate key")
+        return dict(pairs)
+
+    def refuse(word):
+        raise ValueError(word)
+
+    try:
+        value = json.loads(text.decode("utf-8") if isinstance(text, bytes) else text, object_pairs_hook=unique, parse_constant=refuse)
+    except (ValueError, RecursionError):
+        return None
+    return value if isinstance(value, dict) else None
+
+
+def part(value, *keys):
+    for key in keys:
+        value = value.get(key) if isinstance(value, dict) else None
+    return value
+
+
+def text(value, *keys):
+    found = part(value, *keys)
+    return found if isinstance(found, str) else ""
+
+
+def is_settings(value):
+    if not isinstance(value, dict) or set(value) != {"four_eyes", "numbering", "persons"}:
+        return False
+    pattern, persons = value["numbering"], value["persons"]
+    if not isinstance(value["four_eyes"], bool) or not isinstance(pattern, str) or not isinstance(persons, dict):
+        return False
+    if pattern and (len(re.findall("#+", pattern)) != 1 or pattern.count("YYYY") > 1):
+        return False
+    return all(isinstance(roles, list) and all(isinstance(r, str) and r in ROLES for r in roles) for roles in persons.values())
+
+
+def number_in(series, ordinal):
+    run = re.search("#+", series)
+    if not run or ordinal < 1 or len(str(ordinal)) > len(run[0]):
+        return None
+    return series[:run.start()] + str(ordinal).zfill(len(run[0])) + series[run.end():]
+
+
+class Rules:
+    """What one entry after the other obeys, whoever wrote it."""
+
+    def __init__(self, judges_numbers=True):
+        self.judges_numbers = judges_numbers
+        self.settings = {"four_eyes": True, "numbering": "", "persons": {}}
+        self.created = False
+        self.last_at = b""
+        self.lives = {}
+        self.ordinals = {}
+        self.due = None  # (kind, certificate, by) that must come next
+        self.keys = set()
+
+    def accept(self, entry):
+        """What is wrong with an entry, or None; it is taken in any case."""
+        body = strict_object(entry["body"])
+        names = {}
+        wrong = None if body is not None else "the body is no JSON object"
+        for name in ("actor", "kind", "certificate", "request_key", "record"):
+            try:
+                names[name] = entry[name].decode("utf-8")
+            except UnicodeDecodeError:
+                names[name] = entry[name].decode("utf-8", "replace")
+                wrong = wrong or f"{name} is not UTF-8"
+        if wrong is None:
+            wrong = self.breach(entry, names, body)
+        if names["request_key"]:
+            if names["request_key"] in self.keys:
+                wrong = wrong or "its key was used before"
+            self.keys.add(names["request_key"])
+        self.take(entry, names, body or {})
+        return wrong
+
+    def breach(self, entry, names, body):
+        kind, number = names["kind"], names["certificate"]
+        if any(CONTROL.search(names[n]) for n in ("actor", "kind", "certificate", "request_key")):
+            return "a text with control characters"
+        if not names["actor"]:
+            return "nobody is named"
+        if not TIME.fullmatch(entry["at"]):
+            return "the time has another form"
+        if names["record"] and not DIGEST.fullmatch(names["record"]):
+            return "the record is not named by its SHA-256"
+        if self.created == (kind == "created"):
+            return "the first entry, and no other one, is \"created\""
+        if entry["at"] < self.last_at:
+            return "it is earlier than the entry before"
+        if self.due and (kind, number) != self.due[:2]:
+            return f"\"{self.due[0]}\" {self.due[1]} is missing before it"
+        return (self.breach_of_life if kind in KINDS_OF_LIFE else self.breach_of_archive)(entry, names, body) or self.breach_of_person(names)
+
+    def breach_of_archive(self, entry, names, body):
+        kind = names["kind"]
+        if names["certificate"] or names["record"]:
+            return "an entry of the archive itself names a certificate or record"
+        if kind == "created":
+            good = body.get("schema") == "gumcert/archive/1" and is_settings(body.get("settings"))
+            return None if good else "schema or settings have another form"
+        if kind == "settings":
+            return None if body.get("old") == self.settings and is_settings(body.get("new")) else "old or new settings are others"
+        return None if kind == "backed-up" else "no kind of entry"
+
+    def breach_of_life(self, entry, names, body):
+        kind, number = names["kind"], names["certificate"]
+        if not number:
+            return "no certificate is named"
+        life = self.lives.get(number)
+        state = life["state"] if life else ""
+        if kind not in MAY_FOLLOW[state]:
+            return f"certificate {number} is {state or 'not in the archive'}, and not to be {kind}"
+        if text(body, "old", "state") != state or text(body, "new", "state") != kind:
+            return "old or new state is another one"
+        if kind == "numbered":
+            series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
+            pattern = self.settings["numbering"]
+            good = (pattern and series == pattern.replace("YYYY", entry["at"][:4].decode(), 1) and type(ordinal) is int and
+                    number_in(series, ordinal) == number and ordinal == self.ordinals.get(series, 0) + 1)
+            return None if good or not self.judges_numbers else f"the number {number} does not follow the last one"
+        if kind == "drafted":
+            return self.breach_of_draft(names, body, life)
+        if names["record"] != (life["record"] if life else ""):
+            return "the record is another one than that of the draft"
+        if kind == "issued":
+            if not life["documents"]:
+                return "there is no document"
+            if life["amends"] and self.state(life["amends"]) != "issued":
+                return f"the certificate that it amends, {life['amends']}, is not issued"
+        if kind in ("amended-by", "superseded") and self.due != (kind, number, text(body, "new", "by")):
+            return "no amendment was issued just before"
+        if kind == "withdrawn" and not text(body, "why"):
+            return "no reason is given"
+        return None
+
+    def breach_of_draft(self, names, body, life):
+        number, documents = names["certificate"], part(body, "new", "documents")
+        if (not names["record"] or text(body, "new", "record") != names["record"] or not isinstance(documents, list) or
+                text(body, "old", "record") != (life["record"] if life else "") or
+                not all(DIGEST.fullmatch(text(one, "sha256")) and text(one, "name") for one in documents)):
+            return "record or documents have another form"
+        amends, original = body.get("amends"), text(body, "amends", "number")
+        if amends is not None:
+            if self.state(original) != "issued" or original == number:
+                return f"the certificate that it amends, {original}, is not issued"
+            changes = part(amends, "changes")
+            if text(amends, "kind") not in ("amended", "replaced") or not text(body, "why") or not isinstance(changes, list) or not changes:
+                return "kind, reason or changes of the amendment are missing"
+        follows = bool(original) and number.startswith(original + "/")
+        if self.judges_numbers and self.settings["numbering"] and life is None and not follows:
+            return f"the number {number} was not taken"
+        return None
+
+    def breach_of_person(self, names):
+        kind, actor = names["kind"], names["actor"]
+        role = ROLE_OF.get(kind, "authoriser")
+        if self.settings["persons"] and role not in self.settings["persons"].get(actor, ()):
+            return f"{actor} is no {role} of this archive"
+        life = self.lives.get(names["certificate"])
+        if self.settings["four_eyes"] and kind in ("reviewed", "authorised") and life and actor in life["authors"]:
+            return f"{actor} has drafted it, and nobody judges his own draft"
+        return None
+
+    def state(self, number):
+        return self.lives[number]["state"] if number in self.lives else ""
+
+    def take(self, entry, names, body):
+        kind, number = names["kind"], names["certificate"]
+        self.last_at = max(self.last_at, entry["at"])
+        if kind in ("created", "settings"):
+            self.created = True
+            settings = body.get("settings" if kind == "created" else "new")
+            self.settings = settings if is_settings(settings) else self.settings
+        if not number or kind not in KINDS_OF_LIFE:
+            return
+        life = self.lives.setdefault(number, {"state": "", "record": "", "documents": [], "authors": set(), "amends": "",
+                                              "amendment": "", "later": ""})
+        life["state"] = kind
+        self.due = None
+        if kind == "numbered":
+            series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
+            if type(ordinal) is int:
+                self.ordinals[series] = max(self.ordinals.get(series, 0), ordinal)
+        elif kind == "drafted":
+            life["authors"].add(names["actor"])
+            life.update(record=names["record"], documents=documents_in(body), amends=text(body, "amends", "number"),
+                        amendment=text(body, "amends", "kind"))
+        elif kind == "issued" and life["amends"]:
+            self.due = ("superseded" if life["amendment"] == "replaced" else "amended-by", life["amends"], number)
+        elif kind in ("amended-by", "superseded"):
+            life["later"] = text(body, "new", "by")
+
+
+def documents_in(body):
+    documents = part(body, "new", "documents")
+    return [text(one, "sha256") for one in documents] if isinstance(documents, list) else []
+
+
+def contents_named_by(entry):
+    if entry["kind"] != b"drafted":
+        return []
+    return [entry["record"].decode("ascii", "replace"), *documents_in(strict_object(entry["body"]) or {})]
+
+
+# Ed25519 (RFC 8032, 5.1.7), slow and simple.
+P = 2**255 - 19
+ORDER = 2**252 + 27742317777372353535851937790883648493
+D = -121665 * pow(121666, -1, P) % P
+
+
+def add(a, b):
+    (x1, y1), (x2, y2) = a, b
+    k = D * x1 * x2 * y1 * y2 % P
+    return (x1 * y2 + x2 * y1) * pow(1 + k, -1, P) % P, (y1 * y2 + x1 * x2) * pow(1 - k, -1, P) % P
+
+
+def times(factor, point):
+    result = (0, 1)
+    while factor:
+        if factor & 1:
+            result = add(result, point)
+        point, factor = add(point, point), factor >> 1
+    return result
+
+
+def point_of(data):
+    y, sign = int.from_bytes(data, "little") & (1 << 255) - 1, data[31] >> 7
+    if y >= P:
+        return None
+    square = (y * y - 1) * pow(D * y * y + 1, -1, P) % P
+    x = pow(square, (P + 3) // 8, P)
+    if (x * x - square) % P:
+        x = x * pow(2, (P - 1) // 4, P) % P
+    if (x * x - square) % P or (x == 0 and sign):
+        return None
+    return (P - x if x & 1 != sign else x), y
+
+
+BASE = point_of((4 * pow(5, -1, P) % P).to_bytes(32, "little"))
+
+
+def is_signed(message, public_key, signature):
+    if len(public_key) != 32 or len(signature) != 64:
+        return False
+    key, r, s = point_of(public_key), point_of(signature[:32]), int.from_bytes(signature[32:], "little")
+    if key is None or r is None or s >= ORDER:
+        return False
+    h = int.from_bytes(hashlib.sha512(signature[:32] + public_key + message).digest(), "little") % ORDER
+    return times(s, BASE) == add(r, times(h, key))
+
+
+def canonical(value):
+    """Canonical JSON of a flat object, as heads are signed: keys sorted, one blank a level, LF at the end."""
+    return (json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode()
+
+
+class Head:
+    def __init__(self, value):
+        if not isinstance(value, dict) or value.get("schema") != "gumcert/archive-head/1":
+            raise ValueError("no head of an archive")
+        try:
+            self.archive, self.root, self.chain = (unhex(value[key]) for key in ("archive", "root", "chain"))
+            self.size, self.at, self.signature = value["size"], value["at"].encode(), value.get("signature")
+        except (KeyError, TypeError, AttributeError) as missing:
+            raise ValueError("no head of an archive") from missing
+        if type(self.size) is not int or self.size < 1:
+            raise ValueError("no head of an archive")
+        self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
+
+    def faults(self, name, public_key):
+        if self.signature is not None:
+            key, value = text(self.signature, "public_key"), text(self.signature, "value")
+            if not is_signed(self.signed, unhex(key), unhex(value)):
+                yield f"{name}: the signature is not one of this head"
+            elif public_key and key != public_key:
+                yield f"{name}: the head is signed with another key than the trusted one"
+        elif public_key:
+            yield f"{name}: the head is not signed"
+
+
+def verify_store(path, heads):
+    """Findings of an archive in one file of SQLite."""
+    database = sqlite3.connect(f"file:{urllib.parse.quote(str(path))}?mode=ro", uri=True)
+    try:
+        database.text_factory = bytes
+        database.execute("PRAGMA cell_size_check = ON")
+        database.execute("PRAGMA trusted_schema = OFF")
+        database.execute("BEGIN")
+        yield from findings_of(database, heads)
+    except (sqlite3.Error, OverflowError, UnicodeDecodeError) as trouble:
+        yield f"SQLite: {trouble}"
+    finally:
+        database.close()
+
+
+def findings_of(database, heads):
+    if database.execute("PRAGMA application_id").fetchone()[0] != APPLICATION_ID:
+        yield "a SQLite file of something else"
+        return
+    version = database.execute("PRAGMA user_version").fetchone()[0]
+    if version != SCHEMA_VERSION:
+        yield f"version {version} of the tables is not known here"
+        return
+    for (line,) in database.execute("PRAGMA integrity_check(20)"):
+        if line != b"ok":
+            yield f"SQLite finds: {line.decode('utf-8', 'replace')}"
+    for row in database.execute("PRAGMA foreign_key_check"):
+        yield f"a row of {row[0]} names a content that is not there"
+    lines = sorted(b"\t".join(part or b"" for part in row) for row in database.execute("SELECT type, name, sql FROM sqlite_schema"))
+    if hashlib.sha256(b"\n".join(lines)).hexdigest() != SCHEMA_SHA256:
+        yield "tables, indices or triggers are not those of an archive"
+
+    rules, leaves, hashes, needed = Rules(), [], [], {}
+    prev = bytes(32)
+    for row in database.execute(f"SELECT {', '.join(FIELDS)} FROM log NOT INDEXED ORDER BY seq"):
+        entry = {name: value if name == "seq" else bytes(value or b"") for name, value in zip(FIELDS, row)}
+        name = f"entry {entry['seq']}"
+        if entry["seq"] != len(leaves) + 1:
+            yield f"{name} stands where entry {len(leaves) + 1} belongs"
+        if entry["prev"] != prev:
+            yield f"{name} does not follow the entry before it"
+        if entry_hash(entry) != entry["hash"]:
+            yield f"{name}: its fields give another hash than the one it has"
+        wrong = rules.accept(entry)
+        if wrong:
+            yield f"{name}: {wrong}"
+        for digest in contents_named_by(entry):
+            needed.setdefault(digest, name)
+        prev = entry["hash"]
+        leaves.append(leaf(prev))
+        hashes.append((prev, entry["at"]))
+    if not leaves:
+        yield "the log is empty"
+        return
+    if rules.due:
+        yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
+    kept = set()
+    for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
+        digest = digest.decode("utf-8", "replace")
+        if hashlib.sha256(data).hexdigest() != digest:
+            yield f"content {digest}: its bytes have another hash"
+        elif digest not in needed:
+            yield f"content {digest}: no entry of the log names it"
+        kept.add(digest)
+    for digest, name in needed.items():
+        if digest not in kept:
+            yield f"{name}: the content {digest} is not there"
+    for head in heads:
+        if head.archive != hashes[0][0]:
+            yield f"head of {head.size} entries: one of another archive"
+        elif head.size > len(leaves):
+            yield f"head of {head.size} entries: the archive has {len(leaves)}"
+        elif root_of(leaves[:head.size]) != head.root or hashes[head.size - 1] != (head.chain, head.at):
+            yield f"head of {head.size} entries: the entries of the archive up to there are others"
+
+
+def verify_evidence(value, heads, public_key, tell):
+    """Findings of the evidence of one certificate; its state is told."""
+    head = Head(value.get("head"))
+    yield from head.faults("the head of the evidence", public_key if head.signature else "")
+    rules, needed, last = Rules(judges_numbers=False), {}, 0
+    number = value["certificate"]
+    for written in value["entries"]:
+        entry = {name: written[name] if name == "seq" else
+                 unhex(written[name]) if name in ("prev", "hash") else written[name].encode() for name in FIELDS}
+        name, seq = f"entry {entry['seq']}", entry["seq"]
+        if not last < seq <= head.size:
+            yield f"{name} stands at a wrong place"
+            continue
+        last = seq
+        if entry_hash(entry) != entry["hash"]:
+            yield f"{name}: its fields give another hash than the one it has"
+        if ((seq == 1) != (entry["hash"] == head.archive) or (seq == head.size and (entry["hash"], entry["at"]) != (head.chain, head.at)) or
+                root_of_proof(entry["hash"], seq - 1, head.size, [unhex(one) for one in written["proof"]]) != head.root):
+            yield f"{name}: its proof does not lead to the head"
+        wrong = rules.accept(entry)
+        if wrong:
+            yield f"{name}: {wrong}"
+        if entry["certificate"] == number.encode():
+            for digest in contents_named_by(entry):
+                needed.setdefault(digest, name)
+    kept = set()
+    for content in value["contents"]:
+        digest = content["sha256"]
+        if hashlib.sha256(base64.b64decode(content["base64"], validate=True)).hexdigest() != digest:
+            yield f"content {digest}: its bytes have another hash"
+        elif digest not in needed:
+            yield f"content {digest}: no entry names it"
+        kept.add(digest)
+    for digest, name in needed.items():
+        if digest not in kept:
+            yield f"{name}: the content {digest} is not there"
+    life = rules.lives.get(number)
+    if life is None or not life["record"]:
+        yield "no entry with a record is about this certificate"
+    for other in heads:
+        if other.archive != head.archive or (other.size == head.size and (other.root, other.chain) != (head.root, head.chain)):
+            yield f"head of {other.size} entries: the evidence is of another archive, or of a log that was rewritten"
+    if life is not None:
+        tell(f"certificate {number}: {life['state']}" + (f", see {life['later']}" if life["later"] else "") +
+             f", as the archive stood at {head.at.decode()} ({head.size} entries)")
+
+
+def findings(path, head_files=(), public_key="", tell=lambda text: None):
+    """Everything that is wrong with an archive or evidence."""
+    heads = []
+    for file in head_files:
+        try:
+            heads.append(Head(strict_object(pathlib.Path(file).read_bytes())))
+            yield from heads[-1].faults(file, public_key)
+        except ValueError as wrong:
+            yield f"{file}: {wrong}"
+    with open(path, "rb") as stream:
+        is_store = stream.read(16) == b"SQLite format 3\0"
+    if is_store:
+        yield from verify_store(path, heads)
+        return
+    value = strict_object(pathlib.Path(path).read_bytes())
+    if value is None or value.get("schema") != "gumcert/archive-evidence/1":
+        yield "neither an archive nor evidence"
+        return
+    try:
+        yield from verify_evidence(value, heads, public_key, tell)
+    except (KeyError, TypeError, AttributeError, ValueError, binascii.Error) as missing:
+        yield f"no evidence: {missing}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Verifies an archive of gumcert, or evidence taken out of one.")
+    parser.add_argument("file")
+    parser.add_argument("--head", action="append", default=[], help="an earlier head (JSON)")
+    parser.add_argument("--public-key", default="", help="Ed25519 key that heads must be signed with, 64 hexadecimal digits")
+    arguments = parser.parse_args()
+    try:
+        found = list(findings(arguments.file, arguments.head, arguments.public_key.lower(), print))
+    except OSError as trouble:
+        print(f"{trouble.filename}: {trouble.strerror}", file=sys.stderr)
+        return 5
+    for line in found:
+        print(line)
+    print(f"{arguments.file}: {'NOT SOUND' if found else 'sound'}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
