@@ -2,18 +2,14 @@
 
 #include <gumcert_build_info.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/record_differences.h"
 #include "encoding/sha2.h"
-#include "json/canonical_json.h"
-#include "json/json_pointer.h"
 #include "reports/record/make/record_parts.h"
 #include "text/lists.h"
-#include "text/utf8.h"
 
 namespace gumcert::app {
 
@@ -23,86 +19,25 @@ using nlohmann::json;
 using reports::EvaluationRecord;
 using reports::InputFile;
 
-constexpr double k_same_number = 1e-9;
-constexpr double k_nothing_beside = 1e-12;  // of the largest number of a list
-constexpr std::size_t k_longest_text = 120;
-
-/// A value as a message shows it.
-std::string shown(const json& value) {
-    if (value.is_structured()) {
-        return value.is_array() ? "a list of " + std::to_string(value.size()) : "an object";
-    }
-    std::string text = gumcert::json::canonical_json(value);
-    text.pop_back();
-    if (text.size() > k_longest_text) {
-        std::size_t end = k_longest_text;
-        while (end > 0 && text::is_continuation(text[end])) {
-            --end;
-        }
-        text = text.substr(0, end) + "…";
-    }
-    return text;
+std::string shown_or_nothing(const json* value) {
+    return value == nullptr ? "nothing" : shown_value(*value);
 }
 
-double largest_in(const json& list) {
-    double largest = 0.0;
-    for (const json& item : list) {
-        largest = item.is_number() ? std::max(largest, std::abs(item.get<double>())) : largest;
-    }
-    return largest;
-}
-
-/// A square matrix with a diagonal that is not negative: of covariances, whose rows have different units.
-bool is_covariance(const json& list) {
-    bool is = list.size() > 1;
-    for (std::size_t i = 0; is && i < list.size(); ++i) {
-        is = list[i].is_array() && list[i].size() == list.size() && list[i][i].is_number() &&
-             list[i][i].get<double>() >= 0.0;
-    }
-    return is;
-}
-
-/// Walks two JSON values side by side.
-class Comparison {
+/// The places where two records differ as messages, of the first ones.
+class Disagreements {
 public:
-    explicit Comparison(std::string where) : where_(std::move(where)) {}
+    explicit Disagreements(std::string where) : where_(std::move(where)) {}
 
-    /// \param scale  of the list that the values stand in; 0 outside of one
-    void compare(const json& stated, const json& evaluated, const std::string& pointer, double scale = 0.0) {
-        if (stated.is_number() && evaluated.is_number()) {
-            const double a = stated.get<double>();
-            const double b = evaluated.get<double>();
-            const double allowed =
-                std::max(k_same_number * std::max(std::abs(a), std::abs(b)), k_nothing_beside * scale);
-            if (!(std::abs(a - b) <= allowed)) {
-                differs(pointer, shown(stated), shown(evaluated));
-            }
-        } else if (stated.is_object() && evaluated.is_object()) {
-            for (const auto& [key, item] : stated.items()) {
-                const std::string at = pointer + "/" + gumcert::json::pointer_token(key);
-                if (const auto other = evaluated.find(key); other != evaluated.end()) {
-                    compare(item, *other, at);
-                } else {
-                    differs(at, shown(item), "nothing");
-                }
-            }
-            for (const auto& [key, item] : evaluated.items()) {
-                if (!stated.contains(key)) {
-                    differs(pointer + "/" + gumcert::json::pointer_token(key), "nothing", shown(item));
-                }
-            }
-        } else if (stated.is_array() && evaluated.is_array() && stated.size() == evaluated.size()) {
-            if (is_covariance(evaluated)) {
-                compare_covariance(stated, evaluated, pointer);
-                return;
-            }
-            const double within = largest_in(evaluated);
-            for (std::size_t i = 0; i < stated.size(); ++i) {
-                compare(stated[i], evaluated[i], pointer + "/" + std::to_string(i), within);
-            }
-        } else if (stated != evaluated) {
-            differs(pointer, shown(stated), shown(evaluated));
+    void add(const std::string& pointer, const json* stated, const json* evaluated) {
+        if (found_.size() >= k_most_disagreements) {
+            ++left_out_;
+            return;
         }
+        found_.push_back({.code = "GC-RECORD-0022",
+                          .where = where_ + "#" + pointer,
+                          .what = shown_or_nothing(stated),
+                          .rule = "the job that the record holds gives " + shown_or_nothing(evaluated),
+                          .action = "the record was changed after it was written; evaluate the job again"});
     }
 
     [[nodiscard]] std::vector<gum::Diagnostic> found() && {
@@ -120,32 +55,6 @@ private:
     std::string where_;
     std::vector<gum::Diagnostic> found_;
     std::size_t left_out_ = 0;
-
-    void compare_covariance(const json& stated, const json& evaluated, const std::string& pointer) {
-        for (std::size_t i = 0; i < stated.size(); ++i) {
-            const std::string row = pointer + "/" + std::to_string(i);
-            if (!stated[i].is_array() || stated[i].size() != stated.size()) {
-                differs(row, shown(stated[i]), shown(evaluated[i]));
-                continue;
-            }
-            for (std::size_t j = 0; j < stated.size(); ++j) {
-                const double u = std::sqrt(evaluated[i][i].get<double>() * evaluated[j][j].get<double>());
-                compare(stated[i][j], evaluated[i][j], row + "/" + std::to_string(j), u);
-            }
-        }
-    }
-
-    void differs(const std::string& pointer, const std::string& stated, const std::string& evaluated) {
-        if (found_.size() >= k_most_disagreements) {
-            ++left_out_;
-            return;
-        }
-        found_.push_back({.code = "GC-RECORD-0022",
-                          .where = where_ + "#" + pointer,
-                          .what = stated,
-                          .rule = "the job that the record holds gives " + evaluated,
-                          .action = "the record was changed after it was written; evaluate the job again"});
-    }
 };
 
 std::string made_by(const reports::Software& software) {
@@ -206,9 +115,11 @@ std::vector<gum::Diagnostic> disagreements(const EvaluationRecord& stated, const
     json right = json::parse(b);
     left.erase("digest");  // it follows from the rest
     right.erase("digest");
-    Comparison comparison(where);
-    comparison.compare(left, right, "");
-    return std::move(comparison).found();
+    Disagreements found(where);
+    tell_differences(left, right, [&found](const std::string& pointer, const json* one, const json* other) {
+        found.add(pointer, one, other);
+    });
+    return std::move(found).found();
 }
 
 std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, const std::string& where) {
@@ -230,19 +141,27 @@ std::optional<gum::Diagnostic> not_recomputable(const EvaluationRecord& record, 
     if (record.digest.empty()) {
         return because("GC-RECORD-0026", "/digest", "missing", "a record of this version states its own digest");
     }
+    return files_not_held(record, where);
+}
+
+std::optional<gum::Diagnostic> files_not_held(const EvaluationRecord& record, const std::string& where) {
     std::vector<std::string> missing;
     for (const InputFile& file : record.job_files) {
         if (!file.content) {
             missing.push_back(file.name);
         }
     }
-    if (!missing.empty() || record.job_files.empty()) {
-        return because("GC-RECORD-0027", "/job/files",
-                       record.job_files.empty() ? "none" : "the record does not hold " + text::listed(missing),
-                       "what a document says is evaluated again from the files of the job, which the record holds up "
-                       "to 8 MiB each and 16 MiB together");
+    if (missing.empty() && !record.job_files.empty()) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    return gum::Diagnostic{
+        .code = "GC-RECORD-0027",
+        .where = where + "#/job/files",
+        .what = record.job_files.empty() ? "none" : "the record does not hold " + text::listed(missing),
+        .rule =
+            "what a document says is evaluated again from the files of the job, which the record holds up "
+            "to 8 MiB each and 16 MiB together",
+        .action = "evaluate the job again; a draft can be printed with --draft"};
 }
 
 EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,

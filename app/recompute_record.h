@@ -17,9 +17,7 @@ namespace gumcert::app {
 /// At most so many places of one record are reported.
 inline constexpr std::size_t k_most_disagreements = 20;
 
-/// Where a record says something else than the one that its job gives. The same numbers are those that agree within
-/// 1e-9 of their size, or of 1e-12 of the largest in their list, in a matrix of covariances of the two standard
-/// uncertainties: mathematical functions of two computers may differ in the last digit. Every text, every digit that is
+/// Where a record says something else than the one that its job gives: tell_differences(). Every text, every digit that is
 /// printed, every verdict is the same to the letter.
 /// \param where  name of the record, for messages
 [[nodiscard]] std::vector<gum::Diagnostic> disagreements(const reports::EvaluationRecord& stated,
@@ -30,6 +28,10 @@ inline constexpr std::size_t k_most_disagreements = 20;
 /// job, it states no digest. None: it can.
 [[nodiscard]] std::optional<gum::Diagnostic> not_recomputable(const reports::EvaluationRecord& record,
                                                               const std::string& where);
+
+/// That a record does not hold all files of its job: GC-RECORD-0027. None: it does.
+[[nodiscard]] std::optional<gum::Diagnostic> files_not_held(const reports::EvaluationRecord& record,
+                                                            const std::string& where);
 
 /// The record that the job in a record gives: its files as the record holds them, evaluated with this program.
 /// \throws gum::InputError  GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated

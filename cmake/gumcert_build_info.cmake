@@ -1,5 +1,7 @@
 # The header <gumcert_build_info.h>: version and commit, which a record names as its maker. The header
-# <gumcert_templates.h>: the digest of the templates of this release, see reports/forms/template_digest.h.
+# <gumcert_templates.h>: the digests of what this release comes with: templates, see reports/forms/template_digest.h, and
+# reference cases, see app/self_test/self_test.h. The header <gumcert_made_with.h>: the compiler, and the libraries that are
+# compiled in.
 #
 # Written at each build, because the commit changes without CMake being run again; rewritten only when it differs.
 # As a script (cmake -P) this file writes the header, included it makes the target gumcert::build_info.
@@ -49,6 +51,14 @@ inline constexpr std::string_view k_day_of_commit = "@day_of_commit@";
         string(APPEND lines "${digest}  ${name}\n")
     endforeach()
     string(SHA256 template_digest "${lines}")
+    file(GLOB cases RELATIVE ${SOURCE_DIR}/tests/reference/cases ${SOURCE_DIR}/tests/reference/cases/*.json)
+    list(SORT cases)
+    set(lines "")
+    foreach(name IN LISTS cases)
+        file(SHA256 ${SOURCE_DIR}/tests/reference/cases/${name} digest)
+        string(APPEND lines "${digest}  ${name}\n")
+    endforeach()
+    string(SHA256 case_digest "${lines}")
     cmake_path(GET HEADER PARENT_PATH folder)
     file(CONFIGURE OUTPUT ${folder}/gumcert_templates.h @ONLY CONTENT [[
 #pragma once
@@ -58,6 +68,7 @@ inline constexpr std::string_view k_day_of_commit = "@day_of_commit@";
 namespace gumcert {
 
 inline constexpr std::string_view k_template_digest = "@template_digest@";
+inline constexpr std::string_view k_reference_case_digest = "@case_digest@";
 
 }  // namespace gumcert
 ]])
@@ -65,6 +76,27 @@ inline constexpr std::string_view k_template_digest = "@template_digest@";
 endif()
 
 set(gumcert_build_info_dir ${PROJECT_BINARY_DIR}/generated)
+
+# Libraries of headers leave no file that could be asked at run time.
+set(gumcert_compiled_in "")
+foreach(package IN ITEMS Eigen3 Boost nlohmann_json CLI11)
+    string(APPEND gumcert_compiled_in "    {\"${package}\", \"${${package}_VERSION}\"},\n")
+endforeach()
+file(CONFIGURE OUTPUT ${gumcert_build_info_dir}/gumcert_made_with.h @ONLY CONTENT [[
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace gumcert {
+
+inline constexpr std::string_view k_compiler = "@CMAKE_CXX_COMPILER_ID@ @CMAKE_CXX_COMPILER_VERSION@, @CMAKE_SYSTEM_PROCESSOR@, @CMAKE_BUILD_TYPE@";
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> k_compiled_in{{
+@gumcert_compiled_in@}};
+
+}  // namespace gumcert
+]])
 add_custom_target(gumcert_build_info_header
     COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${PROJECT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
             -DHEADER=${gumcert_build_info_dir}/gumcert_build_info.h -P ${CMAKE_CURRENT_LIST_FILE}

@@ -26,6 +26,9 @@ install(FILES ${PROJECT_BINARY_DIR}/gumcert-config.cmake ${PROJECT_BINARY_DIR}/g
 
 install(TARGETS gumcert RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY templates schemas DESTINATION ${gumcert_share_dir} COMPONENT program)
+# The published cases of gumcert self-test.
+file(GLOB reference_cases CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/reference/cases/*.json)
+install(FILES ${reference_cases} DESTINATION ${gumcert_share_dir}/reference_cases COMPONENT program)
 install(FILES LICENSE NOTICE DESTINATION ${gumcert_share_dir} COMPONENT program)
 
 # The PDF step runs in Node with a pinned module. Without the module (scripts/setup brings it) everything but PDF works.

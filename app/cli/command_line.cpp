@@ -403,6 +403,50 @@ void add_laboratory_command(CLI::App& program, Arguments& a) {
         "out. docs/laboratory.md");
 }
 
+void add_self_test(CLI::App& program, Arguments& a) {
+    CLI::App& command = *program.add_subcommand(
+        "self-test", "Published cases on this machine, with a validation report for ISO/IEC 17025:2017, 7.11.2");
+    command
+        .add_option("-o,--output", a.output,
+                    "Folder for self-test.json, self-test.html and self-test.pdf; default: gumcert-self-test- with the "
+                    "date")
+        ->type_name("FOLDER");
+    command
+        .add_option("--case", a.cases, "Only this case, with all of its values on the terminal; no report is written")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    command.add_option("--language", a.language, "Language of HTML and PDF: en, de, zh-Hant, es. Default: en")
+        ->type_name("LANGUAGE")
+        ->check(CLI::IsMember({"en", "de", "zh-Hant", "es"}));
+    add_share(command, a.share);
+    command.footer(
+        "Example: gumcert self-test\n"
+        "         gumcert self-test --case gum-h1-end-gauge\n"
+        "Evaluates the published cases that come with the program (GUM, its supplements, EA-4/02, NIST StRD …) and "
+        "holds\n"
+        "every value against the number that its source prints. The report says what was computed on which program,\n"
+        "machine and libraries, how many digits agree, and its own SHA-256. Exit code 1 where a case fails. Without\n"
+        "Node.js there is no PDF. docs/self_test.md");
+}
+
+void add_rerun(CLI::App& program, Arguments& a) {
+    CLI::App& command =
+        *program.add_subcommand("rerun", "Evaluate the jobs in old records with this version, and list what changed");
+    command.add_option("RECORD", a.records, "Record files (JSON) of any version")->required();
+    command.add_option("--format", a.format, "text (for people), json or csv (for programs). Default: text")
+        ->type_name("FORM")
+        ->check(CLI::IsMember({"text", "json", "csv"}));
+    add_share(command, a.share);
+    command.footer(
+        "Example: gumcert rerun archive/*/record.json\n"
+        "Of every record: the same in every number, or each place where a number, a printed digit or a verdict "
+        "differs,\n"
+        "with the old and the new value; or why it cannot be evaluated. Nothing is written. Exit code 0 where no "
+        "printed\n"
+        "digit and no verdict changed, 1 where one did or a record cannot be evaluated, 3 where a file is no record.\n"
+        "docs/self_test.md");
+}
+
 void add_init(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("init", "Begin with a method that comes with the program");
     command.add_option("METHOD", a.method, "Name of the method; left out: all of them are listed");
@@ -462,6 +506,8 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_simulate(*program, a);
     add_plan(*program, a);
     add_laboratory_command(*program, a);
+    add_self_test(*program, a);
+    add_rerun(*program, a);
     add_init(*program, a);
     add_explain(*program, a);
     add_fonts(*program, a);

@@ -22,8 +22,8 @@ namespace gumcert::cli {
 struct Arguments {
     std::string command;  ///< "run", "evaluate", …; "" = none
     CommonOptions common;
-    std::vector<std::string> jobs, records, files, revocation_lists, codes;
-    std::string job, file, output, format, share, trust_store, standard, date, method, folder;
+    std::vector<std::string> jobs, records, files, revocation_lists, codes, cases;
+    std::string job, file, output, format, share, trust_store, standard, date, method, folder, language;
     DocumentOptions documents;
     AuditOptions audit;
     ArchiveOptions archive;

@@ -18,12 +18,11 @@
 #include "app/cli/init_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/laboratory_command.h"
+#include "app/cli/rerun_command.h"
+#include "app/cli/self_test_command.h"
 #include "app/cli/share_folder.h"
 #include "app/cli/study_commands.h"
 #include "app/cli/terminal.h"
-#include "app/read_file.h"
-#include "encoding/sha2.h"
-#include "gum/quantity/diagnostic.h"
 
 namespace {
 
@@ -31,13 +30,7 @@ using namespace gumcert;       // NOLINT(google-build-using-namespace): one prog
 using namespace gumcert::cli;  // NOLINT(google-build-using-namespace)
 
 std::string version_text() {
-    std::string digest = "unknown";
-    try {
-        digest = encoding::sha256(app::read_file(cli::executable()));
-    } catch (const gum::DiagnosedError&) {
-        // A system without /proc: the version is still printed.
-    }
-    return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, digest);
+    return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, executable_digest());
 }
 
 ExitCode dispatch(int argc, char** argv, Arguments& a) {
@@ -94,6 +87,12 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     }
     if (a.command == "laboratory") {
         return show_laboratory(a.file, a.date, a.format);
+    }
+    if (a.command == "self-test") {
+        return self_test(a.output, a.cases, a.language, a.share, a.common);
+    }
+    if (a.command == "rerun") {
+        return rerun_records(a.records, a.format, a.share, a.common);
     }
     if (a.command == "init") {
         return init(a.method, a.folder, a.share, a.common);

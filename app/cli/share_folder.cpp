@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/read_file.h"
+#include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/template_digest.h"
 
@@ -37,6 +39,14 @@ fs::path program_on_path(const char* name) {
 fs::path executable() {
     std::error_code error;
     return fs::read_symlink("/proc/self/exe", error);
+}
+
+std::string executable_digest() {
+    try {
+        return encoding::sha256(app::read_file(executable()));
+    } catch (const gum::DiagnosedError&) {
+        return "unknown";
+    }
 }
 
 fs::path share_folder(const std::string& given) {
@@ -81,6 +91,20 @@ fs::path examples_folder(const std::string& given) {
     throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", "examples", "the folder of methods was not found",
                                             "methods are among the examples that come with the program",
                                             "install the program with its documents", gum::Severity::error});
+}
+
+fs::path reference_cases_folder(const std::string& given) {
+    const fs::path share = share_folder(given);
+    std::error_code error;
+    for (const fs::path& candidate : {share / "reference_cases", share / "tests" / "reference" / "cases"}) {
+        if (fs::is_directory(candidate, error)) {
+            return candidate;
+        }
+    }
+    throw gum::StorageError(
+        gum::Diagnostic{"GC-STORE-0010", "reference_cases", "the folder of reference cases was not found",
+                        "the published cases come with the program",
+                        "install the program as a whole, or name its folder with --share", gum::Severity::error});
 }
 
 void add_program_files(std::vector<fs::path>& inputs, const std::string& share) {

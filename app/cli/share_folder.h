@@ -11,6 +11,9 @@ namespace gumcert::cli {
 /// This program's own file.
 [[nodiscard]] std::filesystem::path executable();
 
+/// SHA-256 of it; "unknown" on a system without /proc.
+[[nodiscard]] std::string executable_digest();
+
 /// Folder with templates/: share/gumcert of the installation, or the tree that the program was built in.
 /// \param given  what --share names; "" = look for it
 /// \throws gum::StorageError  GC-STORE-0010
@@ -23,6 +26,10 @@ namespace gumcert::cli {
 /// The folder of examples, where `gumcert init` takes methods from: share/doc/gumcert of the installation, or the tree.
 /// \throws gum::StorageError  GC-STORE-0010
 [[nodiscard]] std::filesystem::path examples_folder(const std::string& given);
+
+/// The published reference cases of `gumcert self-test`: share/gumcert/reference_cases of the installation, or the tree.
+/// \throws gum::StorageError  GC-STORE-0010
+[[nodiscard]] std::filesystem::path reference_cases_folder(const std::string& given);
 
 /// Adds the folders that the program itself reads, templates and schemas, to the inputs that no output may overwrite.
 void add_program_files(std::vector<std::filesystem::path>& inputs, const std::string& share);

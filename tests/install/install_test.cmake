@@ -95,7 +95,7 @@ foreach(file IN LISTS package_files)
     endif()
 endforeach()
 
-foreach(wanted bin/gumcert share/gumcert/templates share/gumcert/schemas share/gumcert/package-lock.json
+foreach(wanted bin/gumcert share/gumcert/templates share/gumcert/reference_cases/gum-h1-end-gauge.json share/gumcert/schemas share/gumcert/package-lock.json
                share/gumcert/LICENSE share/gumcert/NOTICE include/gumcert/gum/coverage.h)
     if(NOT EXISTS ${prefix}/${wanted})
         message(FATAL_ERROR "${wanted} was not installed")
@@ -113,6 +113,12 @@ foreach(wanted record.json certificate.html certificate.pdf)
         message(FATAL_ERROR "the installed program did not write ${wanted}")
     endif()
 endforeach()
+
+# It tests itself with the cases that came along, which are those of the release.
+run("the self-test" ${prefix}/bin/gumcert self-test -o ${WORK_DIR}/self_test)
+if(NOT EXISTS ${WORK_DIR}/self_test/self-test.pdf OR output MATCHES "not those of this release")
+    message(FATAL_ERROR "the self-test of the installed program printed\n${output}")
+endif()
 
 # And the example reads what it made: of the end gauge Monte Carlo is reported, because the terms of second order matter
 # (JCGM 100:2008, H.1.7).

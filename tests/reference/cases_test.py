@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The runner of the published cases fails where it must, and so does the check of their shape.
+"""`gumcert self-test` fails where it must on the published cases, and so does the check of their shape.
 
     cases_test.py PROGRAM [--all]
 
 Every expected value of a case is moved just beyond its tolerance, in its last digits, and must be refused; one that
-passes all the same was never compared. One case a topic, or with --all every case, which takes as long as the cases do.
-Beside that: paths, jobs and files that are not as they should be.
+passes all the same was never compared. One case a topic, or with --all every case. Beside that: cases that are not as they
+should be.
 """
 
 import copy
@@ -21,9 +21,31 @@ from contextlib import redirect_stdout
 from decimal import Decimal
 
 import check_cases
-import run_cases
 
-CASES = run_cases.HERE / "cases"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CASES = ROOT / "tests" / "reference" / "cases"
+
+
+def last_digit(printed):
+    """A unit of the last printed digit: "1.60E-3" → 0.00001."""
+    return Decimal(1).scaleb(Decimal(printed.replace(" ", "")).as_tuple().exponent)
+
+
+def expected_value(entry):
+    """The number, truth or text of an entry; numbers may be printed with spaces between their digits."""
+    value = entry["printed"] if "printed" in entry else entry["computed"]
+    try:
+        return float(value.replace(" ", "")) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def tolerance_of(entry):
+    if "tolerance" in entry:
+        return entry["tolerance"]
+    if "relative_tolerance" in entry:
+        return entry["relative_tolerance"] * abs(expected_value(entry))
+    return 0.5 * float(last_digit(entry["printed"]))
 
 
 def spoiled(entry):
@@ -31,7 +53,7 @@ def spoiled(entry):
     it agrees with the true one."""
     entry = copy.deepcopy(entry)
     key = "printed" if "printed" in entry else "computed"
-    value = run_cases.expected_value(entry)
+    value = expected_value(entry)
     if isinstance(value, bool):
         entry[key] = not value
     elif isinstance(value, str):
@@ -39,9 +61,9 @@ def spoiled(entry):
     elif isinstance(entry.get("tolerance"), str):  # some numerical errors of the trials: far below a tenth
         entry[key] = 1.1 * value + (value == 0.0)
     elif math.isfinite(value):
-        tolerance = run_cases.tolerance_of(entry, None)
+        tolerance = tolerance_of(entry)
         if key == "printed":  # whole units of the last digit
-            unit = Decimal(1).scaleb(Decimal(entry[key].replace(" ", "")).as_tuple().exponent)
+            unit = last_digit(entry[key])
             units = max(1, math.ceil(2.5 * tolerance / float(unit)))
             entry[key] = str(Decimal(entry[key].replace(" ", "")) + units * unit)
         else:
@@ -67,78 +89,75 @@ class Case(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+        self.share = self.folder / "share"
+        (self.share / "reference_cases").mkdir(parents=True)
+        (self.share / "templates").symlink_to(ROOT / "templates")
 
     def case(self, name):
         return json.loads((CASES / f"{name}.json").read_text(encoding="utf-8"))
 
-    def run_changed(self, case):
-        (self.folder / "changed.json").write_text(json.dumps(case), encoding="utf-8")
-        return run_cases.run_case(self.folder / "changed.json", self.program, self.folder / "work")
+    def put(self, name, case):
+        text = case if isinstance(case, str) else json.dumps(case)
+        (self.share / "reference_cases" / f"{name}.json").write_text(text, encoding="utf-8")
+
+    def self_test(self):
+        ended = subprocess.run([self.program, "self-test", "--share", self.share, "-o", self.folder / "out"],
+                               capture_output=True, text=True, encoding="utf-8", check=False, cwd=self.folder)
+        report = self.folder / "out" / "self-test.json"
+        return ended, json.loads(report.read_text(encoding="utf-8")) if report.exists() else None
 
 
-class Runner(Case):
+class SelfTest(Case):
     def test_every_expected_value_is_compared(self):
         names = [path.stem for path in sorted(CASES.glob("*.json"))] if self.all_cases else one_case_a_topic()
+        counts = {}
         for name in names:
-            with self.subTest(name):
-                case = self.case(name)
-                case["expected"] = [spoiled(entry) for entry in case["expected"] if "found" in entry]
-                outcome = self.run_changed(case)
-                self.assertEqual(outcome.agreed, 0, outcome.said)
-                self.assertEqual(len(outcome.failures), len(case["expected"]))
-                for failure in outcome.failures:
-                    self.assertIn(", expected ", failure)
+            case = self.case(name)
+            case["expected"] = [spoiled(entry) for entry in case["expected"] if "found" in entry]
+            counts[name] = len(case["expected"])
+            self.put(name, case)
+        ended, report = self.self_test()
+        self.assertEqual(ended.returncode, 1, ended.stderr)
+        self.assertEqual({one["case"]: len(one["values"]) for one in report["cases"]}, counts)
+        for one in report["cases"]:
+            for value in one["values"]:
+                with self.subTest(f"{one['case']}: {value['quantity']} {value['kind']}"):
+                    self.assertFalse(value["agrees"], value)
+                    self.assertIn(", expected ", value["because"])
 
-    def test_one_spoiled_digit_fails_the_run_and_is_named(self):
-        case = self.case("gum-522-series-resistors-uncorrelated")
+    def test_one_spoiled_digit_fails_and_is_named(self):
+        name = "gum-522-series-resistors-uncorrelated"
+        case = self.case(name)
         place = next(i for i, entry in enumerate(case["expected"]) if entry["kind"] == "u" and "printed" in entry)
-        whole = len(case["expected"])
         case["expected"][place] = spoiled(case["expected"][place])
-        (self.folder / "spoiled.json").write_text(json.dumps(case), encoding="utf-8")
-        done = self.run_program("--cases", self.folder)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("FAIL  spoiled", done.stdout)
-        self.assertIn(f"{case['expected'][place]['quantity']} u: ", done.stdout)
-        self.assertIn(f"0 cases pass, 1 fail; {whole - 1} values agree", done.stdout)
+        self.put(name, case)
+        self.put("iso11929-4-ex6", self.case("iso11929-4-ex6"))
+        ended, report = self.self_test()
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stdout, f"(?m)^FAIL  {name}  ")
+        self.assertRegex(ended.stdout, "(?m)^pass  iso11929-4-ex6  ISO 11929-4:2022, example 6, Table 1  2 of 2 values$")
+        self.assertIn(f"{name} — {case['expected'][place]['quantity']} u: ", ended.stderr)
+        self.assertIn("[GC-SELF-0003]", ended.stderr)
+        self.assertIn("1 of 2 cases pass", ended.stdout)
+        self.assertFalse(report["passes"])
+        self.assertFalse(report["reference_cases"]["of_this_release"])
 
-    def test_a_value_in_a_second_place_is_compared_too(self):
-        case = self.case("gum-h2-resistance-reactance")
-        entry = next(entry for entry in case["expected"] if isinstance(entry.get("found"), list))
-        entry["found"][1] = entry["found"][1].replace("/value", "/u")
-        self.assertEqual(len(self.run_changed(case).failures), 1)
-
-    def test_what_cannot_be_found_is_a_failure(self):
-        def without_place(entry):
-            del entry["found"]
-
-        def elsewhere(path):
-            return lambda entry: entry.update(found=path)
-
-        for change in (without_place, elsewhere("law/results/none/u"), elsewhere("none/results/Rref/u"),
-                       elsewhere("law/results/Rref/budget/input=none/u"), elsewhere("law/results/Rref"),
-                       elsewhere("{law/results/Rref/u} / 0"), elsewhere("{law/results/Rref/u} +")):
-            case = self.case("gum-522-series-resistors-uncorrelated")
-            case["expected"] = case["expected"][:1]
-            change(case["expected"][0])
-            outcome = self.run_changed(case)
-            self.assertEqual((outcome.agreed, len(outcome.failures)), (0, 1), case["expected"])
-
-    def test_a_refused_job_and_an_empty_case_are_failures(self):
+    def test_a_refused_job_and_files_that_are_no_case_are_failures(self):
         case = self.case("gum-522-series-resistors-uncorrelated")
         case["jobs"]["law"]["model"] = ["Rref = "]
-        outcome = self.run_changed(case)
-        self.assertEqual(outcome.agreed, 0)
-        self.assertIn("exit code 3 of the job law", outcome.failures[0])
-        case["expected"] = []
-        self.assertEqual(self.run_changed(case).failures, ["no value of the case is compared"])
+        self.put("refused", case)
+        self.put("empty", {**case, "expected": []})
+        self.put("torn", json.dumps(case)[:100])
+        ended, report = self.self_test()
+        self.assertEqual(ended.returncode, 1)
+        self.assertEqual([one["passes"] for one in report["cases"]], [False] * 3)
+        self.assertIn("job law: ", report["cases"][1]["values"][0]["because"])
 
     def test_nothing_to_run_is_no_success(self):
-        self.assertEqual(self.run_program("--cases", self.folder).returncode, 2)
-        self.assertEqual(self.run_program("--only", "no-such-case").returncode, 2)
-
-    def run_program(self, *arguments):
-        return subprocess.run([sys.executable, "-B", run_cases.__file__, "--program", self.program, *arguments],
-                              capture_output=True, text=True, encoding="utf-8", check=False)
+        ended, report = self.self_test()
+        self.assertEqual(ended.returncode, 5)
+        self.assertIsNone(report)
+        self.assertIn("[GC-STORE-0013]", ended.stderr)
 
 
 class Check(Case):

@@ -10,7 +10,7 @@
 #include <vector>
 
 // The published cases of tests/reference/cases, for tests that give their data to one layer. Their README.md says what
-// stands in them; tests/reference/run_cases.py compares all of their values through the program.
+// stands in them; gumcert self-test compares all of their values.
 namespace gumcert::test {
 
 inline std::filesystem::path reference_folder() {

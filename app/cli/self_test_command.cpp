@@ -1,0 +1,240 @@
+#include "app/cli/self_test_command.h"
+
+#include <fmt/core.h>
+#include <gumcert_build_info.h>
+#include <gumcert_made_with.h>
+#include <gumcert_templates.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "app/cli/clock.h"
+#include "app/cli/machine.h"
+#include "app/cli/share_folder.h"
+#include "app/output_files.h"
+#include "app/self_test/self_test.h"
+#include "app/self_test/self_test_document.h"
+#include "gum/quantity/diagnostic.h"
+#include "reports/forms/pdf_worker.h"
+#include "reports/forms/template_digest.h"
+#include "reports/record/evaluation_record.h"
+#include "text/lists.h"
+#include "text/visible_text.h"
+
+namespace gumcert::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "2026-11-24T18:55:00Z".
+std::string time_now() {
+    const std::chrono::sys_seconds now{std::chrono::seconds(seconds_now())};
+    const auto day = std::chrono::floor<std::chrono::days>(now);
+    const std::chrono::hh_mm_ss time(now - day);
+    const std::chrono::year_month_day date(day);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), time.hours().count(),
+                       time.minutes().count(), time.seconds().count());
+}
+
+std::string source_of(const app::ReferenceCase& reference) {
+    constexpr std::size_t k_longest = 120;
+    return text::visible(reference.document + (reference.place.empty() ? "" : ", " + reference.place), k_longest) +
+           (reference.is_place_seen ? "" : " (not looked up)");
+}
+
+constexpr std::size_t k_longest_line = 300;  // characters of a text of a case
+
+/// One line a case; a case that fails is a message as well.
+void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
+    const bool passes = outcome.passes();
+    if (!common.quiet) {
+        fmt::print("{}  {}  {}  {} of {} values\n", passes ? "pass" : "FAIL", text::visible(outcome.reference.id),
+                   source_of(outcome.reference), outcome.agreed(), outcome.values.size());
+        (void)std::fflush(stdout);
+    }
+    if (passes) {
+        return;
+    }
+    const auto first = std::find_if(outcome.values.begin(), outcome.values.end(),
+                                    [](const app::ComparedValue& value) { return !value.agrees; });
+    const std::size_t more = outcome.values.size() - outcome.agreed();
+    print_message(
+        {.code = "GC-SELF-0003",
+         .where = text::visible(outcome.reference.id),
+         .what =
+             first == outcome.values.end()
+                 ? outcome.refused
+                 : text::visible(first->expected.name() + ": " + first->because, k_longest_line) +
+                       (more > 1 ? "; and " + text::count_of(static_cast<std::int64_t>(more) - 1, "more value") : ""),
+         .rule = "every value of a published case is reached within its tolerance",
+         .action = "issue no certificate with this installation before it is explained; install the program "
+                   "again and repeat the test",
+         .severity = gum::Severity::error},
+        common);
+}
+
+void tell_values(const app::CaseOutcome& outcome) {
+    for (const app::ComparedValue& value : outcome.values) {
+        const int digits = value.expected.digits();
+        fmt::print("      {}  {}: {}, {} {}{}  ({})\n", value.agrees ? "pass" : "FAIL",
+                   text::visible(value.expected.name()),
+                   value.was_found ? text::visible(app::value_text(value.computed, 15)) : "nothing",
+                   value.expected.is_printed ? "printed" : "expected", text::visible(value.expected.text),
+                   digits > 0 ? fmt::format(", {} of {} digits", value.digits_reached, digits) : "",
+                   text::visible(value.expected.found.front(), k_longest_line));
+    }
+    for (const app::ExpectedValue& expected : outcome.reference.expected) {
+        if (!expected.not_compared.empty()) {
+            fmt::print("      not compared  {}: {}\n", text::visible(expected.name()),
+                       text::visible(expected.not_compared, k_longest_line));
+        }
+    }
+}
+
+/// The files of the cases with these names.
+std::vector<fs::path> chosen(const std::vector<fs::path>& files, const std::vector<std::string>& names) {
+    std::vector<fs::path> result;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(files.begin(), files.end(), [&name](const fs::path& file) { return file.stem() == name; });
+        if (found == files.end()) {
+            refuse_usage("--case " + name, "there is no such case", "a case is named as gumcert self-test lists it",
+                         "correct the name");
+        }
+        result.push_back(*found);
+    }
+    return result;
+}
+
+app::TestedSystem tested_system(const fs::path& templates, const std::string& cases_digest) {
+    app::TestedSystem system{.date = time_now(),
+                             .name = reports::Software().name,
+                             .version = std::string(k_version),
+                             .commit = std::string(k_commit),
+                             .compiler = std::string(k_compiler),
+                             .executable_sha256 = executable_digest(),
+                             .processor = processor(),
+                             .operating_system = operating_system(),
+                             .libraries = libraries_in_use(),
+                             .templates_sha256 = reports::template_digest(templates)};
+    system.templates_of_release = system.templates_sha256 == k_template_digest;
+    system.cases_of_release = cases_digest == k_reference_case_digest;
+    return system;
+}
+
+/// The families that a PDF can be set in, each once.
+std::vector<std::string> font_families(const reports::RenderAssets& assets) {
+    std::vector<std::string> families;
+    reports::PdfWorker worker(assets);
+    for (const reports::TemplateFont& font : worker.fonts()) {
+        if (std::find(families.begin(), families.end(), font.family) == families.end()) {
+            families.push_back(font.family);
+        }
+    }
+    return families;
+}
+
+/// What only a machine with the PDF program has. Without it the report has its other forms, and it is told.
+/// \return false where it failed
+template <class Work>
+bool tried(const fs::path& pdf, const CommonOptions& common, const Work& work) {
+    std::vector<gum::Diagnostic> why;
+    try {
+        work();
+        return true;
+    } catch (const gum::StorageError& error) {
+        why = error.diagnostics();
+    } catch (const gum::NoResultError& error) {
+        why = error.diagnostics();
+    }
+    for (gum::Diagnostic& one : why) {
+        one.severity = gum::Severity::warning;
+        print_message(one, common);
+    }
+    std::error_code error;
+    print_message(
+        {.code = "GC-SELF-0004",
+         .where = pdf.string(),
+         .what = fs::exists(pdf, error) ? "is not written; the file there is of an earlier test" : "is not written",
+         .rule = "HTML and JSON say the same",
+         .action = "mend what the message above says and repeat the test, or print the HTML",
+         .severity = gum::Severity::warning},
+        common);
+    return false;
+}
+
+ExitCode run_some(const std::vector<fs::path>& files, const fs::path& templates, const CommonOptions& common) {
+    const app::SelfTest test = app::run_self_test(files, static_cast<unsigned>(common.threads), templates,
+                                                  [&](const app::CaseOutcome& outcome) {
+                                                      tell(outcome, common);
+                                                      if (!common.quiet) {
+                                                          tell_values(outcome);
+                                                      }
+                                                  });
+    return test.passed() == test.cases.size() ? done : negative_answer;
+}
+
+}  // namespace
+
+ExitCode self_test(const std::string& output, const std::vector<std::string>& cases, const std::string& language,
+                   const std::string& share, const CommonOptions& common) {
+    const fs::path templates = templates_folder(share);
+    const fs::path shipped = reference_cases_folder(share);
+    const std::vector<fs::path> files = app::case_files(shipped);
+    if (!cases.empty()) {
+        return run_some(chosen(files, cases), templates, common);
+    }
+    const fs::path folder = output.empty() ? fs::path("gumcert-self-test-" + today()) : fs::path(output);
+    std::vector<fs::path> inputs{shipped};
+    add_program_files(inputs, share);
+    const fs::path pdf = folder / "self-test.pdf";
+    for (const fs::path& file : {folder / "self-test.json", folder / "self-test.html", pdf}) {
+        app::require_writable(file);
+        app::require_not_an_input(file, inputs);
+    }
+    app::SelfTest test = app::run_self_test(files, static_cast<unsigned>(common.threads), templates,
+                                            [&](const app::CaseOutcome& outcome) { tell(outcome, common); });
+    ProgressLine progress(!common.quiet);
+    progress("the report");
+    const reports::RenderAssets assets = render_assets(share, {language.empty() ? "en" : language});
+    test.system = tested_system(templates, test.cases_sha256);
+    const bool has_pdf = tried(pdf, common, [&] { test.system.fonts = font_families(assets); });
+    const std::string json = app::self_test_json(test);
+    const std::string digest = app::digest_of_self_test(json);
+    std::vector<app::OutputFile> written{{folder / "self-test.json", json},
+                                         {folder / "self-test.html", app::self_test_html(test, digest, assets)}};
+    if (has_pdf) {
+        (void)tried(pdf, common, [&] { written.push_back({pdf, app::self_test_pdf(test, digest, assets)}); });
+    }
+    app::write_files(written, inputs);
+    progress.clear();
+    const bool passes = test.passed() == test.cases.size();
+    if (!common.quiet) {
+        fmt::print("\n{} of {} cases pass; {} of {} values agree.\n", test.passed(), test.cases.size(), test.agreed(),
+                   test.compared());
+        if (!test.system.cases_of_release || !test.system.templates_of_release) {
+            fmt::print("The {} not those of this release; the report says so.\n",
+                       test.system.cases_of_release       ? "templates are"
+                       : test.system.templates_of_release ? "cases are"
+                                                          : "cases and templates are");
+        }
+        fmt::print("SHA-256 of the report: {}\n\nWritten:\n", digest);
+        for (const app::OutputFile& file : written) {
+            fmt::print("  {}\n", file.path.string());
+        }
+        fmt::print("Next: {}\n",
+                   passes ? "keep the report with the validation records of the laboratory, and repeat the test "
+                            "after every change of program or machine"
+                          : "issue no certificate before the report is explained; install the program again "
+                            "and repeat the test");
+    }
+    return passes ? done : negative_answer;
+}
+
+}  // namespace gumcert::cli
