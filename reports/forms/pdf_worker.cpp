@@ -4,6 +4,8 @@
 #include "reports/forms/asset_files.h"
 #include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
+#include "system/cleanup.h"
+#include "system/temporary.h"
 #include "text/lists.h"
 #include "text/markup.h"
 
@@ -53,30 +55,14 @@ constexpr std::uint64_t k_memory_per_process = 600'000'000;  // bytes
         gum::Diagnostic{.code = "GC-REPORT-0010", .where = where, .what = what, .rule = rule, .action = action});
 }
 
-/// A folder that only this user can enter; removed with everything in it at the end.
-class PrivateFolder {
-public:
-    explicit PrivateFolder(const fs::path& parent) {
-        std::string name = (fs::absolute(parent) / "gumcert-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            storage_error(parent.string(), std::string("cannot make a folder in it: ") + std::strerror(errno),
-                          "the PDF step needs a folder for its files",
-                          "name a folder that can be written to with TMPDIR");
-        }
-        path_ = name;
+system::TemporaryFolder private_folder(const fs::path& parent) {
+    try {
+        return system::TemporaryFolder(parent);
+    } catch (const std::system_error& error) {
+        storage_error(parent.string(), "cannot make a folder in it: " + error.code().message(),
+                      "the PDF step needs a folder for its files", "name a folder that can be written to with TMPDIR");
     }
-    ~PrivateFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    PrivateFolder(const PrivateFolder&) = delete;
-    PrivateFolder& operator=(const PrivateFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
+}
 
 void make_folder(const fs::path& path) {
     std::error_code failure;
@@ -189,7 +175,7 @@ void check_installation(const RenderAssets& assets) {
 /// The child process with its pipes and its folder.
 class PdfWorker::Process {
 public:
-    explicit Process(const RenderAssets& assets) : assets_(assets), folder_(assets.temporary_folder) {
+    explicit Process(const RenderAssets& assets) : assets_(assets), folder_(private_folder(assets.temporary_folder)) {
         // Typst would offer the fonts of the machine; a list of folders with one empty folder keeps them away.
         make_folder(folder_.path() / "no_fonts");
         write_file(folder_.path() / "fonts.conf", "<?xml version=\"1.0\"?>\n<fontconfig><dir>" +
@@ -334,6 +320,7 @@ private:
         }
         std::vector<std::string> settings = {"HOME=" + folder_.path().string(), "LC_ALL=C.UTF-8", "TZ=UTC",
                                              "FONTCONFIG_FILE=" + (folder_.path() / "fonts.conf").string()};
+        const system::CleanupLock lock = system::hold_cleanup();
         const int failure = ::posix_spawn(&child_, arguments[0].c_str(), &actions, &attributes,
                                           pointers(arguments).data(), pointers(settings).data());
         posix_spawnattr_destroy(&attributes);
@@ -343,6 +330,7 @@ private:
             storage_error(arguments[0], std::string("cannot be started: ") + std::strerror(failure),
                           "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
         }
+        system::remember_child(child_);
     }
 
     static std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -363,6 +351,7 @@ private:
             ended = child_ > 0 ? ::waitpid(child_, &status_, options) : -1;
         } while (ended < 0 && child_ > 0 && errno == EINTR);
         if (ended != 0) {
+            system::forget_child(child_);
             child_ = 0;
         }
         return child_ == 0;
@@ -466,7 +455,7 @@ private:
     }
 
     const RenderAssets& assets_;
-    PrivateFolder folder_;
+    system::TemporaryFolder folder_;
     Descriptor input_;   ///< requests go in here
     Descriptor output_;  ///< answers come out here
     pid_t child_ = 0;
