@@ -85,7 +85,8 @@ set(GUMCERT_EDGES_reports                            text gum/quantity certifica
 set(GUMCERT_EDGES_reports_plots                      text gum/quantity certificate reports/record reports)
 set(GUMCERT_EDGES_reports_view                       text gum/quantity gum certificate reports/record reports
                                                      reports/plots)
-set(GUMCERT_EDGES_reports_forms                      text system encoding gum/quantity json reports/record reports reports/view)
+set(GUMCERT_EDGES_reports_forms                      text encoding system gum/quantity json reports/record reports
+                                                     reports/view)
 set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity json gum certificate audit reports
                                                      reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
@@ -157,7 +158,7 @@ set(GUMCERT_THIRD_PARTY_reports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_plots)
 set(GUMCERT_THIRD_PARTY_reports_view                       nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohmann poll.h qpdf qrencode.h spawn.h
-                                                           sys/wait.h unistd.h)
+                                                           sys/resource.h sys/wait.h unistd.h)
 set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)

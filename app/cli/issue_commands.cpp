@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What all documents of one command are made with. The signer is looked at first of all; templates when the first
-/// document is made, so that faults of a job are reported before those of the installation.
+/// document is made, or before an evaluation.
 class Issuer {
 public:
     explicit Issuer(DocumentOptions options)
@@ -63,6 +63,13 @@ public:
             options_.worker = worker_.get();
         }
         return options_;
+    }
+
+    /// Tells what a PDF lacks before an evaluation begins that would be lost.
+    /// \throws gum::StorageError
+    void require_ready() {
+        (void)options();
+        worker_->require_ready();
     }
 
 private:
@@ -347,6 +354,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     app::require_not_inputs(outputs, inputs);
     const app::OutputsAtStart at_start = begin_outputs(outputs, common);
     print_warnings(issuer, common);
+    issuer.require_ready();
     ExitCode code = done;
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {

@@ -30,6 +30,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -331,6 +332,24 @@ private:
                           "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
         }
         system::remember_child(child_);
+        confine();
+    }
+
+    /// Before the process reads anything of a template. What it reserves is not counted, what it may write to is.
+    void confine() const {
+        constexpr rlim_t k_largest_file = rlim_t{1} << 30U;  // [byte]
+        constexpr rlim_t k_processor_time = 3600;            // [s], should nobody be there to end it
+        const auto limit = [this](auto what, rlim_t most) {
+            rlimit wall{};
+            if (::prlimit(child_, what, nullptr, &wall) == 0) {
+                wall = {std::min(wall.rlim_cur, most), std::min(wall.rlim_max, most)};
+                (void)::prlimit(child_, what, &wall, nullptr);
+            }
+        };
+        limit(RLIMIT_DATA, assets_.pdf_memory_limit);
+        limit(RLIMIT_FSIZE, k_largest_file);
+        limit(RLIMIT_CPU, k_processor_time);
+        limit(RLIMIT_CORE, 0);
     }
 
     static std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -466,6 +485,15 @@ private:
 
 PdfWorker::PdfWorker(RenderAssets assets) : assets_(std::move(assets)) {}
 PdfWorker::~PdfWorker() = default;
+
+void PdfWorker::require_ready() const {
+    check_installation(assets_);
+    for (const char* name : {k_certificate, "render.mjs"}) {
+        static_cast<void>(read_asset(assets_.templates / "pdf" / name));
+    }
+    const system::TemporaryFolder folder = private_folder(assets_.temporary_folder);
+    write_file(folder.path() / "fonts.conf", "<fontconfig/>\n");
+}
 
 PdfWorker::Process& PdfWorker::running() {
     if (process_ != nullptr && !process_->is_fit()) {
