@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
+#include <utility>
 
+#include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "jobs/file_source.h"
@@ -60,9 +63,10 @@ FileCheck check_register_file(const std::string& text, const std::string& name, 
 
 }  // namespace
 
-FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
-                     const fs::path& laboratory) {
-    const std::string text = read_file(file);
+namespace {
+
+FileCheck check_text(const std::string& text, const fs::path& file, unsigned threads, const fs::path& templates,
+                     const gum::Progress& progress, const fs::path& laboratory) {
     const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '/');
     if (!is_json) {
@@ -97,6 +101,22 @@ FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& tem
     }
     const jobs::DiskFileSource disk(file.parent_path(), laboratory);
     return check_job(jobs::ReadOnceSource(disk), file.filename().string());
+}
+
+}  // namespace
+
+FileCheck check_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
+                     const fs::path& laboratory) {
+    std::error_code error;
+    if (fs::is_directory(file, error)) {
+        return {.kind = "folder of outputs", .findings = check_sets(file)};
+    }
+    const std::string text = read_file(file);
+    FileCheck check = check_text(text, file, threads, templates, progress, laboratory);
+    for (gum::Diagnostic& doubt : doubts_about_set(file, text)) {
+        check.findings.push_back(std::move(doubt));
+    }
+    return check;
 }
 
 }  // namespace gumcert::app

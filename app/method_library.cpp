@@ -104,7 +104,7 @@ std::vector<fs::path> begin_with(const Method& method, const fs::path& folder) {
         files.push_back({.path = folder / name, .bytes = read_file(method.folder / name)});
         written.push_back(folder / name);
     }
-    write_files(files);
+    write_files(files, {}, {}, false);
     return written;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
 
@@ -24,12 +27,36 @@ void require_not_an_input(const std::filesystem::path& output, const std::vector
 void require_not_inputs(const std::vector<std::filesystem::path>& outputs,
                         const std::vector<std::filesystem::path>& inputs);
 
-/// Writes all files or none: each to a new temporary file beside its own, synchronised to the disk, then renamed.
-/// Folders that are missing are made. A file that takes the place of another keeps its permissions and, where the
-/// system allows it, its owner.
-/// \param inputs  as above: looked at again when the folders exist
-/// \throws gum::StorageError  with nothing of the new left behind and the old files as they were, unless a rename
-///                            itself fails
-void write_files(const std::vector<OutputFile>& files, const std::vector<std::filesystem::path>& inputs = {});
+/// What stood in the places of outputs when a command began, so that nobody who wrote there meanwhile is overwritten.
+class OutputsAtStart {
+public:
+    OutputsAtStart() = default;
+    explicit OutputsAtStart(const std::vector<std::filesystem::path>& outputs);
+
+    /// \throws gum::StorageError  GC-STORE-0008 if the file is another one now
+    void require_unchanged(const std::filesystem::path& output) const;
+
+private:
+    std::map<std::filesystem::path, std::string> states_;
+};
+
+/// Brings folders into order in which a program was interrupted while it wrote: a set that was being put in place is
+/// completed, or taken back where a part of it is lost; temporary files are removed. What another process is writing is
+/// left alone.
+/// \return what was done: GC-STORE-0009
+/// \throws gum::StorageError  GC-STORE-0013 if a set can be neither completed nor taken back
+std::vector<gum::Diagnostic> restore_outputs(const std::vector<std::filesystem::path>& outputs);
+
+/// Writes files of one folder, all or none: each to a new temporary file in the folder, synchronised to the disk, then
+/// put in place. Of several files a journal is kept meanwhile, and a manifest with their digests afterwards
+/// (app/output_set.h, docs/adr/0054-sets-of-outputs.md). A folder that is missing is made. A file that takes the place
+/// of another keeps its permissions and, where the system allows it, its owner.
+/// \param inputs         as above: looked at again when the folder exists
+/// \param at_start       of this command
+/// \param with_manifest  false for files that people change: nothing is remembered of them
+/// \throws gum::StorageError  with nothing of the new left behind and the old files as they were; GC-STORE-0008 if
+///                            another process writes there or has written there meanwhile
+void write_files(const std::vector<OutputFile>& files, const std::vector<std::filesystem::path>& inputs = {},
+                 const OutputsAtStart& at_start = {}, bool with_manifest = true);
 
 }  // namespace gumcert::app

@@ -5,7 +5,7 @@
 # A new arrow is one line here and an ADR. Keep each entry in the form set(NAME word word ...): the scanner reads it.
 
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
-set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
+set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
                           gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
                           gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate
@@ -21,6 +21,7 @@ set(GUMCERT_LAYER_FOLDERS text encoding gum/quantity json gum/expression gum gum
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
 set(GUMCERT_EDGES_encoding)
+set(GUMCERT_EDGES_system)
 set(GUMCERT_EDGES_gum_quantity                       text)
 set(GUMCERT_EDGES_json                               text gum/quantity)
 set(GUMCERT_EDGES_gum_expression                     text gum/quantity)
@@ -85,7 +86,8 @@ set(GUMCERT_EDGES_reports                            text gum/quantity certifica
 set(GUMCERT_EDGES_reports_plots                      text gum/quantity certificate reports/record reports)
 set(GUMCERT_EDGES_reports_view                       text gum/quantity gum certificate reports/record reports
                                                      reports/plots)
-set(GUMCERT_EDGES_reports_forms                      text encoding gum/quantity json reports/record reports reports/view)
+set(GUMCERT_EDGES_reports_forms                      text encoding system gum/quantity json reports/record reports
+                                                     reports/view)
 set(GUMCERT_EDGES_reports_audit                      text encoding gum/quantity json gum certificate audit reports
                                                      reports/plots reports/view reports/forms)
 set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum engine/rotary_table gum/rotary_table
@@ -94,12 +96,12 @@ set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity 
                                                      reports reports/view reports/forms)
 set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
                                                      audit reports/record reports/dcc)
-set(GUMCERT_EDGES_signing                            text encoding gum/quantity json)
+set(GUMCERT_EDGES_signing                            text encoding system gum/quantity json)
 set(GUMCERT_EDGES_imports                            gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
 set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)
-set(GUMCERT_EDGES_app                                text encoding gum/quantity json gum/monte_carlo certificate
+set(GUMCERT_EDGES_app                                text encoding system gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
                                                      jobs/laboratory jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
@@ -110,7 +112,7 @@ set(GUMCERT_EDGES_app                                text encoding gum/quantity 
                                                      imports workbook audit audit/rules audit/sources archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
-set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates reports/record
+set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
                                                      imports jobs/laboratory app app/self_test audit/rules reports/audit
                                                      archive/store archive)
@@ -119,6 +121,7 @@ set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity 
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
 set(GUMCERT_THIRD_PARTY_text)
 set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h openssl sys/stat.h unistd.h)
+set(GUMCERT_THIRD_PARTY_system                             fcntl.h stdlib.h sys/file.h sys/stat.h sys/types.h unistd.h)
 set(GUMCERT_THIRD_PARTY_gum_quantity                       Eigen)
 set(GUMCERT_THIRD_PARTY_json                               nlohmann)
 set(GUMCERT_THIRD_PARTY_gum_expression                     Eigen boost)
@@ -161,7 +164,7 @@ set(GUMCERT_THIRD_PARTY_reports                            nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_plots)
 set(GUMCERT_THIRD_PARTY_reports_view                       nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_forms                      fcntl.h kainjow nlohmann poll.h qpdf qrencode.h spawn.h
-                                                           sys/wait.h unistd.h)
+                                                           sys/resource.h sys/wait.h unistd.h)
 set(GUMCERT_THIRD_PARTY_reports_audit                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_studies                    nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
@@ -173,11 +176,12 @@ set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
 set(GUMCERT_THIRD_PARTY_app_self_test                      nlohmann)
-set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gnu gumcert_build_info.h gumcert_made_with.h
-                                                           gumcert_templates.h link.h nlohmann sys/utsname.h unistd.h)
+set(GUMCERT_THIRD_PARTY_app_cli                            CLI fcntl.h fmt gnu gumcert_build_info.h gumcert_made_with.h
+                                                           gumcert_templates.h link.h nlohmann sys/resource.h
+                                                           sys/utsname.h unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES encoding jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/self_test app/cli)
+set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/self_test app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "system/cleanup.h"
 
 namespace gumcert::signing {
 
@@ -83,12 +84,14 @@ pid_t start(std::vector<std::string> command, int input, int output) {
     posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
     std::vector<std::string> environment = {"PATH=/usr/local/bin:/usr/bin:/bin", "LC_ALL=C.UTF-8"};
     pid_t child = 0;
+    const system::CleanupLock lock = system::hold_cleanup();
     const int failure = ::posix_spawn(&child, command[0].c_str(), &actions, nullptr, pointers(command).data(),
                                       pointers(environment).data());
     posix_spawn_file_actions_destroy(&actions);
     if (failure != 0) {
         refuse(command[0], std::string("cannot be started: ") + std::strerror(failure));
     }
+    system::remember_child(child);
     return child;
 }
 
@@ -112,6 +115,7 @@ public:
             ended = ::waitpid(number_, &status_, options);
         } while (ended < 0 && errno == EINTR);
         if (ended != 0) {
+            system::forget_child(number_);
             number_ = 0;
         }
         return number_ == 0;

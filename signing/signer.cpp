@@ -3,6 +3,7 @@
 #include "encoding/file_bytes.h"
 #include "encoding/sha2.h"
 
+#include <openssl/crypto.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/rsa.h>
@@ -134,6 +135,26 @@ private:
     std::chrono::seconds limit_;
 };
 
+/// A text that is wiped from the memory when the object goes.
+class Secret {
+public:
+    explicit Secret(std::string&& text) : text_(std::move(text)) { wipe(text); }
+    ~Secret() { wipe(text_); }
+    Secret(const Secret&) = delete;
+    Secret& operator=(const Secret&) = delete;
+
+    [[nodiscard]] std::string& text() { return text_; }
+
+private:
+    /// A short text lies in the string itself, and stays there when it is moved away.
+    static void wipe(std::string& text) {
+        text.resize(text.capacity());
+        OPENSSL_cleanse(text.data(), text.size());
+        text.clear();
+    }
+    std::string text_;
+};
+
 /// Without a passphrase OpenSSL would ask at the terminal.
 int give_passphrase(char* buffer, int size, int /*for_writing*/, void* passphrase) {
     const auto& text = *static_cast<const std::string*>(passphrase);
@@ -234,7 +255,9 @@ Description read_description(const fs::path& file) {
 
 }  // namespace
 
-std::string read_signing_file(const fs::path& file) {
+namespace {
+
+encoding::FileBytes read_whole(const fs::path& file) {
     constexpr std::size_t k_largest = std::size_t{16} << 20U;
     encoding::FileBytes read = encoding::read_regular_file(file, k_largest);
     if (read.too_long) {
@@ -247,16 +270,24 @@ std::string read_signing_file(const fs::path& file) {
                                                 .rule = "keys, certificates and signer descriptions are regular files",
                                                 .action = "name a file that you may read"});
     }
-    return std::move(read.bytes);
+    return read;
+}
+
+}  // namespace
+
+std::string read_signing_file(const fs::path& file) {
+    return read_whole(file).bytes;
 }
 
 std::unique_ptr<Signer> signer_from_files(const fs::path& key, const fs::path& certificates,
                                           const std::string& passphrase) {
     std::vector<Bytes> chain = chain_from(certificates);
-    const std::string pem = read_signing_file(key);
+    encoding::FileBytes key_file = read_whole(key);
+    Secret secret(std::move(key_file.bytes));
+    const std::string& pem = secret.text();
     const Handle<BIO> in(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
-    std::string phrase = passphrase;
-    KeyHandle own(PEM_read_bio_PrivateKey(in.get(), nullptr, give_passphrase, &phrase));
+    Secret phrase{std::string(passphrase)};
+    KeyHandle own(PEM_read_bio_PrivateKey(in.get(), nullptr, give_passphrase, &phrase.text()));
     ERR_clear_error();
     if (own == nullptr) {
         const bool encrypted = pem.find("ENCRYPTED") != std::string::npos;
@@ -310,17 +341,20 @@ DescribedSigner described_signer(const fs::path& file) {
             signer_from_command(description.command, certificates, std::chrono::seconds(description.time_limit));
         return result;
     }
-    std::string passphrase;
+    encoding::FileBytes passphrase_file;
+    const fs::path secret = folder / description.passphrase_file;
     if (!description.passphrase_file.empty()) {
-        const fs::path secret = folder / description.passphrase_file;
-        passphrase = read_signing_file(secret);
-        passphrase.erase(passphrase.find_last_not_of("\r\n") + 1);
+        passphrase_file = read_whole(secret);
+    }
+    Secret passphrase(std::move(passphrase_file.bytes));
+    if (!description.passphrase_file.empty()) {
+        passphrase.text().erase(passphrase.text().find_last_not_of("\r\n") + 1);
         result.files.push_back(secret);
         warn_of_access(secret, result.warnings);
     }
     const fs::path key = folder / description.key;
     result.files.push_back(key);
-    result.signer = signer_from_files(key, certificates, passphrase);
+    result.signer = signer_from_files(key, certificates, passphrase.text());
     warn_of_access(key, result.warnings);
     return result;
 }

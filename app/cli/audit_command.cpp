@@ -13,6 +13,7 @@
 
 #include "app/audit_evaluation.h"
 #include "app/audit_files.h"
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/output_files.h"
 #include "audit/rules/registry.h"
@@ -130,10 +131,13 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         }
     }
     const Destination to = destination_of(options, named.front());
+    std::vector<fs::path> outputs;
     for (const auto& [form, file] : to.files) {
         app::require_writable(file);
         app::require_not_an_input(file, all);
+        outputs.push_back(file);
     }
+    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
     const fs::path templates = templates_folder(options.share);
     const std::vector<certificate::Waiver> waivers =
         options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
@@ -177,7 +181,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         inputs.emplace_back(options.waivers);
     }
     add_program_files(inputs, options.share);
-    app::write_files(written, inputs);
+    write_outputs(written, inputs, at_start);
     if (!common.quiet) {
         for (const app::OutputFile& file : written) {
             fmt::print("Written: {}\n", file.path.string());

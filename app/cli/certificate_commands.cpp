@@ -9,9 +9,11 @@
 
 #include "app/check_file.h"
 #include "app/cli/clock.h"
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/document_identity.h"
 #include "app/output_files.h"
+#include "app/output_set.h"
 #include "app/read_file.h"
 #include "imports/foreign_certificate.h"
 #include "imports/import_certificate.h"
@@ -131,9 +133,11 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
                          "write to another place, and add the calibration to the file");
         }
     }
+    app::OutputsAtStart at_start;
     if (!output.empty() && output != "-") {
         app::require_writable(output);
         app::require_not_an_input(output, {file});
+        at_start = begin_outputs({output}, common);
     }
     const imports::ImportedJob imported =
         standard.empty() ? imports::import_certificate(app::read_file(file), file, trust_of(trust_store))
@@ -147,7 +151,7 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
         write_to_stdout(imported.job);
         return imported.negative ? negative_answer : done;
     }
-    app::write_files({{output, imported.job}}, {file});
+    write_outputs({{output, imported.job}}, {file}, at_start);
     if (!common.quiet) {
         fmt::print("Written: {}\nNext: {} {}\n", output,
                    standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
@@ -193,6 +197,9 @@ ExitCode verify_files(const std::vector<std::string>& files, const std::string& 
             const signing::Verification verification = signing::verify_signatures(bytes, file, trusted, seconds_now());
             const std::vector<app::DocumentIdentity> identities = app::identities_in(bytes, file, verification);
             for (const gum::Diagnostic& doubt : app::doubts_about(file, identities, verification)) {
+                print_message(doubt, common);
+            }
+            for (const gum::Diagnostic& doubt : app::doubts_about_set(file, bytes)) {
                 print_message(doubt, common);
             }
             print_verification(file, verification, identities, common);

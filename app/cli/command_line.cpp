@@ -226,7 +226,7 @@ void add_import(CLI::App& program, Arguments& a) {
 
 void add_check(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("check", "Look for what is wrong with files, without writing anything");
-    command.add_option("FILE", a.files, "Jobs and records (JSON); or the word dcc, and digital certificates (XML)")
+    command.add_option("FILE", a.files, "Jobs and records (JSON), folders of outputs; or the word dcc, and digital certificates (XML)")
         ->required();
     add_file(command, "--trust", a.trust_store, k_trust_help);
     add_laboratory(command, a.documents.laboratory);
@@ -237,7 +237,8 @@ void add_check(CLI::App& program, Arguments& a) {
         "A job is read with all its files and not evaluated. Of a record, its own digest is compared, its job is\n"
         "evaluated again, and every number, text and verdict compared. A digital certificate is checked by the rules\n"
         "above its schema, for a draft or a specimen, for statements of uncertainty that cannot be used, and for its\n"
-        "signature. Exit code 1 where an error is found. docs/digital_certificate.md");
+        "signature. Of a folder, the files that were written together are held against their manifest. Exit code 1\n"
+        "where an error is found. docs/digital_certificate.md, docs/reliability.md");
 }
 
 void add_audit(CLI::App& program, Arguments& a) {

@@ -13,11 +13,13 @@
 
 #include "app/audit_evaluation.h"
 #include "app/cli/clock.h"
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/cli/summary.h"
 #include "app/evaluate_job.h"
 #include "app/issue_documents.h"
 #include "app/output_files.h"
+#include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "certificate/gates/day_of_issue.h"
@@ -33,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// What all documents of one command are made with. The signer is looked at first of all; templates when the first
-/// document is made, so that faults of a job are reported before those of the installation.
+/// document is made, or before an evaluation.
 class Issuer {
 public:
     explicit Issuer(DocumentOptions options)
@@ -61,6 +63,13 @@ public:
             options_.worker = worker_.get();
         }
         return options_;
+    }
+
+    /// Tells what a PDF lacks before an evaluation begins that would be lost.
+    /// \throws gum::StorageError
+    void require_ready() {
+        (void)options();
+        worker_->require_ready();
     }
 
 private:
@@ -197,8 +206,9 @@ bool naming_job(const fs::path& job, const Work& work) {
 /// \param inputs   of the command, in addition to the files of the job
 /// \param several  whether the command has other jobs
 /// \return true when the answer is negative
-bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs, Issuer& issuer,
-             const DocumentOptions& options, const CommonOptions& common, ProgressLine& progress, bool several) {
+bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs,
+             const app::OutputsAtStart& at_start, Issuer& issuer, const DocumentOptions& options,
+             const CommonOptions& common, ProgressLine& progress, bool several) {
     app::Evaluation evaluation = app::evaluate_job(
         job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(options.share),
@@ -224,7 +234,8 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     for (const fs::path& file : app::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
     }
-    app::write_files(files, inputs);
+    progress("writing");
+    write_outputs(files, inputs, at_start);
     progress.clear();
     if (several) {  // the files are written: from here on the record is for the terminal only
         evaluation.record.diagnostics = of_job(std::move(evaluation.record.diagnostics), job);
@@ -282,9 +293,13 @@ bool print_as_unchecked(reports::EvaluationRecord& record, gum::Diagnostic why, 
 /// \param file    empty: to standard output
 /// \param inputs  of the command
 ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file,
-                       const std::vector<fs::path>& inputs, Issuer& issuer, const DocumentOptions& options,
-                       const CommonOptions& common) {
-    reports::EvaluationRecord record = reports::record_from_json(app::read_file(name), name);
+                       const std::vector<fs::path>& inputs, const app::OutputsAtStart& at_start, Issuer& issuer,
+                       const DocumentOptions& options, const CommonOptions& common) {
+    const std::string bytes_read = app::read_file(name);
+    for (const gum::Diagnostic& doubt : app::doubts_about_set(name, bytes_read)) {
+        print_message(doubt, common);
+    }
+    reports::EvaluationRecord record = reports::record_from_json(bytes_read, name);
     ProgressLine progress(!common.quiet);
     const std::optional<gum::Diagnostic> unchecked =
         app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
@@ -309,7 +324,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         write_to_stdout(bytes);
         return done;
     }
-    app::write_files({{file, bytes}}, inputs);
+    write_outputs({{file, bytes}}, inputs, at_start);
     if (!common.quiet) {
         fmt::print("Written: {}\n", file.string());
     }
@@ -337,13 +352,16 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
         }
     }
     app::require_not_inputs(outputs, inputs);
+    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
     print_warnings(issuer, common);
+    issuer.require_ready();
     ExitCode code = done;
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const ExitCode one = explained(common, [&] {
             const auto work = [&] {
-                return run_job(jobs[i], folders[i], inputs, issuer, options, common, progress, jobs.size() > 1);
+                return run_job(jobs[i], folders[i], inputs, at_start, issuer, options, common, progress,
+                               jobs.size() > 1);
             };
             return (jobs.size() > 1 ? naming_job(jobs[i], work) : work()) ? negative_answer : done;
         });
@@ -364,6 +382,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         app::require_writable(record_file);
         app::require_not_an_input(record_file, inputs);
     }
+    const app::OutputsAtStart at_start =
+        to_stdout ? app::OutputsAtStart() : begin_outputs({record_file}, common);
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation = app::evaluate_job(
         job,
@@ -392,7 +412,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     for (const fs::path& file : app::input_files(job, evaluation.record, options.laboratory)) {
         inputs.push_back(file);
     }
-    app::write_files(files, inputs);
+    write_outputs(files, inputs, at_start);
     report_diagnostics(evaluation.record, common);
     report_findings(evaluation.record, common);
     report_audit(evaluation, common);
@@ -439,12 +459,13 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
     if (!to_stdout) {
         app::require_not_inputs(files, inputs);
     }
+    const app::OutputsAtStart at_start = to_stdout ? app::OutputsAtStart() : begin_outputs(files, common);
     print_warnings(issuer, common);
     ExitCode code = done;
     for (std::size_t i = 0; i < records.size(); ++i) {
         const ExitCode one = explained(common, [&] {
-            return render_record(records[i], format, to_stdout ? fs::path() : files[i], inputs, issuer, options,
-                                 common);
+            return render_record(records[i], format, to_stdout ? fs::path() : files[i], inputs, at_start, issuer,
+                                 options, common);
         });
         code = std::max(code, one);
     }

@@ -16,6 +16,7 @@
 #include "app/cli/explain_command.h"
 #include "app/cli/fonts_command.h"
 #include "app/cli/init_command.h"
+#include "app/cli/interruption.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/laboratory_command.h"
 #include "app/cli/rerun_command.h"
@@ -117,5 +118,6 @@ int main(int argc, char** argv) {
     // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.
     arguments.common.json_messages = std::any_of(
         argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json-messages"; });
+    clean_up_at_signals(arguments.common.json_messages);
     return explained(arguments.common, [&] { return dispatch(argc, argv, arguments); });
 }

@@ -8,6 +8,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/interruption.h"
+
 namespace gumcert::cli {
 
 void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common) {
@@ -94,6 +96,7 @@ ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>&
 ProgressLine::ProgressLine(bool wanted) : wanted_(wanted && isatty(STDERR_FILENO) == 1) {}
 
 void ProgressLine::operator()(const std::string& text) {
+    tell_stage(text);
     const auto elapsed = std::chrono::steady_clock::now() - start_;
     if (!wanted_ || elapsed < std::chrono::seconds(1)) {
         return;

@@ -112,7 +112,7 @@ std::vector<fs::path> case_files(const fs::path& folder) {
     }
     if (error || files.empty()) {
         throw gum::StorageError(
-            gum::Diagnostic{.code = "GC-STORE-0013",
+            gum::Diagnostic{.code = "GC-STORE-0016",
                             .where = folder.string(),
                             .what = "holds no reference case",
                             .rule = "gumcert self-test runs the published cases that come with the program",

@@ -42,7 +42,7 @@ struct SelfTest {
 };
 
 /// The cases in a folder, in the order of their names.
-/// \throws gum::StorageError  GC-STORE-0013 if there is none
+/// \throws gum::StorageError  GC-STORE-0016 if there is none
 [[nodiscard]] std::vector<std::filesystem::path> case_files(const std::filesystem::path& folder);
 
 /// SHA-256 of the lines "SHA-256  name" of the files, as sha256sum writes them.

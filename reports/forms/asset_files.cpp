@@ -1,5 +1,6 @@
 #include "reports/forms/asset_files.h"
 
+#include "encoding/file_bytes.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/strict_parser.h"
 #include "reports/wording.h"
@@ -9,20 +10,16 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
 namespace gumcert::reports {
 
 std::string read_asset(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream whole;
-    whole << stream.rdbuf();
-    std::string text = stream ? whole.str() : std::string();
-    if (text.empty()) {
+    constexpr std::size_t k_largest_asset = std::size_t{1} << 30U;
+    encoding::FileBytes read = encoding::read_regular_file(file, k_largest_asset);
+    if (read.bytes.empty() || !read.failure.empty() || read.too_long) {
         throw gum::StorageError(
             gum::Diagnostic{.code = "GC-REPORT-0002",
                             .where = file.string(),
@@ -30,7 +27,7 @@ std::string read_asset(const std::filesystem::path& file) {
                             .rule = "documents are made with the templates of this release",
                             .action = "install the program again, or name the folder of templates"});
     }
-    return text;
+    return std::move(read.bytes);
 }
 
 nlohmann::json read_json_asset(const std::filesystem::path& file) {

@@ -4,6 +4,8 @@
 #include "reports/forms/asset_files.h"
 #include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
+#include "system/cleanup.h"
+#include "system/temporary.h"
 #include "text/lists.h"
 #include "text/markup.h"
 
@@ -28,6 +30,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,30 +56,14 @@ constexpr std::uint64_t k_memory_per_process = 600'000'000;  // bytes
         gum::Diagnostic{.code = "GC-REPORT-0010", .where = where, .what = what, .rule = rule, .action = action});
 }
 
-/// A folder that only this user can enter; removed with everything in it at the end.
-class PrivateFolder {
-public:
-    explicit PrivateFolder(const fs::path& parent) {
-        std::string name = (fs::absolute(parent) / "gumcert-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            storage_error(parent.string(), std::string("cannot make a folder in it: ") + std::strerror(errno),
-                          "the PDF step needs a folder for its files",
-                          "name a folder that can be written to with TMPDIR");
-        }
-        path_ = name;
+system::TemporaryFolder private_folder(const fs::path& parent) {
+    try {
+        return system::TemporaryFolder(parent);
+    } catch (const std::system_error& error) {
+        storage_error(parent.string(), "cannot make a folder in it: " + error.code().message(),
+                      "the PDF step needs a folder for its files", "name a folder that can be written to with TMPDIR");
     }
-    ~PrivateFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    PrivateFolder(const PrivateFolder&) = delete;
-    PrivateFolder& operator=(const PrivateFolder&) = delete;
-
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
+}
 
 void make_folder(const fs::path& path) {
     std::error_code failure;
@@ -189,7 +176,7 @@ void check_installation(const RenderAssets& assets) {
 /// The child process with its pipes and its folder.
 class PdfWorker::Process {
 public:
-    explicit Process(const RenderAssets& assets) : assets_(assets), folder_(assets.temporary_folder) {
+    explicit Process(const RenderAssets& assets) : assets_(assets), folder_(private_folder(assets.temporary_folder)) {
         // Typst would offer the fonts of the machine; a list of folders with one empty folder keeps them away.
         make_folder(folder_.path() / "no_fonts");
         write_file(folder_.path() / "fonts.conf", "<?xml version=\"1.0\"?>\n<fontconfig><dir>" +
@@ -334,6 +321,7 @@ private:
         }
         std::vector<std::string> settings = {"HOME=" + folder_.path().string(), "LC_ALL=C.UTF-8", "TZ=UTC",
                                              "FONTCONFIG_FILE=" + (folder_.path() / "fonts.conf").string()};
+        const system::CleanupLock lock = system::hold_cleanup();
         const int failure = ::posix_spawn(&child_, arguments[0].c_str(), &actions, &attributes,
                                           pointers(arguments).data(), pointers(settings).data());
         posix_spawnattr_destroy(&attributes);
@@ -343,6 +331,25 @@ private:
             storage_error(arguments[0], std::string("cannot be started: ") + std::strerror(failure),
                           "PDF is set by Typst, which runs in Node.js 18 or later", k_set_up);
         }
+        system::remember_child(child_);
+        confine();
+    }
+
+    /// Before the process reads anything of a template. What it reserves is not counted, what it may write to is.
+    void confine() const {
+        constexpr rlim_t k_largest_file = rlim_t{1} << 30U;  // [byte]
+        constexpr rlim_t k_processor_time = 3600;            // [s], should nobody be there to end it
+        const auto limit = [this](auto what, rlim_t most) {
+            rlimit wall{};
+            if (::prlimit(child_, what, nullptr, &wall) == 0) {
+                wall = {std::min(wall.rlim_cur, most), std::min(wall.rlim_max, most)};
+                (void)::prlimit(child_, what, &wall, nullptr);
+            }
+        };
+        limit(RLIMIT_DATA, assets_.pdf_memory_limit);
+        limit(RLIMIT_FSIZE, k_largest_file);
+        limit(RLIMIT_CPU, k_processor_time);
+        limit(RLIMIT_CORE, 0);
     }
 
     static std::vector<char*> pointers(std::vector<std::string>& texts) {
@@ -363,6 +370,7 @@ private:
             ended = child_ > 0 ? ::waitpid(child_, &status_, options) : -1;
         } while (ended < 0 && child_ > 0 && errno == EINTR);
         if (ended != 0) {
+            system::forget_child(child_);
             child_ = 0;
         }
         return child_ == 0;
@@ -466,7 +474,7 @@ private:
     }
 
     const RenderAssets& assets_;
-    PrivateFolder folder_;
+    system::TemporaryFolder folder_;
     Descriptor input_;   ///< requests go in here
     Descriptor output_;  ///< answers come out here
     pid_t child_ = 0;
@@ -477,6 +485,15 @@ private:
 
 PdfWorker::PdfWorker(RenderAssets assets) : assets_(std::move(assets)) {}
 PdfWorker::~PdfWorker() = default;
+
+void PdfWorker::require_ready() const {
+    check_installation(assets_);
+    for (const char* name : {k_certificate, "render.mjs"}) {
+        static_cast<void>(read_asset(assets_.templates / "pdf" / name));
+    }
+    const system::TemporaryFolder folder = private_folder(assets_.temporary_folder);
+    write_file(folder.path() / "fonts.conf", "<fontconfig/>\n");
+}
 
 PdfWorker::Process& PdfWorker::running() {
     if (process_ != nullptr && !process_->is_fit()) {

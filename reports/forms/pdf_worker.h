@@ -38,6 +38,11 @@ public:
     [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false,
                                   const std::string& main = k_certificate);
 
+    /// Looks for what a page needs, so that it is told before work begins that would be lost: node, the Typst package,
+    /// the template, and a folder for its files.
+    /// \throws gum::StorageError  GC-REPORT-0010
+    void require_ready() const;
+
     /// The fonts that templates may use, built-in ones first, in the order of their files.
     /// \throws gum::StorageError  as render_pdf()
     [[nodiscard]] std::vector<TemplateFont> fonts();

@@ -1,10 +1,10 @@
 #include "reports/forms/template_digest.h"
 
+#include "encoding/file_bytes.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 
-#include <fstream>
-#include <iterator>
+#include <cstddef>
 #include <set>
 #include <system_error>
 
@@ -26,6 +26,14 @@ bool is_of_documents(const fs::path& name) {
 }  // namespace
 
 std::string template_digest(const fs::path& templates) {
+    const auto refuse = [](const fs::path& place, const std::string& what) {
+        throw gum::StorageError(
+            gum::Diagnostic{.code = "GC-REPORT-0002",
+                            .where = place.string(),
+                            .what = what,
+                            .rule = "documents are made with the templates of this release",
+                            .action = "install the program again, or name the folder of templates"});
+    };
     std::set<std::string> names;
     std::error_code failure;
     for (fs::recursive_directory_iterator at(templates, failure), end; !failure && at != end; at.increment(failure)) {
@@ -34,19 +42,17 @@ std::string template_digest(const fs::path& templates) {
             names.insert(name.generic_string());
         }
     }
+    if (failure) {
+        refuse(templates, "cannot be read: " + failure.message());
+    }
     std::string lines;
     for (const std::string& name : names) {
-        std::ifstream file(templates / name, std::ios::binary);
-        const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-        if (!file) {
-            throw gum::StorageError(
-                gum::Diagnostic{.code = "GC-REPORT-0002",
-                                .where = (templates / name).string(),
-                                .what = "missing, empty or not readable",
-                                .rule = "documents are made with the templates of this release",
-                                .action = "install the program again, or name the folder of templates"});
+        constexpr std::size_t k_largest_template = std::size_t{1} << 30U;
+        const encoding::FileBytes file = encoding::read_regular_file(templates / name, k_largest_template);
+        if (!file.failure.empty() || file.too_long) {
+            refuse(templates / name, "missing, empty or not readable");
         }
-        lines += encoding::sha256(bytes) + "  " + name + "\n";
+        lines += encoding::sha256(file.bytes) + "  " + name + "\n";
     }
     return encoding::sha256(lines);
 }

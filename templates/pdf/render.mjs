@@ -166,8 +166,13 @@ for await (const line of readline.createInterface({ input: process.stdin })) {
   } catch (error) {
     answer = { status: 'failed', messages: [String(error.message)], code: String(error.code ?? '') };
   }
-  fs.writeSync(process.stdout.fd, JSON.stringify(answer) + '\n');
+  try {
+    fs.writeSync(process.stdout.fd, JSON.stringify(answer) + '\n');
+  } catch {
+    break;  // nobody is there any more to read it
+  }
   // While the other side reads the document, what the last three did not use is forgotten.
   for (const compiler of Object.values(compilers)) compiler.evictCache(3);
 }
 removeFolder();
+process.exit();

@@ -196,7 +196,7 @@ TEST_F(BudgetExamples, GaugeBlockIsNotValidatedAndSaysSo) {
     }
     const Ended ended = run(job_file(), folder() / "out");
     EXPECT_EQ(ended.code, 1) << ended.err;
-    EXPECT_EQ(contents_of(folder() / "out").size(), 5U) << "the documents are written all the same";
+    EXPECT_EQ(contents_of(folder() / "out").size(), 6U) << "the documents are written all the same, and the manifest";
     EXPECT_NE(ended.out.find("NOT validated"), std::string::npos) << ended.out;
     EXPECT_NE(bytes_of(folder() / "out" / "certificate.html").find("not validated"), std::string::npos);
 }

@@ -125,7 +125,7 @@ TEST_F(Output, DefaultFolderStandsBesideTheJob) {
     need_pdf();
     const Ended ended = gumcert({"run", "job/job.json", "--share", GUMCERT_SOURCE_DIR}, {.working_folder = folder()});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_EQ(contents_of(folder() / "job" / "job-out").size(), 6U);
+    EXPECT_EQ(contents_of(folder() / "job" / "job-out").size(), 7U) << "with the manifest";
 }
 
 TEST_F(Output, SecondRunReplacesItsOwnFilesOnly) {
@@ -136,7 +136,7 @@ TEST_F(Output, SecondRunReplacesItsOwnFilesOnly) {
     const auto first = contents_of(folder() / "out");
     ASSERT_EQ(run(job_, folder() / "out").code, 0);
     EXPECT_EQ(contents_of(folder() / "out"), first);
-    EXPECT_EQ(first.size(), 7U);
+    EXPECT_EQ(first.size(), 8U) << "with the manifest";
     EXPECT_EQ(first.at("notes.txt"), "mine");
     EXPECT_NE(first.at("record.json"), "old");
 }

@@ -157,7 +157,7 @@ class SelfTest(Case):
         ended, report = self.self_test()
         self.assertEqual(ended.returncode, 5)
         self.assertIsNone(report)
-        self.assertIn("[GC-STORE-0013]", ended.stderr)
+        self.assertIn("[GC-STORE-0016]", ended.stderr)
 
 
 class Check(Case):

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "app/output_set.h"
+#include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::app {
@@ -61,12 +63,12 @@ protected:
 };
 
 TEST_F(OutputFilesTest, WritesAllFilesAndMakesTheirFolders) {
-    write_files({{folder_ / "new/a", "1"}, {folder_ / "new/deeper/b", "2"}});
-    EXPECT_EQ(content("new/a"), "1");
+    write_files({{folder_ / "new/deeper/a", "1"}, {folder_ / "new/deeper/b", "2"}});
+    EXPECT_EQ(content("new/deeper/a"), "1");
     EXPECT_EQ(content("new/deeper/b"), "2");
-    write_files({{folder_ / "new/a", "3"}});
-    EXPECT_EQ(content("new/a"), "3");
-    EXPECT_EQ(entries(), 4U) << "nothing temporary is left";
+    write_files({{folder_ / "new/deeper/a", "3"}});
+    EXPECT_EQ(content("new/deeper/a"), "3");
+    EXPECT_EQ(entries(), 5U) << "two folders, two files and their manifest; nothing temporary is left";
 }
 
 /// An output never takes the place of anything but a regular file, and nothing else of its set is written then.
@@ -158,6 +160,108 @@ TEST_F(OutputFilesTest, NoSpellingMakesAnOutputOfAnInput) {
 TEST_F(OutputFilesTest, RefusesTwoOutputsInOnePlace) {
     EXPECT_NE(code_of([&] { write_files({{folder_ / "a", "1"}, {folder_ / "new/../a", "2"}}); }), "");
     EXPECT_FALSE(fs::exists(folder_ / "a"));
+}
+
+TEST_F(OutputFilesTest, OfTwoWritersOneWinsWhole) {
+    const std::vector<fs::path> outputs{folder_ / "a", folder_ / "b"};
+    put("a", "old");
+    const OutputsAtStart first(outputs);
+    const OutputsAtStart second(outputs);
+    write_files({{folder_ / "a", "1"}, {folder_ / "b", "1"}}, {}, first);
+    EXPECT_EQ(code_of([&] { write_files({{folder_ / "a", "2"}, {folder_ / "b", "2"}}, {}, second); }), "GC-STORE-0008");
+    EXPECT_EQ(content("a") + content("b"), "11");
+    EXPECT_EQ(entries(), 3U);
+    write_files({{folder_ / "a", "3"}, {folder_ / "b", "3"}}, {}, OutputsAtStart(outputs));
+    EXPECT_EQ(content("a") + content("b"), "33");
+}
+
+TEST_F(OutputFilesTest, FoldersOfASetThatFailsAreRemoved) {
+    EXPECT_NE(code_of([&] {
+                  write_files({{folder_ / "new/deeper" / std::string(300, 'n'), "1"}, {folder_ / "new/deeper/b", "2"}});
+              }),
+              "");
+    EXPECT_EQ(entries(), 0U);
+}
+
+/// What a process leaves that is killed while it puts files in place.
+class InterruptedSetTest : public OutputFilesTest {
+protected:
+    void SetUp() override {
+        OutputFilesTest::SetUp();
+        put("a", "old a");
+        put("b", "old b");
+        put("notes", "mine");
+        put(part('1'), "new a");
+        put(part('2'), "new b");
+        put(part('3'), "new c");
+        journal({{"a", encoding::sha256("new a"), part('1')},
+                 {"b", encoding::sha256("new b"), part('2')},
+                 {"c", encoding::sha256("new c"), part('3')}});
+    }
+    static std::string part(char digit) { return ".gumcert-" + std::string(16, digit) + ".part"; }
+    void journal(FileSet set) const { put(k_set_journal, to_json({{std::move(set)}})); }
+    void exchange(const std::string& one, const std::string& other) const {
+        fs::rename(folder_ / one, folder_ / "between");
+        fs::rename(folder_ / other, folder_ / one);
+        fs::rename(folder_ / "between", folder_ / other);
+    }
+    [[nodiscard]] std::string restored() const {
+        const std::vector<gum::Diagnostic> said = restore_outputs({folder_ / "a"});
+        return said.size() == 1 ? said[0].code + " " + said[0].what : "";
+    }
+};
+
+TEST_F(InterruptedSetTest, IsCompletedWhereverItWasInterrupted) {
+    const std::vector<std::function<void()>> steps{
+        [&] { exchange("a", part('1')); }, [&] { exchange("b", part('2')); },
+        [&] { fs::rename(folder_ / part('3'), folder_ / "c"); }, [&] { fs::remove(folder_ / part('1')); },
+        [&] { fs::remove(folder_ / part('2')); }};
+    for (std::size_t done = 0; done <= steps.size(); ++done) {
+        TearDown();
+        SetUp();
+        for (std::size_t i = 0; i < done; ++i) {
+            steps[i]();
+        }
+        EXPECT_NE(restored().find("GC-STORE-0009 "), std::string::npos) << done;
+        EXPECT_EQ(content("a") + content("b") + content("c") + content("notes"), "new anew bnew cmine") << done;
+        EXPECT_EQ(entries(), 4U) << done;
+        EXPECT_EQ(restored(), "") << "once";
+    }
+}
+
+TEST_F(InterruptedSetTest, IsTakenBackWhereAPartIsLost) {
+    exchange("a", part('1'));
+    fs::remove(folder_ / part('3'));
+    EXPECT_NE(restored().find("taken back"), std::string::npos);
+    EXPECT_EQ(content("a") + content("b"), "old aold b");
+    EXPECT_EQ(entries(), 3U);
+}
+
+TEST_F(InterruptedSetTest, IsCompletedByTheNextThatWrites) {
+    exchange("a", part('1'));
+    write_files({{folder_ / "d", "x"}});
+    EXPECT_EQ(content("a") + content("b") + content("c") + content("d"), "new anew bnew cx");
+    EXPECT_EQ(entries(), 5U);
+}
+
+TEST_F(InterruptedSetTest, ADamagedJournalIsLeftToAPerson) {
+    for (const char* text : {"", "{}", R"({"schema": "gumcert/set/1", "sets": []})"}) {
+        put(k_set_journal, text);
+        EXPECT_EQ(code_of([&] { (void)restore_outputs({folder_ / "a"}); }), "GC-STORE-0013") << text;
+        EXPECT_EQ(content("a") + content("b"), "old aold b");
+    }
+    journal({{"a", encoding::sha256("new a"), ""}});
+    EXPECT_EQ(code_of([&] { write_files({{folder_ / "d", "x"}}); }), "GC-STORE-0013");
+}
+
+TEST_F(OutputFilesTest, TemporaryFilesOfADeadProcessAreRemoved) {
+    put(".gumcert-0123456789abcdef.part", "half");
+    put(".gumcert-notes.part", "mine");
+    const std::vector<gum::Diagnostic> said = restore_outputs({folder_ / "a", folder_ / "b"});
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0].severity, gum::Severity::note);
+    EXPECT_EQ(entries(), 1U);
+    EXPECT_TRUE(restore_outputs({folder_ / "nowhere/a"}).empty());
 }
 
 /// Files of the name that the temporary ones had before, and links in their place, are left alone.

@@ -295,6 +295,33 @@ TEST_F(PdfWorkerTest, AProcessThatIsKilledAtWorkIsReportedAsSuch) {
     expect_nothing_left();
 }
 
+TEST_F(PdfWorkerTest, ATemplateThatTakesAllMemoryIsEnded) {
+    SKIP_WITHOUT_PDF();
+    put("templates/pdf/certificate.typ", "#let a = (1,)\n#for i in range(60) { a = a + a }\n");
+    RenderAssets narrow = assets_;
+    narrow.pdf_memory_limit = std::uint64_t{1} << 30U;
+    PdfWorker worker(narrow);
+    EXPECT_THROW(static_cast<void>(worker.set(view("x"), "")), gum::StorageError);
+    expect_nothing_left();
+    // What a page needs fits in.
+    put("templates/pdf/certificate.typ", "#set document(title: \"x\")\nshort\n");
+    EXPECT_TRUE(worker.set(view("x"), "").starts_with("%PDF-"));
+}
+
+TEST_F(PdfWorkerTest, WhatIsMissingIsToldBeforeAPageIsSet) {
+    SKIP_WITHOUT_PDF();
+    EXPECT_NO_THROW(PdfWorker(assets_).require_ready());
+    expect_nothing_left();
+    RenderAssets without = assets_;
+    without.node_program.clear();
+    EXPECT_THROW(PdfWorker(without).require_ready(), gum::StorageError);
+    without = assets_;
+    without.temporary_folder = folder_ / "nowhere";
+    EXPECT_THROW(PdfWorker(without).require_ready(), gum::StorageError);
+    fs::remove(folder_ / "templates/pdf/certificate.typ");
+    EXPECT_THROW(PdfWorker(assets_).require_ready(), gum::StorageError);
+}
+
 TEST_F(PdfWorkerTest, NothingStaysBehindWhenTheProgramIsKilled) {
     SKIP_WITHOUT_PDF();
     put("templates/pdf/certificate.typ", k_endless);

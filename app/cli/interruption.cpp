@@ -1,0 +1,148 @@
+#include "app/cli/interruption.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <mutex>
+#include <system_error>
+#include <thread>
+
+#include "app/cli/terminal.h"
+#include "system/cleanup.h"
+
+namespace gumcert::cli {
+
+namespace {
+
+struct Progress {
+    std::mutex mutex;
+    std::string stage;
+    std::string last_written;
+    std::size_t written = 0;
+};
+
+/// Never destroyed: a signal may come while the program is ending.
+Progress& progress_until_now() {
+    static auto* const progress = new Progress;
+    return *progress;
+}
+
+std::array<int, 2> signal_pipe{-1, -1};
+
+/// Only what POSIX allows in a handler.
+void pass_on(int signal) {
+    const int error = errno;
+    const auto number = static_cast<unsigned char>(signal);
+    (void)!::write(signal_pipe[1], &number, 1);
+    while (signal == SIGPIPE) {
+        ::pause();  // what was to be written is not needed any more; the other thread ends the program
+    }
+    errno = error;
+}
+
+const char* name_of(int signal) {
+    switch (signal) {
+        case SIGINT:
+            return "SIGINT (Ctrl-C)";
+        case SIGTERM:
+            return "SIGTERM";
+        case SIGHUP:
+            return "SIGHUP (the terminal was closed)";
+        case SIGXCPU:
+            return "SIGXCPU (the limit of processor time)";
+        default:
+            return "a signal";
+    }
+}
+
+void say(int signal, bool cleaned, const CommonOptions& common) {
+    std::string stage;
+    std::string written = "nothing was written";
+    Progress& progress = progress_until_now();
+    if (const std::unique_lock lock(progress.mutex, std::try_to_lock); lock.owns_lock()) {
+        stage = progress.stage.empty() ? "" : ", at: " + progress.stage;
+        if (progress.written > 0) {
+            written = "files in their places: " + std::to_string(progress.written) + ", the last one " +
+                      progress.last_written;
+        }
+    }
+    print_message({.code = "GC-STORE-0021",
+                   .where = "gumcert",
+                   .what = std::string("ended by ") + name_of(signal) + stage + "; " + written,
+                   .rule = "outputs of a job appear whole or not at all, and nothing else stays behind",
+                   .action = cleaned ? "give the command again for the rest"
+                                     : "give the command again; it completes what was being written"},
+                  common);
+}
+
+void end_by(int signal) {
+    const rlimit no_dump{0, 0};
+    (void)::setrlimit(RLIMIT_CORE, &no_dump);  // SIGXCPU would leave one
+    (void)std::signal(signal, SIG_DFL);
+    ::kill(::getpid(), signal);
+    for (;;) {
+        ::pause();
+    }
+}
+
+void wait_for_signal(int descriptor, bool json_messages) {
+    unsigned char number = 0;
+    while (::read(descriptor, &number, 1) != 1) {
+        if (errno != EINTR) {
+            return;
+        }
+    }
+    const int signal = number;
+    constexpr std::chrono::seconds k_patience{20};  // for a set of files that is being put in place
+    const system::CleanupLock lock = system::clean_up(k_patience);
+    if (signal != SIGPIPE) {  // nobody listens
+        say(signal, lock.owns_lock(), {.quiet = false, .json_messages = json_messages, .threads = 0});
+    }
+    end_by(signal);
+}
+
+}  // namespace
+
+void clean_up_at_signals(bool json_messages) {
+    (void)progress_until_now();
+    (void)system::hold_cleanup();
+    if (::pipe2(signal_pipe.data(), O_CLOEXEC) != 0) {
+        return;  // signals end the program as they do; the next one removes what it leaves
+    }
+    try {
+        std::thread(wait_for_signal, signal_pipe[0], json_messages).detach();
+    } catch (const std::system_error&) {
+        return;
+    }
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE}) {
+        struct sigaction now = {};
+        if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler == SIG_IGN) {
+            continue;
+        }
+        struct sigaction handler = {};
+        handler.sa_handler = pass_on;
+        handler.sa_flags = SA_RESTART;
+        sigemptyset(&handler.sa_mask);
+        (void)::sigaction(signal, &handler, nullptr);
+    }
+}
+
+void tell_stage(const std::string& text) {
+    Progress& progress = progress_until_now();
+    const std::lock_guard lock(progress.mutex);
+    progress.stage = text;
+}
+
+void tell_written(const std::filesystem::path& file) {
+    Progress& progress = progress_until_now();
+    const std::lock_guard lock(progress.mutex);
+    progress.last_written = file.string();
+    ++progress.written;
+}
+
+}  // namespace gumcert::cli
