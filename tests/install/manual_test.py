@@ -175,7 +175,7 @@ def check_zsh(check, script, helps):
         if command:
             lines = lines[lines.index("*::argument:->argument") + 1:]
         else:
-            described = [line for line in lines if re.match(r"\w+:[A-Z]", line)]
+            described = [line for line in lines if re.match(r"[\w-]+:[A-Z]", line)]
             check.equal("zsh: commands", sorted(line.split(":")[0] for line in described), sorted(c for c in helps if c))
         found = [re.match(r"(?:\(.*?\)|\*)?(--?[\w-]+)\[(.*)", line) for line in lines]
         found = {name[1]: name[2] for name in found if name}
