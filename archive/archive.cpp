@@ -81,15 +81,19 @@ std::string not_before(const std::string& last, std::string at) {
     return at < last && at.substr(0, k_to_the_minute) == last.substr(0, k_to_the_minute) ? last : std::move(at);
 }
 
-}  // namespace
-
-LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
-                     const Request& request) {
+void require_numbering(const Settings& settings) {
     if (!settings.numbering.empty() && !is_numbering(settings.numbering)) {
         refuse_request("GC-ARCHIVE-0025", "numbering", '"' + settings.numbering + '"',
                        "a pattern of numbers has one run of #, and may have YYYY, such as EX-YYYY-####",
                        "correct the pattern");
     }
+}
+
+}  // namespace
+
+LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
+                     const Request& request) {
+    require_numbering(settings);
     LogEntry entry = entry_for(request, "created");
     entry.seq = 1;
     entry.body = gumcert::json::canonical_json({{"schema", "gumcert/archive/1"},
@@ -294,6 +298,7 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
 }
 
 Written Archive::change_settings(const Settings& settings, const Request& request) {
+    require_numbering(settings);
     LogEntry entry = entry_for(request, "settings");
     return write(entry, [&] {
         LogRules rules = rules_for({}, "");

@@ -123,6 +123,10 @@ std::map<std::string, std::set<std::string>> persons_of(const ArchiveOptions& op
     return persons;
 }
 
+archive::Settings settings_of(const ArchiveOptions& options) {
+    return {.four_eyes = !options.one_pair_of_eyes, .numbering = options.numbering, .persons = persons_of(options)};
+}
+
 ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common) {
     const archive::Settings settings{
         .four_eyes = !options.one_pair_of_eyes, .numbering = options.numbering, .persons = persons_of(options)};
@@ -133,6 +137,11 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
         fmt::print("Begun: {}\n", options.store);
     }
     return told({first, false}, options, common);
+}
+
+ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto store = opened(options, archive::Access::read_and_write);
+    return told(archive::Archive(*store).change_settings(settings_of(options), request_of(options)), options, common);
 }
 
 ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
@@ -576,8 +585,9 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     return same == numbers.size() ? done : negative_answer;
 }
 
-constexpr std::array<Action, 15> k_actions = {{
+constexpr std::array<Action, 16> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
+    {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
     {"number", 0, 0, "nothing more", " store by why key format ", take_number},
     {"add", 1, k_any, "a record and its documents", " store by why key format trust ", add_certificate},
     {"review", 1, 1, "the number of a certificate", " store by why key format ", review_certificate},
@@ -640,9 +650,9 @@ void require_options(const Action& action, const ArchiveOptions& o) {
     if (std::string_view(action.name) == "backup" && o.output.empty()) {
         refuse_usage(command, "--output is missing", "a backup is a new file", "name it with -o");
     }
-    if (std::string_view(action.name) == "withdraw" && o.why.empty()) {
-        refuse_usage(command, "--why is missing", "a certificate or number is withdrawn with a reason",
-                     "say why it is withdrawn");
+    const std::string_view name = action.name;
+    if ((name == "withdraw" || name == "settings") && o.why.empty()) {
+        refuse_usage(command, "--why is missing", "what is withdrawn, or settled otherwise, has a reason", "say why");
     }
 }
 

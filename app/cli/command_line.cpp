@@ -309,7 +309,7 @@ void add_archive(CLI::App& program, Arguments& a) {
                        "evidence");
     add_file(command, "--store", o.store, "The archive: one file on a disk of this machine");
     command.add_option("--by", o.by, "Who does this: a name, as it will stand in the log")->type_name("PERSON");
-    command.add_option("--why", o.why, "The reason, for the log; withdraw needs it")->type_name("TEXT");
+    command.add_option("--why", o.why, "The reason, for the log; withdraw and settings need it")->type_name("TEXT");
     command
         .add_option("--request-key", o.request_key,
                     "A text of your own that makes the request one: asked again with it, nothing happens twice")
@@ -321,16 +321,18 @@ void add_archive(CLI::App& program, Arguments& a) {
              "File of export (default: the number with -evidence.json), head (default: the terminal) or backup");
     command
         .add_option("--numbering", o.numbering,
-                    "Pattern of certificate numbers for init, such as EX-YYYY-####; default: the archive gives none")
+                    "Pattern of certificate numbers for init and settings, such as EX-YYYY-####; default: the archive "
+                    "gives none")
         ->type_name("PATTERN");
     command
         .add_option("--person", o.persons,
-                    "A person with roles for init, as NAME=author,reviewer,authoriser,keeper; once for each. Default: "
+                    "A person with roles for init and settings, as NAME=author,reviewer,authoriser,keeper; once for "
+                    "each. Default: "
                     "anybody may do everything")
         ->allow_extra_args(false)
         ->type_name("PERSON");
     command.add_flag("--no-four-eyes", o.one_pair_of_eyes,
-                     "For init: who drafted a certificate may review and authorise it");
+                     "For init and settings: who drafted a certificate may review and authorise it");
     command.add_option("--head", o.heads, "For verify: an earlier head, which the archive must still begin with")
         ->allow_extra_args(false)
         ->type_name("FILE");
@@ -345,7 +347,8 @@ void add_archive(CLI::App& program, Arguments& a) {
         "         gumcert archive add record.json certificate.pdf certificate.xml --store lab.archive --by \"R. Lin\"\n"
         "         gumcert archive issue EX-2026-0042 --store lab.archive --by \"M. Weber\"\n"
         "         gumcert archive verify --store lab.archive --head head.json\n"
-        "init begins an archive; number takes the next number; add brings a record with its documents in as a draft, "
+        "init begins an archive, and settings states all of its settings anew; number takes the next number; add "
+        "brings a record with its documents in as a draft, "
         "or\n"
         "in place of one; review, authorise and issue lead it on, and nobody reviews or authorises what he drafted.\n"
         "amend brings in an amendment: when it is issued, its original is amended or superseded. withdraw ends a\n"

@@ -193,6 +193,20 @@ TEST_F(ArchiveOfALaboratory, KeepsFourEyesAndRoles) {
     EXPECT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
 }
 
+TEST_F(ArchiveOfALaboratory, StatesSettingsAnew) {
+    begin({"--person", "K. Keeper=keeper", "--person", "R. Lin=author"});
+    EXPECT_EQ(archive({"settings", "--no-four-eyes"}, "K. Keeper").code, 2) << "without a reason";
+    EXPECT_TRUE(tells(archive({"settings", "--why", "I want to"}, "R. Lin"), "[GC-ARCHIVE-0023]"));
+    EXPECT_TRUE(
+        tells(archive({"settings", "--why", "numbers", "--numbering", "EX"}, "K. Keeper"), "[GC-ARCHIVE-0025]"));
+    ASSERT_EQ(
+        archive({"settings", "--why", "numbers come from the archive now", "--numbering", "N-##"}, "K. Keeper").code,
+        0);
+    EXPECT_TRUE(tells(archive({"number"}, "N. Obody"), "N-01 numbered")) << "without persons anybody may do everything";
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+}
+
 TEST_F(ArchiveOfALaboratory, GivesNumbersAndAnswersTheSameRequestOnce) {
     begin({"--numbering", "EX-YYYY-####"});
     const Ended first = archive({"number", "--request-key", "order 17", "--format", "json"}, "R. Lin");

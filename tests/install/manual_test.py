@@ -133,7 +133,7 @@ def check_page(check, page, name, help_text, options):
 # Words that the first argument of a command may be.
 WORDS_OF_ARGUMENTS = {
     "import": ["dcc"],
-    "archive": ["init", "number", "add", "review", "authorise", "issue", "amend", "withdraw", "list", "show", "export", "head",
+    "archive": ["init", "settings", "number", "add", "review", "authorise", "issue", "amend", "withdraw", "list", "show", "export", "head",
                 "verify", "backup", "replay"]
 }
 
