@@ -27,7 +27,7 @@ struct RenderAssets {
     std::string changed_templates = {};
     std::chrono::seconds pdf_time_limit{60};
     std::uint64_t pdf_memory_limit = std::uint64_t{4} << 30U;  ///< of the process that sets pages, [byte]
-    std::span<const DocumentKind> kinds = document_kinds();  ///< what records of each kind show
+    std::span<const DocumentKind> kinds = document_kinds();    ///< what records of each kind show
 };
 
 /// The certificate as one HTML file: style and plots inside, no scripts, nothing to load.
