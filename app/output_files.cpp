@@ -368,10 +368,10 @@ std::vector<gum::Diagnostic> restore_folder(const fs::path& folder) {
         }
         synchronise_folder(folder);
     } else if (removed > 0) {
-        done.push_back({"GC-STORE-0009", place,
-                        "temporary files of a program that was interrupted here were removed: " +
-                            std::to_string(removed),
-                        "nothing stays behind", "nothing: no output was changed", gum::Severity::note});
+        done.push_back(
+            {"GC-STORE-0009", place,
+             "temporary files of a program that was interrupted here were removed: " + std::to_string(removed),
+             "nothing stays behind", "nothing: no output was changed", gum::Severity::note});
     }
     return done;
 }

@@ -63,8 +63,9 @@ gum::Diagnostic unfinished(const fs::path& folder, gum::Severity severity) {
             .where = (folder / k_set_journal).string(),
             .what = "files of this folder are being written, or the program was interrupted while it put them in place",
             .rule = "files that belong together are all old or all new",
-            .action = "wait for the other command; where there is none, give the command again that wrote them: it "
-                      "completes the set first",
+            .action =
+                "wait for the other command; where there is none, give the command again that wrote them: it "
+                "completes the set first",
             .severity = severity};
 }
 

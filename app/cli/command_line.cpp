@@ -226,7 +226,9 @@ void add_import(CLI::App& program, Arguments& a) {
 
 void add_check(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("check", "Look for what is wrong with files, without writing anything");
-    command.add_option("FILE", a.files, "Jobs and records (JSON), folders of outputs; or the word dcc, and digital certificates (XML)")
+    command
+        .add_option("FILE", a.files,
+                    "Jobs and records (JSON), folders of outputs; or the word dcc, and digital certificates (XML)")
         ->required();
     add_file(command, "--trust", a.trust_store, k_trust_help);
     add_laboratory(command, a.documents.laboratory);

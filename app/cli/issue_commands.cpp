@@ -382,8 +382,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         app::require_writable(record_file);
         app::require_not_an_input(record_file, inputs);
     }
-    const app::OutputsAtStart at_start =
-        to_stdout ? app::OutputsAtStart() : begin_outputs({record_file}, common);
+    const app::OutputsAtStart at_start = to_stdout ? app::OutputsAtStart() : begin_outputs({record_file}, common);
     ProgressLine progress(!common.quiet);
     app::Evaluation evaluation = app::evaluate_job(
         job,

@@ -252,8 +252,7 @@ private:
 
 json view_of(const SelfTest& test, const std::string& digest, reports::RenderAssets& assets) {
     assets.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
-    const json texts = reports::read_wording(assets);
-    const Wording wording(texts);
+    const Wording wording = reports::read_wording(assets);
     return SelfTestPages(test, digest, wording).view();
 }
 

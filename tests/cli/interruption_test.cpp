@@ -60,7 +60,8 @@ protected:
     }
     [[nodiscard]] bool page_is_being_set() const {
         std::error_code error;
-        for (fs::recursive_directory_iterator at(folder() / "tmp", error), end; !error && at != end; at.increment(error)) {
+        for (fs::recursive_directory_iterator at(folder() / "tmp", error), end; !error && at != end;
+             at.increment(error)) {
             if (at->path().filename() == "view.json") {
                 return true;
             }
@@ -96,8 +97,9 @@ TEST_F(Interruption, WhatAKilledProcessLeavesIsRemovedByTheNext) {
     }
     const int status = run_until([&] { return page_is_being_set(); }, SIGKILL);
     EXPECT_EQ(WTERMSIG(status), SIGKILL);
-    const Ended ended = gumcert({"evaluate", (folder() / "missing.json").string(), "-o", (folder() / "r.json").string()},
-                                {.environment = {{"TMPDIR", (folder() / "tmp").string()}}});
+    const Ended ended =
+        gumcert({"evaluate", (folder() / "missing.json").string(), "-o", (folder() / "r.json").string()},
+                {.environment = {{"TMPDIR", (folder() / "tmp").string()}}});
     EXPECT_EQ(ended.code, 5);
     EXPECT_TRUE(fs::is_empty(folder() / "tmp"));
 }
@@ -105,19 +107,21 @@ TEST_F(Interruption, WhatAKilledProcessLeavesIsRemovedByTheNext) {
 TEST_F(Interruption, AnIgnoredSignalStaysIgnored) {
     const fs::path record = folder() / "record.json";
     // As nohup does it: the hang-up arrives at once, and the work goes on.
-    const Ended ended = run_process("/bin/sh",
-                                    {"-c", "trap '' HUP; \"$0\" evaluate \"$1\" -o \"$2\" -q & sleep 0.1; kill -HUP $!; wait $!",
-                                     GUMCERT_PROGRAM, job_.string(), record.string()},
-                                    {}, folder());
+    const Ended ended =
+        run_process("/bin/sh",
+                    {"-c", "trap '' HUP; \"$0\" evaluate \"$1\" -o \"$2\" -q & sleep 0.1; kill -HUP $!; wait $!",
+                     GUMCERT_PROGRAM, job_.string(), record.string()},
+                    {}, folder());
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_TRUE(fs::exists(record));
 }
 
 TEST_F(Interruption, AClosedPipeEndsQuietly) {
-    const Ended ended = run_process(
-        "/bin/bash", {"-c", "\"$0\" evaluate \"$1\" -o - --share \"$2\" | true; echo \"${PIPESTATUS[0]}\"", GUMCERT_PROGRAM,
-                      job_.string(), GUMCERT_SOURCE_DIR},
-        {}, folder());
+    const Ended ended =
+        run_process("/bin/bash",
+                    {"-c", "\"$0\" evaluate \"$1\" -o - --share \"$2\" | true; echo \"${PIPESTATUS[0]}\"",
+                     GUMCERT_PROGRAM, job_.string(), GUMCERT_SOURCE_DIR},
+                    {}, folder());
     EXPECT_EQ(ended.out, std::to_string(128 + SIGPIPE) + "\n");
     EXPECT_EQ(ended.err.find("GC-STORE"), std::string::npos) << ended.err;
 }

@@ -98,13 +98,13 @@ Function* next(const char* name) {
 
 extern "C" {
 
-#define GUMCERT_MODE_OF(flags)                                              \
-    mode_t mode = 0;                                                        \
-    if (((flags) & O_CREAT) != 0) {                                         \
-        va_list arguments;                                                  \
-        va_start(arguments, flags);                                         \
-        mode = va_arg(arguments, mode_t);                                   \
-        va_end(arguments);                                                  \
+#define GUMCERT_MODE_OF(flags)            \
+    mode_t mode = 0;                      \
+    if (((flags)&O_CREAT) != 0) {         \
+        va_list arguments;                \
+        va_start(arguments, flags);       \
+        mode = va_arg(arguments, mode_t); \
+        va_end(arguments);                \
     }
 
 int open(const char* path, int flags, ...) {

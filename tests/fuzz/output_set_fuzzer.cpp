@@ -16,8 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     for (const FileSet& set : manifest->sets) {
         for (const SetFile& file : set) {
-            if (file.name.empty() || file.name.find('/') != std::string::npos || file.name == ".." || file.name == "." ||
-                file.part.find('/') != std::string::npos) {
+            if (file.name.empty() || file.name.find('/') != std::string::npos || file.name == ".." ||
+                file.name == "." || file.part.find('/') != std::string::npos) {
                 std::abort();
             }
         }

@@ -212,10 +212,10 @@ protected:
 };
 
 TEST_F(InterruptedSetTest, IsCompletedWhereverItWasInterrupted) {
-    const std::vector<std::function<void()>> steps{
-        [&] { exchange("a", part('1')); }, [&] { exchange("b", part('2')); },
-        [&] { fs::rename(folder_ / part('3'), folder_ / "c"); }, [&] { fs::remove(folder_ / part('1')); },
-        [&] { fs::remove(folder_ / part('2')); }};
+    const std::vector<std::function<void()>> steps{[&] { exchange("a", part('1')); }, [&] { exchange("b", part('2')); },
+                                                   [&] { fs::rename(folder_ / part('3'), folder_ / "c"); },
+                                                   [&] { fs::remove(folder_ / part('1')); },
+                                                   [&] { fs::remove(folder_ / part('2')); }};
     for (std::size_t done = 0; done <= steps.size(); ++done) {
         TearDown();
         SetUp();

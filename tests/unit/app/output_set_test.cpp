@@ -42,16 +42,26 @@ TEST(OutputSetText, WhatIsNoManifestIsRefused) {
     };
     EXPECT_TRUE(set_manifest_from_json(with_file(file("a"))));
     EXPECT_TRUE(set_manifest_from_json(with_file(file("a", R"(, "part": ".gumcert-0123456789abcdef.part")"))));
-    for (const std::string& text :
-         {std::string(), std::string("[]"), std::string("{}"), with_file(""), with_file("1"), with_file("{}"),
-          with_file(file("")), with_file(file(".")), with_file(file("..")), with_file(file("../a")),
-          with_file(file("/etc/passwd")), with_file(file("a") + "," + file("a")),
-          with_file(file("a", R"(, "part": "b")")), with_file(file("a", R"(, "part": "")")),
-          with_file(file("a", R"(, "part": "x/.gumcert-0123456789abcdef.part")")), with_file(file("a", R"(, "more": 1)")),
-          with_file(R"({"name": "a", "sha256": "AA"})"),
-          std::string(R"({"schema": "gumcert/set/2", "sets": []})"),
-          std::string(R"({"schema": "gumcert/set/1", "sets": [{"files": []}]})"),
-          std::string(R"({"schema": "gumcert/set/1", "sets": [], "sets": []})")}) {
+    for (const std::string& text : {std::string(),
+                                    std::string("[]"),
+                                    std::string("{}"),
+                                    with_file(""),
+                                    with_file("1"),
+                                    with_file("{}"),
+                                    with_file(file("")),
+                                    with_file(file(".")),
+                                    with_file(file("..")),
+                                    with_file(file("../a")),
+                                    with_file(file("/etc/passwd")),
+                                    with_file(file("a") + "," + file("a")),
+                                    with_file(file("a", R"(, "part": "b")")),
+                                    with_file(file("a", R"(, "part": "")")),
+                                    with_file(file("a", R"(, "part": "x/.gumcert-0123456789abcdef.part")")),
+                                    with_file(file("a", R"(, "more": 1)")),
+                                    with_file(R"({"name": "a", "sha256": "AA"})"),
+                                    std::string(R"({"schema": "gumcert/set/2", "sets": []})"),
+                                    std::string(R"({"schema": "gumcert/set/1", "sets": [{"files": []}]})"),
+                                    std::string(R"({"schema": "gumcert/set/1", "sets": [], "sets": []})")}) {
         EXPECT_FALSE(set_manifest_from_json(text)) << text;
     }
 }

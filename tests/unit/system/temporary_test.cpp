@@ -62,9 +62,10 @@ TEST_F(TemporaryTest, FileIsGoneAfterCleaningUp) {
 }
 
 TEST_F(TemporaryTest, OnlyOwnNamesAreTaken) {
-    for (const char* name : {"", "a", ".gumcert-.part", ".gumcert-0123456789abcdeg.part", ".gumcert-0123456789abcdef.par",
-                             ".gumcert-0123456789abcdef0.part", "gumcert-0123456789abcdef.part",
-                             ".gumcert-0123456789ABCDEF.part", "a/.gumcert-0123456789abcdef.part"}) {
+    for (const char* name :
+         {"", "a", ".gumcert-.part", ".gumcert-0123456789abcdeg.part", ".gumcert-0123456789abcdef.par",
+          ".gumcert-0123456789abcdef0.part", "gumcert-0123456789abcdef.part", ".gumcert-0123456789ABCDEF.part",
+          "a/.gumcert-0123456789abcdef.part"}) {
         EXPECT_FALSE(TemporaryFile::is_name(name)) << name;
     }
     EXPECT_TRUE(TemporaryFile::is_name(".gumcert-0123456789abcdef.part"));
