@@ -29,6 +29,8 @@ install(DIRECTORY templates schemas DESTINATION ${gumcert_share_dir} COMPONENT p
 # The published cases of gumcert self-test.
 file(GLOB reference_cases CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/reference/cases/*.json)
 install(FILES ${reference_cases} DESTINATION ${gumcert_share_dir}/reference_cases COMPONENT program)
+# The second verifier of archives: for whoever has Python and no gumcert.
+install(FILES tools/verify_archive.py DESTINATION ${gumcert_share_dir}/tools COMPONENT program)
 install(FILES LICENSE NOTICE DESTINATION ${gumcert_share_dir} COMPONENT program)
 
 # The PDF step runs in Node with a pinned module. Without the module (scripts/setup brings it) everything but PDF works.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/audit_evaluation.h"
+#include "app/check_file.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
@@ -333,6 +334,27 @@ ExitCode render_record(const std::string& name, const std::string& format, const
 
 }  // namespace
 
+/// What a PDF lacks is told before an evaluation that would be lost; what is wrong with a job, before what is wrong with
+/// the installation.
+void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const DocumentOptions& options,
+                   const CommonOptions& common) {
+    try {
+        issuer.require_ready();
+    } catch (const gum::StorageError&) {
+        for (const std::string& job : jobs) {
+            std::vector<gum::Diagnostic> found =
+                app::check_file(job, static_cast<unsigned>(common.threads), templates_folder(options.share), {},
+                                options.laboratory)
+                    .findings;
+            std::erase_if(found, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
+            if (!found.empty()) {
+                throw gum::InputError(std::move(found));
+            }
+        }
+        throw;
+    }
+}
+
 ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& options, const CommonOptions& common) {
     std::vector<fs::path> folders;
     for (const std::string& job : jobs) {
@@ -354,7 +376,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     app::require_not_inputs(outputs, inputs);
     const app::OutputsAtStart at_start = begin_outputs(outputs, common);
     print_warnings(issuer, common);
-    issuer.require_ready();
+    require_ready(issuer, jobs, options, common);
     ExitCode code = done;
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {

@@ -28,8 +28,8 @@ struct RenderAssets {
     /// say it on every page.
     std::string changed_templates = {};
     std::chrono::seconds pdf_time_limit{60};
-    std::uint64_t pdf_memory_limit = std::uint64_t{4} << 30U;                   ///< of the process that sets pages, [byte]
-    std::span<const DocumentKind> kinds = document_kinds();                     ///< what records of each kind show
+    std::uint64_t pdf_memory_limit = std::uint64_t{4} << 30U;  ///< of the process that sets pages, [byte]
+    std::span<const DocumentKind> kinds = document_kinds();    ///< what records of each kind show
     std::shared_ptr<ReadWordings> wordings = std::make_shared<ReadWordings>();  ///< copies of this object share it
 };
 

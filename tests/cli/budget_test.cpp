@@ -115,7 +115,7 @@ protected:
             const Ended whole = run(example(name), folder() / "out");
             EXPECT_EQ(whole.code, 0) << whole.err;
             const auto files = contents_of(folder() / "out");
-            EXPECT_EQ(files.size(), 5U);
+            EXPECT_EQ(files.size(), 6U) << "with the manifest";
             EXPECT_TRUE(files.contains("audit.html"));
             EXPECT_TRUE(files.contains("certificate.xml"));
             EXPECT_TRUE(files.contains("certificate.html"));

@@ -124,8 +124,8 @@ TEST_F(ComparisonProgram, RunWritesEveryForm) {
             names.insert(file);
             EXPECT_GT(bytes.size(), 200U) << file;
         }
-        EXPECT_EQ(names, (std::set<std::string>{"audit.html", "comparison.csv", "comparison.html", "comparison.pdf",
-                                                "record.json"}));
+        EXPECT_EQ(names, (std::set<std::string>{".gumcert-set.json", "audit.html", "comparison.csv", "comparison.html",
+                                                "comparison.pdf", "record.json"}));
         // The documents made again from the record are the same.
         for (const std::string format : {"html", "pdf", "csv"}) {
             const fs::path again = folder() / ("again." + format);

@@ -24,7 +24,7 @@ protected:
         std::map<std::string, std::string> result = contents_of(folder() / "job" / "out");
         result["(messages)"] = ended.err;
         result["(summary)"] = ended.out;
-        EXPECT_EQ(result.size(), all ? 8U : 4U);
+        EXPECT_EQ(result.size(), all ? 9U : 5U) << "with the manifest";
         fs::remove_all(folder() / "job" / "out");
         return result;
     }

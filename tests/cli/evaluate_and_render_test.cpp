@@ -32,7 +32,7 @@ TEST_F(Evaluate, WritesRecordAndCovariance) {
     const Ended ended = gumcert({"evaluate", job_.string(), "-o", record.string()});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto files = contents_of(record.parent_path());
-    EXPECT_EQ(files.size(), 2U);
+    EXPECT_EQ(files.size(), 3U) << "with the manifest";
     EXPECT_TRUE(files.contains("table.json"));
     const std::string covariance = covariance_among(files);
     EXPECT_NE(covariance, "");
@@ -76,6 +76,7 @@ TEST_F(Evaluate, WritesBesideTheJobByDefault) {
     EXPECT_EQ(json::parse(after["job-record.json"])["schema"], "gumcert/record/1");
     EXPECT_EQ(after.erase("job-record.json"), 1U);
     EXPECT_EQ(after.erase(covariance_among(after)), 1U);
+    EXPECT_EQ(after.erase(".gumcert-set.json"), 1U);
     EXPECT_EQ(after, before);
 }
 

@@ -150,5 +150,20 @@ TEST_F(Output, RefusedJobLeavesTheOldFilesAsTheyWere) {
     EXPECT_EQ(contents_of(folder() / "out"), first);
 }
 
+// What a PDF lacks is told before an evaluation is lost, but never in place of what is wrong with the job.
+TEST_F(Output, AMachineWithoutNodeIsToldAtOnceAndAFaultOfTheJobBefore) {
+    const Surroundings nothing_on_the_path{.environment = {{"PATH", (folder() / "empty").string()}}};
+    const std::vector<std::string> run = {"run",     job_.string(),     "-o", (folder() / "out").string(),
+                                          "--share", GUMCERT_SOURCE_DIR};
+    const Ended without = gumcert(run, nothing_on_the_path);
+    EXPECT_EQ(without.code, 5) << without.err;
+    EXPECT_NE(without.err.find("node"), std::string::npos) << without.err;
+    EXPECT_FALSE(fs::exists(folder() / "out"));
+    replace_in(folder() / "job" / "lengths.csv", ",R2,", ",R9,");
+    const Ended wrong = gumcert(run, nothing_on_the_path);
+    EXPECT_EQ(wrong.code, 3) << wrong.err;
+    EXPECT_NE(wrong.err.find("R9"), std::string::npos) << wrong.err;
+}
+
 }  // namespace
 }  // namespace gumcert::cli

@@ -162,7 +162,7 @@ class DebianPackage(unittest.TestCase):
         script = self.root / "usr/share/bash-completion/completions/gumcert"
         replies = run("bash", "--norc", "-c", 'source "$1"; COMP_WORDS=(gumcert re); COMP_CWORD=1; _gumcert; '
                       'echo "${COMPREPLY[@]}"', "bash", script)
-        self.assertEqual(replies, "render\n")
+        self.assertEqual(replies, "render rerun\n")
 
 
 if __name__ == "__main__":

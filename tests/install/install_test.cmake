@@ -95,7 +95,7 @@ foreach(file IN LISTS package_files)
     endif()
 endforeach()
 
-foreach(wanted bin/gumcert share/gumcert/templates share/gumcert/reference_cases/gum-h1-end-gauge.json share/gumcert/schemas share/gumcert/package-lock.json
+foreach(wanted share/gumcert/tools/verify_archive.py bin/gumcert share/gumcert/templates share/gumcert/reference_cases/gum-h1-end-gauge.json share/gumcert/schemas share/gumcert/package-lock.json
                share/gumcert/LICENSE share/gumcert/NOTICE include/gumcert/gum/coverage.h)
     if(NOT EXISTS ${prefix}/${wanted})
         message(FATAL_ERROR "${wanted} was not installed")
