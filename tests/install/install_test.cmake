@@ -16,10 +16,13 @@ set(prefix ${WORK_DIR}/prefix)
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
 
+# What is compiled here shows that headers and libraries are whole; how fast it runs is nobody's concern.
+set(as_a_stranger -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O0)
+
 run("installation" ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
 
 run("configuring the consumer" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK_DIR}/consumer -G Ninja
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" ${as_a_stranger})
 run("building the consumer" ${CMAKE_COMMAND} --build ${WORK_DIR}/consumer)
 run("running the consumer" ${WORK_DIR}/consumer/consumer)
 # JCGM 100:2008, table G.2, column 95.45 %
@@ -30,7 +33,7 @@ endif()
 
 # The shipped examples of the C++ libraries: built against the installed package, and run.
 run("configuring the examples" ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../../examples/api -B ${WORK_DIR}/api -G Ninja
-    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" ${as_a_stranger})
 run("building the examples" ${CMAKE_COMMAND} --build ${WORK_DIR}/api)
 function(expect_printed program)
     run("${program}" ${WORK_DIR}/api/${program})
