@@ -1,6 +1,7 @@
 
 #include <map>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -119,6 +120,8 @@ Bytes sign_pdf(const Bytes& pdf, const Signer& signer, std::int64_t signing_time
     try {
         document.processMemoryFile("PDF", pdf.data(), pdf.size());
         document.getAllPages().at(0);
+    } catch (const std::bad_alloc&) {
+        throw;  // says nothing about the PDF
     } catch (const std::exception& failure) {
         refuse("GC-SIGN-0041", std::string("cannot be read: ") + failure.what(), "sign_pdf signs a sound PDF",
                "make the document again");
@@ -135,6 +138,7 @@ Bytes sign_pdf(const Bytes& pdf, const Signer& signer, std::int64_t signing_time
     const Object signature = signature_dictionary(document, room, signing_time);
     add_field(document, signature);
     Written written = write(document, signature);
+    require_whole_memory(document);
 
     Bytes& bytes = written.bytes;
     const std::string placeholder = std::to_string(k_position_to_come);

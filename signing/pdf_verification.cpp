@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -461,8 +462,11 @@ Verification verify_pdf(const Bytes& pdf, const std::string& name, const Trusted
         if (Object keywords = entry(document.getTrailer().getKey("/Info"), "/Keywords"); keywords.isString()) {
             verification.pdf_keywords = keywords.getUTF8Value();
         }
+        require_whole_memory(document);
     } catch (const gum::DiagnosedError&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;  // says nothing about the PDF
     } catch (const std::exception& failure) {
         throw gum::InputError(
             gum::Diagnostic{.code = "GC-SIGN-0052",

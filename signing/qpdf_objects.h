@@ -20,3 +20,21 @@ class JSON;
 #include <qpdf/QPDFObjectHandle.hh>
 #include <qpdf/QPDFWriter.hh>
 #include <qpdf/QPDFXRefEntry.hh>
+
+#include <new>
+#include <string_view>
+
+namespace gumcert::signing {
+
+/// qpdf goes on where an allocation failed, and says it in a warning: what it reads then is not what was written, and a
+/// signature can seem to be missing.
+/// \throws std::bad_alloc
+inline void require_whole_memory(QPDF& document) {
+    for (const QPDFExc& warning : document.getWarnings()) {
+        if (std::string_view(warning.what()).find("std::bad_alloc") != std::string_view::npos) {
+            throw std::bad_alloc();
+        }
+    }
+}
+
+}  // namespace gumcert::signing

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <new>
 
 #include "workbook/operand.h"
 
@@ -41,6 +42,8 @@ Operand of_parameters(Given arguments, CellReader& reader, const Function& funct
     }
     try {
         return function(x);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception&) {  // what Boost.Math refuses
         return Operand::of(CellError::number);
     }

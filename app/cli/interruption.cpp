@@ -8,7 +8,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -106,9 +109,38 @@ void wait_for_signal(int descriptor, bool json_messages) {
     end_by(signal);
 }
 
+bool messages_as_json = false;
+
+/// Memory can run out where no exception may leave: in a thread, in a destructor, before main(). What everywhere else
+/// becomes an exit code ends the program here; a defect ends it as the language says.
+[[noreturn]] void end_at_once() {
+    try {
+        if (const std::exception_ptr why = std::current_exception()) {
+            std::rethrow_exception(why);
+        }
+    } catch (const std::bad_alloc&) {
+        const ExitCode code = tell_of_no_memory(messages_as_json);
+        try {
+            const system::CleanupLock lock = system::clean_up(std::chrono::seconds(1));
+            std::_Exit(code);
+        } catch (...) {
+            std::_Exit(code);  // what is left is removed by the next command
+        }
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
+}
+
+/// Before the constants of the program are made, which takes memory.
+[[gnu::constructor(101)]] void watch_from_the_beginning() {
+    std::set_terminate(end_at_once);
+}
+
 }  // namespace
 
 void clean_up_at_signals(bool json_messages) {
+    messages_as_json = json_messages;
     (void)progress_until_now();
     (void)system::hold_cleanup();
     if (::pipe2(signal_pipe.data(), O_CLOEXEC) != 0) {

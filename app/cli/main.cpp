@@ -118,6 +118,8 @@ int main(int argc, char** argv) {
     // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.
     arguments.common.json_messages = std::any_of(
         argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json-messages"; });
-    clean_up_at_signals(arguments.common.json_messages);
-    return explained(arguments.common, [&] { return dispatch(argc, argv, arguments); });
+    return explained(arguments.common, [&] {
+        clean_up_at_signals(arguments.common.json_messages);
+        return dispatch(argc, argv, arguments);
+    });
 }

@@ -44,11 +44,8 @@ ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, Exi
 
 }  // namespace
 
-namespace {
-
-/// Without taking memory, which there is none of.
-ExitCode without_memory(const CommonOptions& common) {
-    std::fputs(common.json_messages
+ExitCode tell_of_no_memory(bool json_messages) {
+    std::fputs(json_messages
                    ? "{\"action\":\"close other programs, or split the job\",\"code\":\"GC-STORE-0020\",\"rule\":\"an "
                      "evaluation needs its memory whole\",\"severity\":\"error\",\"what\":\"out of memory\",\"where\":"
                      "\"gumcert\"}\n"
@@ -57,8 +54,6 @@ ExitCode without_memory(const CommonOptions& common) {
                stderr);
     return storage_trouble;
 }
-
-}  // namespace
 
 ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work) {
     try {
@@ -72,7 +67,7 @@ ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>&
     } catch (const gum::StorageError& error) {
         return told(error, common, storage_trouble);
     } catch (const std::bad_alloc&) {
-        return without_memory(common);
+        return tell_of_no_memory(common.json_messages);
     } catch (const std::filesystem::filesystem_error& error) {
         // A name that the system does not take, a folder that vanished: trouble with files, wherever it arose.
         print_message({.code = "GC-STORE-0006",

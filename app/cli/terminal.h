@@ -56,6 +56,10 @@ void report_findings(const reports::EvaluationRecord& record, const CommonOption
 /// \throws gum::StorageError  if not all of it arrives
 void write_to_stdout(const std::string& bytes);
 
+/// Says that memory has run out, and takes none for it.
+/// \return storage_trouble
+ExitCode tell_of_no_memory(bool json_messages);
+
 /// Does some work; a failure is printed and becomes the exit code.
 [[nodiscard]] ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>& work);
 
