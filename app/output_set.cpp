@@ -33,10 +33,6 @@ bool is_file_name(const std::string& name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
-bool is_digest(const std::string& text) {
-    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
-
 std::string text_at(const nlohmann::json& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
@@ -47,7 +43,7 @@ std::optional<SetFile> set_file_from(const nlohmann::json& object) {
         return std::nullopt;
     }
     SetFile file{.name = text_at(object, "name"), .sha256 = text_at(object, "sha256"), .part = text_at(object, "part")};
-    const bool good = is_file_name(file.name) && is_digest(file.sha256) &&
+    const bool good = is_file_name(file.name) && encoding::is_sha256(file.sha256) &&
                       object.contains("part") == !file.part.empty() &&
                       (file.part.empty() || system::TemporaryFile::is_name(file.part)) &&
                       object.size() == (file.part.empty() ? 2U : 3U);

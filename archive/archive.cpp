@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "archive/store/merkle.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
@@ -90,6 +89,11 @@ void require_numbering(const Settings& settings) {
 }
 
 }  // namespace
+
+void refuse_unknown(const std::string& certificate, const std::string& archive) {
+    refuse_request("GC-ARCHIVE-0026", certificate, "is not in the archive " + archive,
+                   "a certificate is named by its number", "see gumcert archive list");
+}
 
 LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
                      const Request& request) {
@@ -188,8 +192,7 @@ Written Archive::write(const LogEntry& wanted, const std::function<LogEntry()>& 
 
 void Archive::require_known(const std::string& certificate, const std::vector<LogEntry>& entries) {
     if (entries.empty()) {
-        refuse_request("GC-ARCHIVE-0026", certificate, "is not in the archive " + store_.name(),
-                       "a certificate is named by its number", "see gumcert archive list");
+        refuse_unknown(certificate, store_.name());
     }
 }
 
@@ -369,21 +372,9 @@ std::string Archive::record_of(const std::string& certificate) {
 }
 
 Head Archive::head() {
-    Head head;
-    store_.read([&] {
-        MerkleTree tree;
-        store_.each_entry([&](const LogEntry& entry) {
-            if (tree.size() == 0) {
-                head.archive = entry.hash;
-            }
-            tree.add(entry.hash);
-            head.chain = entry.hash;
-            head.at = entry.at;
-        });
-        head.size = static_cast<std::int64_t>(tree.size());
-        head.root = tree.root();
-    });
-    return head;
+    WalkedLog log;
+    store_.read([&] { store_.each_entry([&](const LogEntry& entry) { log.add(entry); }); });
+    return log.head();
 }
 
 }  // namespace gumcert::archive

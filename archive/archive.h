@@ -62,6 +62,10 @@ struct ListedCertificate {
 [[nodiscard]] LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
                                    const Request& request);
 
+/// \throws gum::InputError  GC-ARCHIVE-0026: a certificate that is not in an archive
+/// \param archive  its name, for the message
+[[noreturn]] void refuse_unknown(const std::string& certificate, const std::string& archive);
+
 /// An archive of certificates on some store. Each function that writes is one transaction; several programs may write at
 /// the same time.
 ///

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "archive/archive.h"
 #include "archive/log_rules.h"
 #include "archive/store/merkle.h"
 #include "encoding/base64.h"
@@ -72,7 +73,7 @@ public:
         return value;
     }
     [[nodiscard]] std::string hash(const std::string& digits, const std::string& at) const {
-        std::optional<std::string> bytes = bytes_from_hexadecimal(digits);
+        std::optional<std::string> bytes = encoding::bytes_from_hexadecimal(digits);
         if (!bytes || bytes->size() != 32) {
             refuse(at);
         }
@@ -224,26 +225,17 @@ Evidence evidence_of(Store& store, const std::string& certificate) {
             }
         }
         if (entries.empty()) {
-            throw gum::InputError(gum::Diagnostic{.code = "GC-ARCHIVE-0026",
-                                                  .where = certificate,
-                                                  .what = "is not in the archive " + store.name(),
-                                                  .rule = "a certificate is named by its number",
-                                                  .action = "see gumcert archive list"});
+            refuse_unknown(certificate, store.name());
         }
-        MerkleTree tree;
+        WalkedLog log;
         store.each_entry([&](const LogEntry& entry) {
             if (entry.kind == "created" || entry.kind == "settings") {
                 entries.emplace(entry.seq, entry);
             }
-            if (tree.size() == 0) {
-                evidence.head.archive = entry.hash;
-            }
-            evidence.head.chain = entry.hash;
-            evidence.head.at = entry.at;
-            tree.add(entry.hash);
+            log.add(entry);
         });
-        evidence.head.size = static_cast<std::int64_t>(tree.size());
-        evidence.head.root = tree.root();
+        evidence.head = log.head();
+        const MerkleTree& tree = log.tree();
         std::set<std::string> named;
         for (const auto& [seq, entry] : entries) {
             evidence.entries.push_back({entry, tree.inclusion_proof(static_cast<std::size_t>(seq - 1), tree.size())});

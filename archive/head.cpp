@@ -29,7 +29,7 @@ constexpr std::size_t k_signature_bytes = 64;
 std::string bytes_at(const nlohmann::json& object, const char* key, std::size_t size, const std::string& name) {
     const auto found = object.find(key);
     if (found != object.end() && found->is_string()) {
-        std::optional<std::string> bytes = bytes_from_hexadecimal(found->get_ref<const std::string&>());
+        std::optional<std::string> bytes = encoding::bytes_from_hexadecimal(found->get_ref<const std::string&>());
         if (bytes && bytes->size() == size) {
             return std::move(*bytes);
         }
@@ -48,21 +48,20 @@ nlohmann::json unsigned_json(const Head& head) {
 
 }  // namespace
 
-std::optional<std::string> bytes_from_hexadecimal(std::string_view digits) {
-    const auto value = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1; };
-    if (digits.size() % 2 != 0) {
-        return std::nullopt;
+void WalkedLog::add(const LogEntry& entry) {
+    if (tree_.size() == 0) {
+        head_.archive = entry.hash;
     }
-    std::string bytes;
-    for (std::size_t i = 0; i < digits.size(); i += 2) {
-        const int high = value(digits[i]);
-        const int low = value(digits[i + 1]);
-        if (high < 0 || low < 0) {
-            return std::nullopt;
-        }
-        bytes += static_cast<char>(16 * high + low);
-    }
-    return bytes;
+    tree_.add(entry.hash);
+    head_.size = static_cast<std::int64_t>(tree_.size());
+    head_.chain = entry.hash;
+    head_.at = entry.at;
+}
+
+Head WalkedLog::head() const {
+    Head head = head_;
+    head.root = tree_.root();
+    return head;
 }
 
 std::string signed_bytes(const Head& head) {

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "archive/store/entry.h"
+#include "archive/store/merkle.h"
+
 namespace gumcert::archive {
 
 /// What an archive is at one moment, in a few lines: kept elsewhere, it proves later that nothing before it was changed
@@ -25,6 +28,20 @@ struct Head {
     friend bool operator==(const Head&, const Head&) = default;
 };
 
+/// A log that is walked through from its first entry, and the head that it has so far.
+class WalkedLog {
+public:
+    void add(const LogEntry& entry);
+    /// All of it but the root, which takes time.
+    [[nodiscard]] const Head& without_root() const { return head_; }
+    [[nodiscard]] Head head() const;
+    [[nodiscard]] const MerkleTree& tree() const { return tree_; }
+
+private:
+    Head head_;
+    MerkleTree tree_;
+};
+
 /// Canonical JSON with hashes in hexadecimal, schema "gumcert/archive-head/1".
 [[nodiscard]] std::string to_json(const Head& head);
 /// \param name  of the file, for messages
@@ -33,9 +50,5 @@ struct Head {
 
 /// What a signature of a head is over: its canonical JSON without the signature.
 [[nodiscard]] std::string signed_bytes(const Head& head);
-
-/// The bytes of hexadecimal digits in lower case.
-/// \return none where there are others, or an odd number
-[[nodiscard]] std::optional<std::string> bytes_from_hexadecimal(std::string_view digits);
 
 }  // namespace gumcert::archive

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "encoding/sha2.h"
 #include "json/strict_parser.h"
 #include "text/utf8.h"
 
@@ -43,10 +44,6 @@ bool is_time(std::string_view text) {
         is = k_form[i] == 'd' ? text[i] >= '0' && text[i] <= '9' : text[i] == k_form[i];
     }
     return is;
-}
-
-bool is_digest(std::string_view text) {
-    return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -147,7 +144,7 @@ std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& bod
     if (!is_time(entry.at)) {
         return form("the time is \"" + entry.at + "\"", "an entry says when, such as 2026-11-24T18:52:52Z");
     }
-    if (!entry.record.empty() && !is_digest(entry.record)) {
+    if (!entry.record.empty() && !encoding::is_sha256(entry.record)) {
         return form("the record is \"" + entry.record + "\"", "a record is named by its SHA-256");
     }
     if (created_ == (entry.kind == "created")) {
@@ -270,7 +267,8 @@ std::optional<Breach> LogRules::breach_of_draft(const LogEntry& entry, const jso
     bool well_formed = !entry.record.empty() && text_of(now, "record") == entry.record && documents.is_array() &&
                        text_of(member(body, "old"), "record") == (life != nullptr ? life->record : "");
     for (const json& document : documents) {
-        well_formed = well_formed && is_digest(text_of(document, "sha256")) && !text_of(document, "name").empty();
+        well_formed =
+            well_formed && encoding::is_sha256(text_of(document, "sha256")) && !text_of(document, "name").empty();
     }
     if (!well_formed) {
         return breach(Breach::Kind::form, "record or documents have another form",

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "archive/log_rules.h"
-#include "archive/store/merkle.h"
 #include "encoding/sha2.h"
 
 namespace gumcert::archive {
@@ -48,13 +47,11 @@ public:
                 compare_with(head);
             }
         });
-        found_.entries = tree_.size();
+        found_.entries = log_.tree().size();
         found_.contents = kept_.size();
         found_.certificates = rules_.lives().size();
-        if (tree_.size() > 0) {
-            head_.size = static_cast<std::int64_t>(tree_.size());
-            head_.root = tree_.root();
-            found_.head = head_;
+        if (log_.tree().size() > 0) {
+            found_.head = log_.head();
         } else {
             add("GC-ARCHIVE-0042", store_.name(), "the log is empty", "the log has the entries 1, 2, 3 … without gaps",
                 "restore the newest backup that can be verified");
@@ -75,8 +72,7 @@ private:
     Verification found_;
     std::size_t left_out_ = 0;
     LogRules rules_;
-    MerkleTree tree_;
-    Head head_;
+    WalkedLog log_;
     std::vector<std::pair<std::string, std::string>> chains_;  // hash and time of every entry
     std::set<std::string> keys_;
     std::map<std::string, std::int64_t> needed_;  // content → entry that names it
@@ -96,9 +92,9 @@ private:
 
     void look_at(const LogEntry& entry) {
         const std::string where = entry_name(entry.seq);
-        const std::string expected_prev = tree_.size() == 0 ? std::string(32, '\0') : head_.chain;
-        if (entry.seq != static_cast<std::int64_t>(tree_.size()) + 1) {
-            add("GC-ARCHIVE-0042", where, "stands where entry " + std::to_string(tree_.size() + 1) + " belongs",
+        const std::string expected_prev = log_.tree().size() == 0 ? std::string(32, '\0') : log_.without_root().chain;
+        if (entry.seq != static_cast<std::int64_t>(log_.tree().size()) + 1) {
+            add("GC-ARCHIVE-0042", where, "stands where entry " + std::to_string(log_.tree().size() + 1) + " belongs",
                 "the log has the entries 1, 2, 3 … without gaps", "compare with a backup what was removed or added");
         }
         if (entry.prev != expected_prev) {
@@ -124,15 +120,10 @@ private:
                 needed_.emplace(sha256, entry.seq);
             }
         }
-        if (tree_.size() == 0) {
-            head_.archive = entry.hash;
-        }
-        head_.chain = entry.hash;
-        head_.at = entry.at;
-        tree_.add(entry.hash);
+        log_.add(entry);
         chains_.emplace_back(entry.hash, entry.at);
-        if (progress_ && tree_.size() % k_between_reports == 0) {
-            progress_(std::to_string(tree_.size()) + " entries");
+        if (progress_ && log_.tree().size() % k_between_reports == 0) {
+            progress_(std::to_string(log_.tree().size()) + " entries");
         }
     }
 
@@ -155,12 +146,13 @@ private:
         const char* const rule = "an archive begins with what its earlier heads say";
         const char* const action =
             "the log was cut off, rewritten, or belongs to another archive: compare with a backup";
-        if (tree_.size() == 0 || head.archive != head_.archive) {
+        if (log_.tree().size() == 0 || head.archive != log_.without_root().archive) {
             add("GC-ARCHIVE-0045", where, "is one of another archive", rule, action);
-        } else if (head.size < 1 || static_cast<std::size_t>(head.size) > tree_.size()) {
-            add("GC-ARCHIVE-0045", where, "the archive has " + std::to_string(tree_.size()) + " entries", rule, action);
+        } else if (head.size < 1 || static_cast<std::size_t>(head.size) > log_.tree().size()) {
+            add("GC-ARCHIVE-0045", where, "the archive has " + std::to_string(log_.tree().size()) + " entries", rule,
+                action);
         } else if (const auto& [chain, at] = chains_[static_cast<std::size_t>(head.size) - 1];
-                   tree_.root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||
+                   log_.tree().root(static_cast<std::size_t>(head.size)) != head.root || chain != head.chain ||
                    at != head.at) {
             add("GC-ARCHIVE-0045", where, "the entries of the archive up to there are others", rule, action);
         }

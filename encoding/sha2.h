@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,12 @@ namespace gumcert::encoding {
 
 /// Bytes as hexadecimal digits in lower case.
 [[nodiscard]] std::string hexadecimal(std::string_view bytes);
+
+/// The bytes of hexadecimal digits in lower case.
+/// \return none where there are others, or an odd number
+[[nodiscard]] std::optional<std::string> bytes_from_hexadecimal(std::string_view digits);
+
+/// Whether a text has the form of sha256().
+[[nodiscard]] bool is_sha256(std::string_view text);
 
 }  // namespace gumcert::encoding

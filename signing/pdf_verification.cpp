@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "signing/certificates.h"
 #include "signing/document_verification.h"
@@ -63,26 +64,13 @@ struct Range {
     std::size_t end = 0;
 };
 
-std::optional<Bytes> bytes_from_hexadecimal(std::string_view text) {
-    const auto value = [](char c) {
-        return c >= '0' && c <= '9'   ? c - '0'
-               : c >= 'a' && c <= 'f' ? c - 'a' + 10
-               : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                      : -1;
-    };
-    Bytes bytes;
-    if (text.size() % 2 != 0) {
-        return std::nullopt;
+/// A PDF may write them with capital letters, too.
+std::optional<Bytes> bytes_from_pdf_hexadecimal(std::string_view text) {
+    Bytes digits(text);
+    for (char& c : digits) {
+        c = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
     }
-    for (std::size_t i = 0; i < text.size(); i += 2) {
-        const int high = value(text[i]);
-        const int low = value(text[i + 1]);
-        if (high < 0 || low < 0) {
-            return std::nullopt;
-        }
-        bytes += static_cast<char>(high * 16 + low);
-    }
-    return bytes;
+    return encoding::bytes_from_hexadecimal(digits);
 }
 
 bool is_accepted_digest(int nid) {
@@ -151,7 +139,7 @@ private:
         Object contents = signature_.getKey("/Contents");
         std::optional<Bytes> value;
         if (gap.front() == '<' && gap.back() == '>') {
-            value = bytes_from_hexadecimal(gap.substr(1, gap.size() - 2));
+            value = bytes_from_pdf_hexadecimal(gap.substr(1, gap.size() - 2));
         }
         if (!value || !contents.isString() || contents.getStringValue() != *value) {
             error("GC-SIGN-0141", "the gap of its ByteRange holds something else than the signature",

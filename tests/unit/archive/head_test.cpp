@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/support/archive_folder.h"
@@ -51,12 +54,23 @@ TEST(ArchiveHead, IsRefusedWhereItHasAnotherForm) {
     EXPECT_EQ(test::code_of([&] { (void)head_from_json("[", "head.json"); }), "GC-ARCHIVE-0049");
 }
 
-TEST(ArchiveHead, ReadsHexadecimalDigitsStrictly) {
-    EXPECT_EQ(bytes_from_hexadecimal("00ff10"), std::string("\0\xFF\x10", 3));
-    EXPECT_EQ(bytes_from_hexadecimal(""), "");
-    EXPECT_EQ(bytes_from_hexadecimal("0"), std::nullopt);
-    EXPECT_EQ(bytes_from_hexadecimal("FF"), std::nullopt);
-    EXPECT_EQ(bytes_from_hexadecimal("0x"), std::nullopt);
+TEST(ArchiveHead, GrowsWithTheLog) {
+    WalkedLog log;
+    EXPECT_EQ(log.head().size, 0);
+    LogEntry entry;
+    std::vector<std::string> roots;
+    for (const char* const hash : {"first", "second"}) {
+        entry.hash = hash;
+        entry.at = std::string("time of the ") + hash;
+        log.add(entry);
+        roots.push_back(log.head().root);
+    }
+    EXPECT_EQ(log.without_root().root, "");
+    EXPECT_EQ(log.head().archive, "first");
+    EXPECT_EQ(log.head().chain, "second");
+    EXPECT_EQ(log.head().at, "time of the second");
+    EXPECT_EQ(log.head().size, 2);
+    EXPECT_EQ(roots, (std::vector<std::string>{log.tree().root(1), log.tree().root(2)}));
 }
 
 }  // namespace

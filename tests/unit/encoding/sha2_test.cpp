@@ -40,5 +40,21 @@ TEST(Hexadecimal, OfEveryByteHasTwoDigits) {
     EXPECT_EQ(hexadecimal(""), "");
 }
 
+TEST(Sha2, ReadsHexadecimalDigits) {
+    EXPECT_EQ(bytes_from_hexadecimal("00ff10"), std::string("\0\xFF\x10", 3));
+    EXPECT_EQ(bytes_from_hexadecimal(""), "");
+    EXPECT_EQ(bytes_from_hexadecimal("0"), std::nullopt);
+    EXPECT_EQ(bytes_from_hexadecimal("FF"), std::nullopt);
+    EXPECT_EQ(bytes_from_hexadecimal("0x"), std::nullopt);
+}
+
+TEST(Sha2, KnowsTheFormOfADigest) {
+    EXPECT_TRUE(is_sha256(sha256("")));
+    EXPECT_FALSE(is_sha256(""));
+    EXPECT_FALSE(is_sha256(sha256("").substr(1)));
+    EXPECT_FALSE(is_sha256(std::string(63, '0') + "A"));
+    EXPECT_FALSE(is_sha256(std::string(65, '0')));
+}
+
 }  // namespace
 }  // namespace gumcert::encoding
