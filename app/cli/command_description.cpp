@@ -3,19 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "text/split.h"
+
 namespace gumcert::cli {
 
 namespace {
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, start), text.size());
-        parts.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return parts;
-}
 
 /// CLI11 tells kind and check of a value in one text: "FORM:{html,pdf}", "INT:INT in [1 - 1024]", "FILE".
 void describe_value(const std::string& kind_and_check, ArgumentDescription& argument) {
@@ -23,7 +15,7 @@ void describe_value(const std::string& kind_and_check, ArgumentDescription& argu
     argument.value = kind_and_check.substr(0, colon);
     const std::string check = colon == std::string::npos ? "" : kind_and_check.substr(colon + 1);
     if (check.starts_with('{') && check.ends_with('}')) {
-        argument.choices = split(check.substr(1, check.size() - 2), ',');
+        argument.choices = text::split(check.substr(1, check.size() - 2), ',');
     } else {
         argument.limits = check;
     }
@@ -42,7 +34,7 @@ ArgumentDescription described(const CLI::Option& option) {
         argument.names = {option.get_name(true, false)};
         argument.value.clear();
     } else {
-        argument.names = split(option.get_name(false, true), ',');
+        argument.names = text::split(option.get_name(false, true), ',');
     }
     return argument;
 }

@@ -14,6 +14,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
 #include "text/numbers.h"
+#include "text/split.h"
 
 namespace gumcert::app {
 
@@ -44,16 +45,6 @@ ordered_json merged(const ordered_json& base, const ordered_json& changes) {
         result[key] = base.contains(key) ? merged(base[key], value) : value;
     }
     return result;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, start), text.size());
-        parts.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return parts;
 }
 
 bool is_number(const std::string& step) {
@@ -106,7 +97,7 @@ private:
     std::set<std::string> begun_;
 
     const json& at(const std::string& path) {
-        const std::vector<std::string> steps = split(path, '/');
+        const std::vector<std::string> steps = text::split(path, '/');
         const json* place = steps.front() == "data" ? &reference_.data : &record(steps.front());
         for (std::size_t i = 1; i < steps.size(); ++i) {
             place = &next(*place, steps[i], path);
@@ -150,7 +141,7 @@ private:
 
     /// Whether a row holds "key=value,key=value".
     static bool has_all(const json& row, const std::string& wanted) {
-        const std::vector<std::string> parts = split(wanted, ',');
+        const std::vector<std::string> parts = text::split(wanted, ',');
         return row.is_object() && std::all_of(parts.begin(), parts.end(), [&row](const std::string& part) {
                    const std::size_t sign = std::min(part.find('='), part.size());
                    const auto found = row.find(part.substr(0, sign));
