@@ -4,7 +4,6 @@
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "app/audit_files.h"
@@ -104,13 +103,10 @@ std::size_t SelfTest::agreed() const {
 
 std::vector<fs::path> case_files(const fs::path& folder) {
     std::vector<fs::path> files;
-    std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        if (at->path().extension() == ".json") {
-            files.push_back(at->path());
-        }
+    for (const std::string& name : json_files_in(folder)) {
+        files.push_back(folder / (name + ".json"));
     }
-    if (error || files.empty()) {
+    if (files.empty()) {
         throw gum::StorageError(
             gum::Diagnostic{.code = "GC-STORE-0016",
                             .where = folder.string(),

@@ -250,21 +250,20 @@ private:
     }
 };
 
-json view_of(const SelfTest& test, const std::string& digest, reports::RenderAssets& assets) {
-    assets.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
-    const Wording wording = reports::read_wording(assets);
+json view_of(const SelfTest& test, const std::string& digest, const reports::RenderAssets& one_language) {
+    const Wording wording = reports::read_wording(one_language);
     return SelfTestPages(test, digest, wording).view();
 }
 
 }  // namespace
 
 std::string self_test_html(const SelfTest& test, const std::string& digest, const reports::RenderAssets& assets) {
-    reports::RenderAssets one_language = assets;
+    const reports::RenderAssets one_language = in_one_language(assets);
     return view_as_html(view_of(test, digest, one_language), one_language);
 }
 
 std::string self_test_pdf(const SelfTest& test, const std::string& digest, const reports::RenderAssets& assets) {
-    reports::RenderAssets one_language = assets;
+    const reports::RenderAssets one_language = in_one_language(assets);
     return view_as_pdf(view_of(test, digest, one_language), one_language);
 }
 

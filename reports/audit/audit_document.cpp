@@ -309,8 +309,7 @@ private:
 }  // namespace
 
 std::string audit_as_pdf(const AuditView& view, const RenderAssets& assets) {
-    RenderAssets one_language = assets;
-    one_language.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
+    const RenderAssets one_language = in_one_language(assets);
     const Wording wording = read_wording(one_language);
     const AuditWords words(wording);
     CertificateBuilder builder(wording);

@@ -601,9 +601,7 @@ json overview(const AuditView& view, const AuditWords& words) {
 }  // namespace
 
 std::string audit_as_html(const AuditView& view, const RenderAssets& assets) {
-    RenderAssets one_language = assets;
-    one_language.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
-    const Wording wording = read_wording(one_language);
+    const Wording wording = read_wording(in_one_language(assets));
     const AuditWords words(wording);
     const std::string script = read_asset(assets.templates / "audit.js");
     json page = {{"language", words.language()},

@@ -180,6 +180,11 @@ std::vector<std::string> languages_of(const EvaluationRecord& record, const Rend
     return languages.empty() ? std::vector<std::string>{"en"} : languages;
 }
 
+RenderAssets in_one_language(RenderAssets assets) {
+    assets.languages.resize(std::min<std::size_t>(assets.languages.size(), 1));
+    return assets;
+}
+
 Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record) {
     return read_wording(assets, languages_of(record, assets),
                         record.certificate ? record.certificate->profile.terms : Terms());

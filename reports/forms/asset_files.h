@@ -24,6 +24,9 @@ namespace gumcert::reports {
 /// the certificate data, else English.
 [[nodiscard]] std::vector<std::string> languages_of(const EvaluationRecord& record, const RenderAssets& assets);
 
+/// The same for a document in one language, the binding one.
+[[nodiscard]] RenderAssets in_one_language(RenderAssets assets);
+
 /// The wording of a document. It is read once for all documents of the same languages and terms, see ReadWordings.
 /// \throws gum::StorageError if there is none of a language, or there are more than two languages
 [[nodiscard]] Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "gum/quantity/diagnostic.h"
 #include "reports/wording.h"
@@ -70,6 +71,14 @@ TEST(WordingOfARecord, HasTheTermsOfItsProfile) {
     const std::string sentences = read_asset(assets().templates / "wording" / "sentences.json");
     ASSERT_NE(sentences.find("校正證書"), std::string::npos) << "a sentence with the word, for this test";
     EXPECT_EQ(wording.language(), "zh-Hant");
+}
+
+TEST(LanguagesOfAssets, AreTheBindingOneAlone) {
+    RenderAssets asked = assets();
+    asked.languages = {"de", "en"};
+    EXPECT_EQ(in_one_language(asked).languages, std::vector<std::string>{"de"});
+    asked.languages.clear();
+    EXPECT_TRUE(in_one_language(asked).languages.empty());
 }
 
 }  // namespace
