@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -49,16 +48,6 @@ struct Action {
 };
 
 constexpr std::size_t k_any = 100'000;
-
-std::string time_now() {
-    const std::int64_t now = seconds_now();
-    const std::chrono::sys_seconds time{std::chrono::seconds(now)};
-    const std::chrono::hh_mm_ss clock{time - std::chrono::floor<std::chrono::days>(time)};
-    const std::chrono::year_month_day day{std::chrono::floor<std::chrono::days>(time)};
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(day.year()),
-                       static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()), clock.hours().count(),
-                       clock.minutes().count(), clock.seconds().count());
-}
 
 archive::Request request_of(const ArchiveOptions& options) {
     return {.actor = options.by, .at = time_now(), .request_key = options.request_key, .why = options.why};
@@ -128,10 +117,9 @@ archive::Settings settings_of(const ArchiveOptions& options) {
 }
 
 ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common) {
-    const archive::Settings settings{
-        .four_eyes = !options.one_pair_of_eyes, .numbering = options.numbering, .persons = persons_of(options)};
-    const archive::LogEntry first = archive::first_entry(
-        settings, fmt::format("gumcert {} (commit {})", k_version, k_commit), random_nonce(), request_of(options));
+    const archive::LogEntry first =
+        archive::first_entry(settings_of(options), fmt::format("gumcert {} (commit {})", k_version, k_commit),
+                             random_nonce(), request_of(options));
     (void)archive::create_sqlite_store(options.store, first);
     if (!common.quiet) {
         fmt::print("Begun: {}\n", options.store);
@@ -147,14 +135,6 @@ ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& com
 ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_and_write);
     return told(archive::Archive(*store).take_number(request_of(options)), options, common);
-}
-
-void print_remarks(const std::vector<gum::Diagnostic>& remarks, const CommonOptions& common) {
-    for (const gum::Diagnostic& remark : remarks) {
-        if (!common.quiet || remark.severity != gum::Severity::note) {
-            print_message(remark, common);
-        }
-    }
 }
 
 ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, bool is_amendment) {
@@ -185,7 +165,7 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
             request.why = data.amendment->reason.in(data.languages.empty() ? "en" : data.languages.front());
         }
     }
-    print_remarks(checked.remarks, common);
+    print_messages(checked.remarks, common);
     return told(archive.draft(checked.draft, request), options, common);
 }
 

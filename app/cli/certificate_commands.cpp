@@ -61,11 +61,7 @@ void print_verification(const std::string& file, const signing::Verification& ve
                         const std::vector<app::DocumentIdentity>& identities, const CommonOptions& common) {
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
-            for (const gum::Diagnostic& finding : signature.findings) {
-                if (!common.quiet || finding.severity != gum::Severity::note) {
-                    print_message(finding, common);
-                }
-            }
+            print_messages(signature.findings, common);
         }
     }
     if (common.quiet) {
@@ -102,10 +98,8 @@ ExitCode print_check(const std::string& file, const app::FileCheck& check, const
     for (const gum::Diagnostic& finding : check.findings) {
         errors += finding.severity == gum::Severity::error ? 1 : 0;
         warnings += finding.severity == gum::Severity::warning ? 1 : 0;
-        if (!common.quiet || finding.severity != gum::Severity::note) {
-            print_message(finding, common);
-        }
     }
+    print_messages(check.findings, common);
     if (!common.quiet) {
         fmt::print(
             "{}: {}, {}\n", file, check.kind,
@@ -142,11 +136,7 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
     const imports::ImportedJob imported =
         standard.empty() ? imports::import_certificate(app::read_file(file), file, trust_of(trust_store))
                          : imports::import_standard(app::read_file(file), file, standard, trust_of(trust_store));
-    for (const gum::Diagnostic& remark : imported.remarks) {
-        if (!common.quiet || remark.severity != gum::Severity::note) {
-            print_message(remark, common);
-        }
-    }
+    print_messages(imported.remarks, common);
     if (output.empty() || output == "-") {
         write_to_stdout(imported.job);
         return imported.negative ? negative_answer : done;

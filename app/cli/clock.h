@@ -16,6 +16,17 @@ namespace gumcert::cli {
     return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
 }
 
+/// Date and time by UTC, "2026-11-24T18:55:00Z". Nothing that is evaluated depends on it.
+[[nodiscard]] inline std::string time_now() {
+    const std::chrono::sys_seconds now{std::chrono::seconds(seconds_now())};
+    const auto day = std::chrono::floor<std::chrono::days>(now);
+    const std::chrono::year_month_day date(day);
+    const std::chrono::hh_mm_ss time(now - day);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), time.hours().count(),
+                       time.minutes().count(), time.seconds().count());
+}
+
 /// The day by UTC, "2026-11-22": whether a certificate is issued ahead of time. Nothing that is evaluated depends on
 /// it. A clock that stands before the program was made is wrong: the day of its commit then.
 [[nodiscard]] inline std::string today() {

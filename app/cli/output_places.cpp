@@ -13,11 +13,7 @@ app::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outp
     if (!error) {
         (void)system::remove_dead_folders(temporary);
     }
-    for (const gum::Diagnostic& restored : app::restore_outputs(outputs)) {
-        if (!common.quiet || restored.severity != gum::Severity::note) {
-            print_message(restored, common);
-        }
-    }
+    print_messages(app::restore_outputs(outputs), common);
     return app::OutputsAtStart(outputs);
 }
 

@@ -6,7 +6,6 @@
 #include <gumcert_templates.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -30,17 +29,6 @@ namespace gumcert::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// "2026-11-24T18:55:00Z".
-std::string time_now() {
-    const std::chrono::sys_seconds now{std::chrono::seconds(seconds_now())};
-    const auto day = std::chrono::floor<std::chrono::days>(now);
-    const std::chrono::hh_mm_ss time(now - day);
-    const std::chrono::year_month_day date(day);
-    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
-                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), time.hours().count(),
-                       time.minutes().count(), time.seconds().count());
-}
 
 std::string source_of(const app::ReferenceCase& reference) {
     constexpr std::size_t k_longest = 120;

@@ -33,6 +33,14 @@ void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& commo
     }
 }
 
+void print_messages(std::span<const gum::Diagnostic> diagnostics, const CommonOptions& common) {
+    for (const gum::Diagnostic& diagnostic : diagnostics) {
+        if (!common.quiet || diagnostic.severity != gum::Severity::note) {
+            print_message(diagnostic, common);
+        }
+    }
+}
+
 namespace {
 
 ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, ExitCode code) {
@@ -109,11 +117,7 @@ void ProgressLine::clear() {
 }
 
 void report_diagnostics(const reports::EvaluationRecord& record, const CommonOptions& common) {
-    for (const gum::Diagnostic& diagnostic : record.diagnostics) {
-        if (!common.quiet || diagnostic.severity != gum::Severity::note) {
-            print_message(diagnostic, common);
-        }
-    }
+    print_messages(record.diagnostics, common);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -39,7 +40,10 @@ void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arg
 /// One line on stderr: "where — what — rule — action [code]", or JSON.
 void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common);
 
-/// The messages that a record holds; notes only where they are wanted.
+/// Several of them; notes only where they are wanted.
+void print_messages(std::span<const gum::Diagnostic> diagnostics, const CommonOptions& common);
+
+/// The messages that a record holds.
 void report_diagnostics(const reports::EvaluationRecord& record, const CommonOptions& common);
 
 /// The findings of the gates before issue, one line each; informations only where they are wanted.
