@@ -11,6 +11,10 @@ target_compile_options(gumcert_compile_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wlogical-op>
     # The same digits from every build: no contraction into fused multiply-add.
     -ffp-contract=off)
+# The compiler looks less often for memory to use again: a tenth of its time, for up to half as much memory again. The code
+# that it makes is the same.
+target_compile_options(gumcert_compile_options INTERFACE
+    "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=300 --param ggc-min-heapsize=1000000>")
 # Of sources that are compiled as one.
 add_library(gumcert_files_as_one INTERFACE)
 target_compile_options(gumcert_files_as_one INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

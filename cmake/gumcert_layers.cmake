@@ -209,17 +209,34 @@ endforeach()
 
 set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
 
-# gumcert_layer(folder [WORDS] [PUBLIC package...] [PRIVATE package...] [HEADER_ONLY package...])
+# In a release some files are compiled as one: half of the time goes into headers and templates that they share. Other
+# builds compile each file by itself, so that none leans on what its neighbours include.
 #
-# WORDS: the layer handles texts and computes little; a release compiles it with less optimisation, in two thirds of the
-# time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is the same at every
-# level.
+# files: of one unit. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
+# two thirds of the time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is
+# the same at every level.
+function(gumcert_compile_as_one target files words)
+    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
+        if(words)
+            target_compile_options(${target} PRIVATE -O1)
+        endif()
+        # After the warnings of every target: a source that is included looks to the compiler like a header of the next one.
+        target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:gumcert_files_as_one>)
+    endif()
+endfunction()
+
+# gumcert_layer(folder [WORDS] [MATRICES] [PUBLIC package...] [PRIVATE package...] [HEADER_ONLY package...])
+#
+# WORDS: the layer handles texts and computes little.
+# MATRICES: the layer is full of expressions of matrices: fewer files make a unit, since the compiler needs more than twice
+# the time for twice as many templates in it.
 # Makes the library gumcert::<folder with _ for />, linked with the layers of its entry above. HEADER_ONLY packages are
 # needed to compile the layer, but not by whoever links the installed library.
 function(gumcert_layer folder)
-    cmake_parse_arguments(PARSE_ARGV 1 ARG "WORDS" "" "PUBLIC;PRIVATE;HEADER_ONLY")
+    cmake_parse_arguments(PARSE_ARGV 1 ARG "WORDS;MATRICES" "" "PUBLIC;PRIVATE;HEADER_ONLY")
     if(ARG_UNPARSED_ARGUMENTS)
-        message(FATAL_ERROR "${folder}: ${ARG_UNPARSED_ARGUMENTS} — only WORDS, PUBLIC, PRIVATE and HEADER_ONLY are known")
+        message(FATAL_ERROR "${folder}: ${ARG_UNPARSED_ARGUMENTS} — only WORDS, MATRICES, PUBLIC, PRIVATE and HEADER_ONLY are known")
     endif()
     if(NOT folder IN_LIST GUMCERT_LAYER_FOLDERS)
         message(FATAL_ERROR "${folder}: not a layer — every layer has its lines in cmake/gumcert_layers.cmake — "
@@ -231,22 +248,15 @@ function(gumcert_layer folder)
     add_library(${name} STATIC ${sources})
     add_library(gumcert::${name} ALIAS ${name})
     set_target_properties(${name} PROPERTIES OUTPUT_NAME gumcert_${name} EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
-    # In a release some files of a layer are compiled as one: half of the time goes into headers and templates that they
-    # share. Other builds compile each file by itself, so that none leans on what its neighbours include.
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
-        set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-        if(ARG_WORDS)
-            target_compile_options(${name} PRIVATE -O1)
-        endif()
-    endif()
     target_compile_features(${name} PUBLIC cxx_std_20)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gumcert>)
     target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_compile_options> ${ARG_PRIVATE} PUBLIC ${ARG_PUBLIC})
-    # After the warnings of every target: a source that is included looks to the compiler like a header of the next one.
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
-        target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_files_as_one>)
+    set(files 8)
+    if(ARG_MATRICES)
+        set(files 3)
     endif()
+    gumcert_compile_as_one(${name} ${files} ${ARG_WORDS})
     foreach(package IN LISTS ARG_HEADER_ONLY)
         target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${package}>)
     endforeach()

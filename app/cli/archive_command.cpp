@@ -324,7 +324,7 @@ ExitCode write_output(const std::string& text, const std::string& output, const 
 }
 
 /// A name of a file in which nothing of the number leads elsewhere.
-std::string file_name_of(std::string number) {
+std::string file_name_of_number(std::string number) {
     std::replace_if(
         number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
     return number;
@@ -339,7 +339,7 @@ void sign(archive::Head& head, const std::string& key) {
 
 ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
     const std::string output =
-        options.output.empty() ? file_name_of(options.named.front()) + "-evidence.json" : options.output;
+        options.output.empty() ? file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
     const auto store = opened(options, archive::Access::read_only);
     require_output(output, options);
     archive::Evidence evidence = archive::evidence_of(*store, options.named.front());
