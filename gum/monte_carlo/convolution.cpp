@@ -336,12 +336,41 @@ void multiply_by_characteristic(const Distribution& d, double delta, std::vector
     }
 }
 
-/// Half-width by the Fourier series of the distribution wrapped onto −L … L:
+/// The distribution of a symmetric sum wrapped onto −L … L, as a Fourier series:
 /// P(|Y| ≤ x) = x/L + (2/π) Σ_j φ(jπ/L) sin(jπx/L)/j.
+struct FourierSeries {
+    double L = 0.0;
+    double reach = 0.0;  // what lies further out is as improbable as was asked for
+    std::vector<double> phi;
+
+    /// P(|Y| ≤ x) and the density of |Y|, for 0 ≤ x ≤ L.
+    [[nodiscard]] std::pair<double, double> at(double x) const {
+        const double delta = std::numbers::pi / L;
+        // cos and sin of every multiple by rotating the last ones: two products in place of two calls.
+        const double c = std::cos(delta * x);
+        const double s = std::sin(delta * x);
+        double cosine = c;
+        double sine = s;
+        double probability = x / L;
+        double density = 1.0;
+        for (std::size_t j = 0; j < phi.size(); ++j) {
+            probability += 2.0 / std::numbers::pi * phi[j] * sine / (static_cast<double>(j) + 1.0);
+            density += 2.0 * phi[j] * cosine;
+            const double next = cosine * c - sine * s;
+            sine = sine * c + cosine * s;
+            cosine = next;
+        }
+        return {probability, density / L};
+    }
+};
+
+/// \param accepted    error of a probability
+/// \param beyond      probability with which the t-distributions together may lie beyond the reach, on one side
+/// \param most_nodes  with more, cells of a grid are better
 /// \return nothing where cells of a grid are better: an unknown characteristic function, or one that falls slowly
-std::optional<double> fourier_half_width(std::span<const Centred> terms, double p) {
-    // Nearer to p = 1 the density at the end is lower: the same error of k allows a smaller error of the probability.
-    const double accepted = k_fourier_error * std::min(1.0, (1.0 - p) / 0.05);
+std::optional<FourierSeries> fourier_series(std::span<const Centred> terms, double accepted, double beyond,
+                                            Eigen::Index most_nodes) {
+    FourierSeries series;
     double bounded_reach = 0.0;
     double proxy = 0.0;  // variance of a normal distribution whose tails are no lighter
     double students = 0.0;
@@ -353,7 +382,7 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
             return std::nullopt;
         }
         if (d.kind == DistributionKind::student_t) {
-            students += upper_quantile(d, 0.25 * (1.0 - p) / static_cast<double>(terms.size()));
+            students += upper_quantile(d, beyond / static_cast<double>(terms.size()));
         } else if (d.kind == DistributionKind::normal) {
             proxy += d.scale * d.scale;
             bounded_reach = k_infinity;
@@ -382,6 +411,8 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
     for (int step = 0; step < 40 && wrapped(L) > 0.5 * accepted; ++step) {
         L *= 1.3;
     }
+    series.L = L;
+    series.reach = reach;
     const double delta = std::numbers::pi / L;
     const auto left_out = [&](double t) {
         double value = 1.0;
@@ -394,39 +425,34 @@ std::optional<double> fourier_half_width(std::span<const Centred> terms, double 
         return 2.0 / std::numbers::pi * value / std::max(1.0, power);
     };
     Eigen::Index nodes = 32;
-    while (nodes <= k_most_nodes && left_out(static_cast<double>(nodes) * delta) > 0.1 * accepted) {
+    while (nodes <= most_nodes && left_out(static_cast<double>(nodes) * delta) > 0.1 * accepted) {
         nodes += nodes / 4;
     }
-    if (nodes > k_most_nodes) {
+    if (nodes > most_nodes) {
         return std::nullopt;
     }
-    std::vector<double> phi(static_cast<std::size_t>(nodes), 1.0);
+    series.phi.assign(static_cast<std::size_t>(nodes), 1.0);
     for (const Distribution& d : distributions) {
-        multiply_by_characteristic(d, delta, phi);
+        multiply_by_characteristic(d, delta, series.phi);
     }
-    /// P(|Y| ≤ x) − p and the density of |Y| at x.
-    const auto at = [&](double x) {
-        // cos and sin of every multiple by rotating the last ones: two products in place of two calls.
-        const double c = std::cos(delta * x);
-        const double s = std::sin(delta * x);
-        double cosine = c;
-        double sine = s;
-        double probability = x / L;
-        double density = 1.0;
-        for (std::size_t j = 0; j < phi.size(); ++j) {
-            probability += 2.0 / std::numbers::pi * phi[j] * sine / (static_cast<double>(j) + 1.0);
-            density += 2.0 * phi[j] * cosine;
-            const double next = cosine * c - sine * s;
-            sine = sine * c + cosine * s;
-            cosine = next;
-        }
-        return std::pair{probability - p, density / L};
-    };
+    return series;
+}
+
+/// The x with P(|Y| ≤ x) = p.
+/// \return nothing where cells of a grid are better
+std::optional<double> fourier_half_width(std::span<const Centred> terms, double p) {
+    // Nearer to p = 1 the density at the end is lower: the same error of k allows a smaller error of the probability.
+    const double accepted = k_fourier_error * std::min(1.0, (1.0 - p) / 0.05);
+    const std::optional<FourierSeries> series = fourier_series(terms, accepted, 0.25 * (1.0 - p), k_most_nodes);
+    if (!series) {
+        return std::nullopt;
+    }
     double low = 0.0;
-    double high = std::min(reach, L);
+    double high = std::min(series->reach, series->L);
     double x = 0.5 * high;
     for (int step = 0; step < 100 && high - low > 1e-13 * high; ++step) {
-        const auto [difference, density] = at(x);
+        const auto [probability, density] = series->at(x);
+        const double difference = probability - p;
         (difference < 0.0 ? low : high) = x;
         const double newton = x - difference / density;
         const double next = density > 0.0 && newton > low && newton < high ? newton : 0.5 * (low + high);
@@ -591,19 +617,25 @@ CumulativeCells cumulative(const CellSum& sum) {
 
 }  // namespace
 
-struct ConvolutionDistribution::Table {
+namespace {
+
+/// The distribution function by cells of a grid.
+struct GridDistribution {
     Centred widest;
     std::vector<std::pair<double, double>> others;  // where the sum of the other terms is, and how probably
     // Where the widest term costs too much to be asked for each of them: the sum of all on grids that are wider and
     // wider, as far as tails without limits reach.
     std::vector<CumulativeCells> grids;
     bool symmetric = false;
-    std::vector<double> sums;  // of samples alone
 
+    explicit GridDistribution(std::vector<Centred> distributions);
+    [[nodiscard]] double operator()(double x) const;
+
+private:
     [[nodiscard]] double on_grids(double x) const;
 };
 
-double ConvolutionDistribution::Table::on_grids(double x) const {
+double GridDistribution::on_grids(double x) const {
     constexpr double k_trusted = 0.25;  // of the reach of a grid: what lies beyond it is put at its ends
     const CumulativeCells* grid = &grids.back();
     for (const CumulativeCells& finer : grids) {
@@ -615,55 +647,95 @@ double ConvolutionDistribution::Table::on_grids(double x) const {
     return symmetric ? 0.5 * (grid->at(x) + 1.0 - grid->at(-x)) : grid->at(x);
 }
 
-ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm> terms) {
-    std::vector<Centred> distributions = centred_distributions(terms);
+GridDistribution::GridDistribution(std::vector<Centred> distributions) {
     // Samples have steps of their own: they are never looked up, but added up.
     const auto rank = [](const Centred& term) {
         return term.distribution.kind == DistributionKind::empirical ? 0.0 : width(term.distribution);
     };
-    const auto widest = std::max_element(distributions.begin(), distributions.end(),
-                                         [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
-    Table table;
-    table.sums = possible_sums(distributions, k_most_sums);
-    const DistributionKind kind = widest->distribution.kind;
-    if (!table.sums.empty() ||
-        (distributions.size() > 1 &&
-         (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta))) {
-        if (table.sums.empty()) {
-            table.symmetric = std::all_of(distributions.begin(), distributions.end(),
-                                          [](const Centred& term) { return term.symmetric; });
-            constexpr double k_wider = 64.0;
-            double widest_grid = k_widest_grid;
-            CellSum sum;
-            do {
-                sum = convolve(distributions, widest_grid);
-                table.grids.push_back(cumulative(sum));
-                widest_grid *= k_wider;
-            } while (sum.cut);
-        }
-        table_ = std::make_shared<const Table>(std::move(table));
+    const auto greatest = std::max_element(distributions.begin(), distributions.end(),
+                                           [&](const Centred& a, const Centred& b) { return rank(a) < rank(b); });
+    const DistributionKind kind = greatest->distribution.kind;
+    if (distributions.size() > 1 &&
+        (kind == DistributionKind::student_t || kind == DistributionKind::gamma || kind == DistributionKind::beta)) {
+        symmetric =
+            std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; });
+        constexpr double k_wider = 64.0;
+        double widest_grid = k_widest_grid;
+        CellSum sum;
+        do {
+            sum = convolve(distributions, widest_grid);
+            grids.push_back(cumulative(sum));
+            widest_grid *= k_wider;
+        } while (sum.cut);
         return;
     }
-    if (rank(*widest) > 0.0) {
-        table.widest = *widest;
-        distributions.erase(widest);
+    if (rank(*greatest) > 0.0) {
+        widest = *greatest;
+        distributions.erase(greatest);
     }
     if (distributions.empty()) {
-        table.others.emplace_back(0.0, 1.0);
+        others.emplace_back(0.0, 1.0);
+        return;
+    }
+    const CellSum sum = convolve(distributions, k_widest_grid);
+    double total = 0.0;
+    for (std::size_t i = 0; i < k_convolution_cells; ++i) {
+        if (sum.cells[i] > k_negligible_cell) {
+            const double k =
+                static_cast<double>(i) - (i > k_convolution_cells / 2 ? static_cast<double>(k_convolution_cells) : 0.0);
+            others.emplace_back(k * sum.h, sum.cells[i]);
+            total += sum.cells[i];
+        }
+    }
+    for (auto& [where, probability] : others) {
+        probability /= total;
+    }
+}
+
+double GridDistribution::operator()(double x) const {
+    if (!grids.empty()) {
+        return on_grids(x);
+    }
+    double probability = 0.0;
+    const Distribution& d = widest.distribution;
+    if (d.kind == DistributionKind::uniform) {  // the usual case by far, so without a call for each cell
+        for (const auto& [where, weight] : others) {
+            probability += weight * std::clamp(0.5 + 0.5 * (x - where) / d.scale, 0.0, 1.0);
+        }
     } else {
-        const CellSum sum = convolve(distributions, k_widest_grid);
-        double total = 0.0;
-        for (std::size_t i = 0; i < k_convolution_cells; ++i) {
-            if (sum.cells[i] > k_negligible_cell) {
-                const double k = static_cast<double>(i) -
-                                 (i > k_convolution_cells / 2 ? static_cast<double>(k_convolution_cells) : 0.0);
-                table.others.emplace_back(k * sum.h, sum.cells[i]);
-                total += sum.cells[i];
-            }
+        for (const auto& [where, weight] : others) {
+            probability += weight * (widest.mirrored ? upper_tail_probability(d, where - x)
+                                                     : lower_tail_probability(d, x - where));
         }
-        for (auto& [where, probability] : table.others) {
-            probability /= total;
-        }
+    }
+    return std::clamp(probability, 0.0, 1.0);
+}
+
+}  // namespace
+
+struct ConvolutionDistribution::Table {
+    std::vector<double> sums;  // of samples alone
+    std::optional<FourierSeries> series;
+    std::optional<GridDistribution> grid;
+
+    [[nodiscard]] double by_series(double x) const {
+        const double distance = std::abs(x);
+        const double inside = distance < series->reach ? std::clamp(series->at(distance).first, 0.0, 1.0) : 1.0;
+        return x < 0.0 ? 0.5 - 0.5 * inside : 0.5 + 0.5 * inside;
+    }
+};
+
+ConvolutionDistribution::ConvolutionDistribution(std::span<const ConvolutionTerm> terms) {
+    Table table;
+    std::vector<Centred> distributions = centred_distributions(terms);
+    table.sums = possible_sums(distributions, k_most_sums);
+    // A single term is asked itself.
+    if (distributions.size() > 1 &&
+        std::all_of(distributions.begin(), distributions.end(), [](const Centred& term) { return term.symmetric; })) {
+        table.series = fourier_series(distributions, k_fourier_error, 0.5 * k_fourier_error, k_most_nodes / 4);
+    }
+    if (table.sums.empty() && !table.series) {
+        table.grid.emplace(std::move(distributions));
     }
     table_ = std::make_shared<const Table>(std::move(table));
 }
@@ -681,23 +753,7 @@ double ConvolutionDistribution::operator()(double x) const {
         const auto end = std::upper_bound(table_->sums.begin(), table_->sums.end(), x);
         return static_cast<double>(end - table_->sums.begin()) / static_cast<double>(table_->sums.size());
     }
-    if (!table_->grids.empty()) {
-        return table_->on_grids(x);
-    }
-    double probability = 0.0;
-    const Distribution& widest = table_->widest.distribution;
-    if (widest.kind == DistributionKind::uniform) {  // the usual case by far, so without a call for each cell
-        const double a = widest.scale;
-        for (const auto& [where, weight] : table_->others) {
-            probability += weight * std::clamp(0.5 + 0.5 * (x - where) / a, 0.0, 1.0);
-        }
-    } else {
-        for (const auto& [where, weight] : table_->others) {
-            probability += weight * (table_->widest.mirrored ? upper_tail_probability(widest, where - x)
-                                                             : lower_tail_probability(widest, x - where));
-        }
-    }
-    return std::clamp(probability, 0.0, 1.0);
+    return table_->series ? table_->by_series(x) : (*table_->grid)(x);
 }
 
 double convolution_distribution(std::span<const ConvolutionTerm> terms, double x) {

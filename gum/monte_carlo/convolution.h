@@ -45,8 +45,10 @@ struct ConvolutionInterval {
 /// P(Σ c_i (X_i − x_i) ≤ x), for independent quantities: what a decision on conformity needs where k comes from the
 /// convolution.
 ///
-/// The widest term enters by its own distribution function, so that the edges of a rectangular distribution stay where
-/// they are; the others are convolved numerically about it. Copies share the table and are cheap; threads may share it.
+/// Symmetric terms with known characteristic functions: a Fourier series, as in convolution_interval(). Others, and where
+/// that falls slowly: the widest term enters by its own distribution function, so that the edges of a rectangular
+/// distribution stay where they are; the others are convolved numerically about it. Copies share the table and are cheap;
+/// threads may share it.
 class ConvolutionDistribution {
 public:
     /// \throws InputError  GC-GUM-0060 without a term of scale > 0, or with one that has a problem
