@@ -61,10 +61,11 @@ std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, 
     std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts, main);
     std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
     if (findings.empty()) {
-        findings = check_pages(pdf, texts_of_every_page(view));
-    }
-    if (findings.empty()) {
-        findings = check_numbers(pdf, view);
+        const std::vector<std::string> pages = texts_of_pages(pdf);
+        findings = check_pages(pages, texts_of_every_page(view));
+        if (findings.empty()) {
+            findings = check_numbers(pages, view);
+        }
     }
     if (!findings.empty()) {
         throw gum::NoResultError(std::move(findings));

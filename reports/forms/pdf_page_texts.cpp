@@ -97,16 +97,13 @@ private:
     std::vector<Object> operands_;
 };
 
-CodeTexts code_texts(QPDF& pdf, Object font) {
+CodeTexts code_texts(Object font) {
     CodeTexts texts;
     Object map = font.getKey("/ToUnicode");
     if (map.isStream()) {
         CodeReader reader(texts);
-        const std::shared_ptr<Buffer> data = map.getStreamData(qpdf_dl_all);
-        const std::string program(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
         // The reader of page contents knows the same tokens.
-        Object stream = Object::newStream(&pdf, program);
-        Object::parseContentStream(stream, &reader);
+        Object::parseContentStream(map, &reader);
     }
     return texts;
 }
@@ -134,8 +131,7 @@ std::string bare(const std::string& text) {
 
 class PageReader : public Object::ParserCallbacks {
 public:
-    PageReader(QPDF& pdf, Object fonts, std::map<QPDFObjGen, CodeTexts>& known)
-        : pdf_(pdf), fonts_(std::move(fonts)), known_(known) {}
+    PageReader(Object fonts, std::map<QPDFObjGen, CodeTexts>& known) : fonts_(std::move(fonts)), known_(known) {}
     void handleObject(Object object) override {
         if (!object.isOperator()) {
             operands_.push_back(object);
@@ -146,7 +142,7 @@ public:
             Object font = fonts_.getKey(operands_[0].getName());
             const QPDFObjGen id = font.getObjGen();
             if (font.isDictionary() && !known_.contains(id)) {
-                known_.emplace(id, code_texts(pdf_, font));
+                known_.emplace(id, code_texts(font));
             }
             font_ = font.isDictionary() ? &known_.at(id) : nullptr;
         } else if (name == "Tj" || name == "TJ" || name == "'" || name == "\"") {
@@ -174,7 +170,6 @@ private:
         }
     }
 
-    QPDF& pdf_;
     Object fonts_;
     std::map<QPDFObjGen, CodeTexts>& known_;
     const CodeTexts* font_ = nullptr;
@@ -292,7 +287,7 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
     std::vector<std::string> texts;
     for (Object page : pdf.getAllPages()) {
         Object resources = page.getKey("/Resources");
-        PageReader reader(pdf, resources.isDictionary() ? resources.getKey("/Font") : Object::newNull(), fonts);
+        PageReader reader(resources.isDictionary() ? resources.getKey("/Font") : Object::newNull(), fonts);
         page.parsePageContents(&reader);
         texts.push_back(reader.text());
     }
@@ -311,9 +306,8 @@ gum::Diagnostic missing_on_a_page(const std::string& where, const std::string& t
                 "template, and mark into the first page"};
 }
 
-std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts) {
+std::vector<gum::Diagnostic> check_pages(const std::vector<std::string>& pages, const std::vector<std::string>& texts) {
     std::vector<gum::Diagnostic> findings;
-    const std::vector<std::string> pages = texts_of_pages(pdf);
     for (std::size_t page = 0; page < pages.size(); ++page) {
         for (const std::string& text : texts) {
             if (!bare(text).empty() && pages[page].find(bare(text)) == std::string::npos) {
@@ -325,9 +319,9 @@ std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector
     return findings;
 }
 
-std::vector<gum::Diagnostic> check_numbers(std::string_view pdf, const nlohmann::json& view) {
+std::vector<gum::Diagnostic> check_numbers(const std::vector<std::string>& pages, const nlohmann::json& view) {
     std::string all;
-    for (const std::string& page : texts_of_pages(pdf)) {
+    for (const std::string& page : pages) {
         all += digits_of(page) + ' ';
     }
     NumberSearch search(all);

@@ -17,8 +17,10 @@ namespace gumcert::reports {
 
 /// Whether each text stands on every page: the number of a certificate, the mark of a draft or a specimen, the digest of
 /// templates that were changed. A template of a laboratory can forget them; then there is no document.
+/// \param pages  as of texts_of_pages()
 /// \param texts  compared without blanks and hyphens, because a line may break in them; empty ones are left out
-[[nodiscard]] std::vector<gum::Diagnostic> check_pages(std::string_view pdf, const std::vector<std::string>& texts);
+[[nodiscard]] std::vector<gum::Diagnostic> check_pages(const std::vector<std::string>& pages,
+                                                       const std::vector<std::string>& texts);
 
 /// GC-REPORT-0032 of a text that is not where every page needs it.
 /// \param where  "PDF, page 2 of 3", "HTML"
@@ -26,7 +28,9 @@ namespace gumcert::reports {
 
 /// Whether the numbers of a view stand in the PDF that a template made of it: the digits of every row of a table, of every
 /// value and sentence, in their order. A template that prints another digit gives no document.
-/// \param view  as of certificate_view()
-[[nodiscard]] std::vector<gum::Diagnostic> check_numbers(std::string_view pdf, const nlohmann::json& view);
+/// \param pages  as of texts_of_pages()
+/// \param view   as of certificate_view()
+[[nodiscard]] std::vector<gum::Diagnostic> check_numbers(const std::vector<std::string>& pages,
+                                                         const nlohmann::json& view);
 
 }  // namespace gumcert::reports

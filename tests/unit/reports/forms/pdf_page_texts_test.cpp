@@ -38,8 +38,8 @@ TEST(PdfPageTexts, AreThoseOfEveryPageInFourLanguages) {
         const std::string pdf = render_pdf(record, a);  // which checks every page itself
         const std::vector<std::string> pages = texts_of_pages(pdf);
         ASSERT_GT(pages.size(), 1U) << language;
-        EXPECT_TRUE(check_pages(pdf, {record.certificate->data.number}).empty()) << language;
-        const std::vector<gum::Diagnostic> missing = check_pages(pdf, {"no such text"});
+        EXPECT_TRUE(check_pages(pages, {record.certificate->data.number}).empty()) << language;
+        const std::vector<gum::Diagnostic> missing = check_pages(pages, {"no such text"});
         EXPECT_EQ(missing.size(), pages.size());
         EXPECT_THAT(missing.front().what, HasSubstr("no such text"));
     }
