@@ -12,7 +12,7 @@
 namespace gumcert::imports {
 namespace {
 
-std::string certificate_with(const std::string& data, const std::string& attributes = "") {
+std::string hostile_certificate(const std::string& data, const std::string& attributes = "") {
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<dcc:digitalCalibrationCertificate "
            "xmlns:dcc=\"https://ptb.de/dcc\" "
            "xmlns:si=\"https://ptb.de/si\" schemaVersion=\"3.3.0\"" +
@@ -24,14 +24,14 @@ std::string certificate_with(const std::string& data, const std::string& attribu
            "</dcc:digitalCalibrationCertificate>\n";
 }
 
-std::string quantity(const std::string& name, const std::string& inside) {
+std::string hostile_quantity(const std::string& name, const std::string& inside) {
     return "<dcc:quantity><dcc:name><dcc:content lang=\"en\">" + name + "</dcc:content></dcc:name>" + inside +
            "</dcc:quantity>";
 }
 
-const std::string k_real = "<si:real><si:value>1</si:value><si:unit>\\metre</si:unit></si:real>";
+const std::string k_hostile_real = "<si:real><si:value>1</si:value><si:unit>\\metre</si:unit></si:real>";
 
-std::string repeated(std::size_t n, const std::function<std::string(std::size_t)>& part) {
+std::string hostile_repeated(std::size_t n, const std::function<std::string(std::size_t)>& part) {
     std::string all;
     for (std::size_t i = 0; i < n; ++i) {
         all += part(i);
@@ -47,45 +47,50 @@ struct Hostile {
 
 const Hostile k_hostile[] = {
     {"quantities of one name", 1500,
-     [](std::size_t n) { return certificate_with(repeated(n, [](std::size_t) { return quantity("x", k_real); })); }},
+     [](std::size_t n) {
+         return hostile_certificate(
+             hostile_repeated(n, [](std::size_t) { return hostile_quantity("x", k_hostile_real); }));
+     }},
     {"quantities of many names", 1500,
      [](std::size_t n) {
-         return certificate_with(repeated(n, [](std::size_t i) { return quantity("x" + std::to_string(i), k_real); }));
+         return hostile_certificate(hostile_repeated(
+             n, [](std::size_t i) { return hostile_quantity("x" + std::to_string(i), k_hostile_real); }));
      }},
     {"attributes of one tag", 20'000,
      [](std::size_t n) {
-         return certificate_with("", repeated(n, [](std::size_t i) { return " a" + std::to_string(i) + "=\"\""; }));
+         return hostile_certificate(
+             "", hostile_repeated(n, [](std::size_t i) { return " a" + std::to_string(i) + "=\"\""; }));
      }},
     {"ampersands in an attribute", 200'000,
      [](std::size_t n) {
-         return certificate_with("", " a=\"" + repeated(n, [](std::size_t) { return "&amp;"; }) + "\"");
+         return hostile_certificate("", " a=\"" + hostile_repeated(n, [](std::size_t) { return "&amp;"; }) + "\"");
      }},
     {"forms of one quantity", 3000,
      [](std::size_t n) {
-         return certificate_with(
-             quantity("x", "<si:hybrid>" + repeated(n, [](std::size_t) { return k_real; }) + "</si:hybrid>"));
+         return hostile_certificate(hostile_quantity(
+             "x", "<si:hybrid>" + hostile_repeated(n, [](std::size_t) { return k_hostile_real; }) + "</si:hybrid>"));
      }},
     {"languages of one name", 5000,
      [](std::size_t n) {
-         return certificate_with(
+         return hostile_certificate(
              "<dcc:quantity><dcc:name>" +
-             repeated(
+             hostile_repeated(
                  n, [](std::size_t i) { return "<dcc:content lang=\"x" + std::to_string(i) + "\">a</dcc:content>"; }) +
-             "</dcc:name>" + k_real + "</dcc:quantity>");
+             "</dcc:name>" + k_hostile_real + "</dcc:quantity>");
      }},
     {"numbers of one list", 10'000,
      [](std::size_t n) {
-         return certificate_with(
-             quantity("x", "<si:realListXMLList><si:valueXMLList>" + repeated(n, [](std::size_t) { return "1 "; }) +
-                               "1</si:valueXMLList><si:unitXMLList>\\metre</si:unitXMLList></si:realListXMLList>"));
+         return hostile_certificate(hostile_quantity(
+             "x", "<si:realListXMLList><si:valueXMLList>" + hostile_repeated(n, [](std::size_t) { return "1 "; }) +
+                      "1</si:valueXMLList><si:unitXMLList>\\metre</si:unitXMLList></si:realListXMLList>"));
      }},
     {"deep nesting", 50'000,
      [](std::size_t n) {
-         return certificate_with(repeated(n, [](std::size_t) { return "<a>"; }) +
-                                 repeated(n, [](std::size_t) { return "</a>"; }));
+         return hostile_certificate(hostile_repeated(n, [](std::size_t) { return "<a>"; }) +
+                                    hostile_repeated(n, [](std::size_t) { return "</a>"; }));
      }},
     {"empty elements", 20'000,
-     [](std::size_t n) { return certificate_with(repeated(n, [](std::size_t) { return "<a/>"; })); }},
+     [](std::size_t n) { return hostile_certificate(hostile_repeated(n, [](std::size_t) { return "<a/>"; })); }},
 };
 
 template <class Work>
