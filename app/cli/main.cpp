@@ -43,8 +43,12 @@ CommonOptions with_walls_of_command(const Arguments& a) {
         return with_walls(a.common, {a.file});
     }
     const bool reads_certificates = a.command == "check" && !a.files.empty() && a.files.front() == "dcc";
-    return a.command == "verify" || reads_certificates ? with_walls(a.common, {a.files.begin(), a.files.end()})
-                                                       : a.common;
+    const bool audits_foreign =
+        a.command == "audit" && std::none_of(a.files.begin(), a.files.end(), [](const auto& file) {
+            return std::filesystem::path(file).extension() == ".json";  // a record, whose evaluation may take long
+        });
+    const bool has_walls = a.command == "verify" || reads_certificates || audits_foreign;
+    return has_walls ? with_walls(a.common, {a.files.begin(), a.files.end()}) : a.common;
 }
 
 ExitCode dispatch(int argc, char** argv, Arguments& a) {

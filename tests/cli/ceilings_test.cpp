@@ -65,6 +65,21 @@ TEST_F(Ceilings, WideOnesChangeNothingAndWrongOnesAreRefused) {
     EXPECT_EQ(evaluate({"--time-limit", "-1"}).code, 2);
 }
 
+TEST_F(Ceilings, ForeignFilesHaveWallsThatCanBeMoved) {
+    const fs::path table = folder() / "table.csv";
+    std::string text = "name,value,u\n";
+    for (int i = 0; i < 20; ++i) {
+        text += "x" + std::to_string(i) + ",1,0.1\n";
+    }
+    write_bytes(table, text);
+    const std::vector<std::string> audit = {"audit", table.string(), "--share", GUMCERT_SOURCE_DIR};
+    std::vector<std::string> narrow = audit;
+    narrow.insert(narrow.end(), {"--memory-limit", "1MB"});
+    const Ended usual = gumcert(audit);
+    EXPECT_EQ(usual.code, 0) << usual.err;
+    EXPECT_EQ(gumcert(narrow).code, 5);
+}
+
 TEST_F(Ceilings, RefusalsAreLoggedWithoutWhatTheFilesSay) {
     const fs::path log = folder() / "refusals.jsonl";
     const fs::path job = folder() / "job.json";
