@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -21,6 +20,7 @@ namespace gumcert::signing {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr std::size_t k_longest_answer = 1'000'000;  // [byte]
 
 [[noreturn]] void refuse(const std::string& program, const std::string& what) {
     throw gum::StorageError(
@@ -82,11 +82,17 @@ pid_t start(std::vector<std::string> command, int input, int output) {
     posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     // Standard error stays that of the program: a card may have to ask for its PIN there.
     posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+    // A process group of its own: what the program starts ends with it.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     std::vector<std::string> environment = {"PATH=/usr/local/bin:/usr/bin:/bin", "LC_ALL=C.UTF-8"};
     pid_t child = 0;
     const system::CleanupLock lock = system::hold_cleanup();
-    const int failure = ::posix_spawn(&child, command[0].c_str(), &actions, nullptr, pointers(command).data(),
+    const int failure = ::posix_spawn(&child, command[0].c_str(), &actions, &attributes, pointers(command).data(),
                                       pointers(environment).data());
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failure != 0) {
         refuse(command[0], std::string("cannot be started: ") + std::strerror(failure));
@@ -95,30 +101,61 @@ pid_t start(std::vector<std::string> command, int input, int output) {
     return child;
 }
 
-/// Ends the program, if it has not ended, when the object goes.
-class Child {
+/// Lends the terminal to a process group, as a shell does: a program that asks for a PIN is stopped without it.
+class LentTerminal {
 public:
-    explicit Child(pid_t number) : number_(number) {}
-    ~Child() {
-        if (number_ > 0) {
-            ::kill(number_, SIGKILL);
-            static_cast<void>(wait_for(0));
+    explicit LentTerminal(pid_t group) : terminal_(::open("/dev/tty", O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+        lent_ = terminal_.number() >= 0 && ::tcgetpgrp(terminal_.number()) == ::getpgrp() &&
+                ::tcsetpgrp(terminal_.number(), group) == 0;
+        if (lent_) {
+            ::kill(-group, SIGCONT);  // it may have been stopped already
         }
     }
+    ~LentTerminal() {
+        if (!lent_) {
+            return;
+        }
+        sigset_t output_stop;
+        sigset_t before;
+        sigemptyset(&output_stop);
+        sigaddset(&output_stop, SIGTTOU);  // sent to whoever takes the terminal from behind
+        pthread_sigmask(SIG_BLOCK, &output_stop, &before);
+        (void)::tcsetpgrp(terminal_.number(), ::getpgrp());
+        pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    }
+    LentTerminal(const LentTerminal&) = delete;
+    LentTerminal& operator=(const LentTerminal&) = delete;
+
+private:
+    Descriptor terminal_;
+    bool lent_ = false;
+};
+
+/// The program with what it has started. All of them end when the object goes.
+class Child {
+public:
+    explicit Child(pid_t number) : number_(number), terminal_(number) {}
+    ~Child() { end(); }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// \return whether it has ended; its status is then in status()
-    bool wait_for(int options) {
-        pid_t ended = 0;
-        do {
-            ended = ::waitpid(number_, &status_, options);
-        } while (ended < 0 && errno == EINTR);
-        if (ended != 0) {
-            system::forget_child(number_);
-            number_ = 0;
+    /// Whether the program itself has ended; what it has started may go on.
+    [[nodiscard]] bool has_ended() const {
+        siginfo_t information{};
+        return number_ == 0 ||
+               ::waitid(P_PID, static_cast<id_t>(number_), &information, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+               information.si_pid == number_;
+    }
+    /// The group first: until the program is waited for, no other group can have its number.
+    void end() {
+        if (number_ == 0) {
+            return;
         }
-        return number_ == 0;
+        ::kill(-number_, SIGKILL);
+        while (::waitpid(number_, &status_, 0) < 0 && errno == EINTR) {
+        }
+        system::forget_child(number_);
+        number_ = 0;
     }
     [[nodiscard]] bool succeeded() const { return WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
     [[nodiscard]] std::string status_text() const {
@@ -128,8 +165,34 @@ public:
 
 private:
     pid_t number_;
+    LentTerminal terminal_;
     int status_ = 0;
 };
+
+/// What has arrived in a pipe that does not block.
+/// \return false where its other end is closed
+bool take_what_is_there(int pipe, std::string& said) {
+    std::array<char, 4096> part{};
+    for (;;) {
+        const ssize_t count = ::read(pipe, part.data(), part.size());
+        if (count < 0 && errno == EINTR) {
+            continue;
+        }
+        if (count <= 0) {
+            return count < 0;
+        }
+        said.append(part.data(), static_cast<std::size_t>(count));
+        if (said.size() > k_longest_answer) {
+            return true;
+        }
+    }
+}
+
+void require_short(const std::string& program, const std::string& said) {
+    if (said.size() > k_longest_answer) {
+        refuse(program, "it says more than a signature");
+    }
+}
 
 }  // namespace
 
@@ -148,36 +211,25 @@ std::string run_program(const std::vector<std::string>& command, const std::stri
     child_input.close();
     child_output.close();
 
+    ::fcntl(answer.number(), F_SETFL, O_NONBLOCK);
+
+    // The answer is whole when the program has ended: a process that it left behind may keep the pipe open for ever.
     std::string said;
-    std::array<char, 4096> part{};
-    for (;;) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
-        pollfd waiting{.fd = answer.number(), .events = POLLIN, .revents = 0};
-        const int ready = left <= 0 ? 0 : ::poll(&waiting, 1, static_cast<int>(std::min<long>(left, 3'600'000)));
-        if (ready == 0 && Clock::now() >= deadline) {
-            refuse(command[0], too_long);
-        }
-        if (ready <= 0) {
-            continue;  // a signal of the own program, or a limit beyond an hour
-        }
-        const ssize_t count = ::read(answer.number(), part.data(), part.size());
-        if (count == 0) {
-            break;
-        }
-        if (count > 0) {
-            said.append(part.data(), static_cast<std::size_t>(count));
-        }
-        if (said.size() > 1'000'000) {
-            refuse(command[0], "it says more than a signature");
-        }
-    }
-    // Its output is closed; it may still run.
-    while (!child.wait_for(WNOHANG)) {
+    bool is_open = true;
+    while (!child.has_ended()) {
         if (Clock::now() >= deadline) {
             refuse(command[0], too_long);
         }
-        ::usleep(1000);
+        constexpr int k_look_again = 10;  // [ms]
+        pollfd waiting{.fd = is_open ? answer.number() : -1, .events = POLLIN, .revents = 0};
+        if (::poll(&waiting, 1, k_look_again) > 0) {
+            is_open = take_what_is_there(answer.number(), said);
+        }
+        require_short(command[0], said);
     }
+    (void)take_what_is_there(answer.number(), said);
+    require_short(command[0], said);
+    child.end();
     if (!child.succeeded()) {
         refuse(command[0], child.status_text());
     }

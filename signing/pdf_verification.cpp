@@ -10,6 +10,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -28,23 +29,25 @@ using Object = QPDFObjectHandle;
 
 constexpr const char* k_ask_again = "ask the laboratory for the original document";
 
-/// Takes a stream up to a limit: a small file can unpack to any size.
+constexpr std::size_t k_largest_attachments = std::size_t{64} << 20U;  // [byte], of all attachments of a file
+
+/// Takes a stream up to a limit, and stops what unpacks it there: a small file can unpack to any size.
 class LimitedText : public Pipeline {
 public:
-    LimitedText() : Pipeline("attachment", nullptr) {}
+    explicit LimitedText(std::size_t most) : Pipeline("attachment", nullptr), most_(most) {}
     void write(unsigned char const* data, std::size_t size) override {
-        constexpr std::size_t k_limit = 200'000'000;
-        if (text_.size() + size > k_limit) {
-            too_large_ = true;
-        } else if (!too_large_) {
-            text_.append(reinterpret_cast<const char*>(data), size);
+        too_large_ = too_large_ || size > most_ - text_.size();
+        if (too_large_) {
+            throw std::length_error("attachment");
         }
+        text_.append(reinterpret_cast<const char*>(data), size);
     }
     void finish() override {}
     [[nodiscard]] bool too_large() const { return too_large_; }
-    [[nodiscard]] const Bytes& text() const { return text_; }
+    [[nodiscard]] Bytes& text() { return text_; }
 
 private:
+    std::size_t most_;
     Bytes text_;
     bool too_large_ = false;
 };
@@ -387,6 +390,12 @@ std::vector<Object> attached_streams(QPDF& pdf) {
     return streams;
 }
 
+/// What is packed twice can unpack to nothing, and take any time for it.
+int number_of_filters(Object& stream) {
+    Object filters = stream.getDict().getKey("/Filter");
+    return filters.isArray() ? filters.getArrayNItems() : filters.isName() ? 1 : 0;
+}
+
 std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& name, const TrustedMaterial& trusted,
                                                 std::int64_t now, std::vector<Bytes>& documents) {
     std::vector<SignatureReport> reports;
@@ -399,22 +408,29 @@ std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& na
         reports.push_back(std::move(report));
         return reports;
     }
+    std::size_t left = k_largest_attachments;
     for (Object stream : files) {
         if (!stream.isStream()) {
             continue;
         }
-        LimitedText content;
-        stream.pipeStreamData(&content, 0, qpdf_dl_all, true);
-        const bool xml = content.text().find('<') < 100;
         const std::string where = name + ", attachment";
-        if (content.too_large()) {
+        LimitedText content(left);
+        const bool is_packed_twice = number_of_filters(stream) > 1;
+        if (!is_packed_twice) {
+            stream.pipeStreamData(&content, 0, qpdf_dl_all, true);
+        }
+        left -= content.text().size();
+        const bool xml = content.text().substr(0, 100).find('<') != Bytes::npos;
+        if (is_packed_twice || content.too_large()) {
             SignatureReport report;
-            add_error(report, "GC-SIGN-0145", where, "larger than 200 MB", "attachments are read whole", k_ask_again);
+            add_error(report, "GC-SIGN-0145", where,
+                      is_packed_twice ? "packed more than once" : "larger than 64 MiB with those before it",
+                      "attachments are packed at most once, and read up to 64 MiB together", k_ask_again);
             reports.push_back(std::move(report));
         } else if (xml) {
-            documents.push_back(content.text());
+            documents.push_back(std::move(content.text()));
             try {
-                for (SignatureReport& report : verify_xml(content.text(), where, trusted, now)) {
+                for (SignatureReport& report : verify_xml(documents.back(), where, trusted, now)) {
                     reports.push_back(std::move(report));
                 }
             } catch (const gum::InputError& refused) {

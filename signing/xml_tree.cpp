@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/markup_size.h"
 
 namespace gumcert::signing {
 
@@ -59,6 +60,18 @@ int is_in_part(void* user_data, xmlNodePtr node, xmlNodePtr parent) {
 XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
     if (bytes.size() > INT_MAX) {
         refuse(name, "larger than 2 GB", "a document is read whole", "attach large files beside the certificate");
+    }
+    // A tree takes some hundred bytes for each tag and attribute, and the time to compare those of a tag grows as the
+    // square of their number.
+    constexpr std::size_t k_most_in_tag = 64;
+    constexpr std::size_t k_most_parts = 2'000'000;
+    const text::MarkupSize size = text::markup_size(bytes);
+    if (size.most_in_tag > k_most_in_tag || size.tags + size.attributes > k_most_parts) {
+        refuse(name,
+               size.most_in_tag > k_most_in_tag ? "a tag of more than 64 attributes"
+                                                : "more than 2000000 tags and attributes",
+               "a digital certificate has at most 64 attributes in a tag, and two million tags and attributes",
+               "ask for the document without what is no certificate");
     }
     const QuietLibxml quiet;
     const std::unique_ptr<xmlParserCtxt, ParserFree> parser(xmlNewParserCtxt());

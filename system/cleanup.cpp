@@ -87,6 +87,7 @@ CleanupLock clean_up(std::chrono::milliseconds patience) {
     }
     Register& all = everything();
     for (const pid_t child : all.children) {
+        ::kill(-child, SIGKILL);  // where it leads a process group: with what it has started
         ::kill(child, SIGKILL);
     }
     for (const fs::path& file : all.files) {

@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/markup_size.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 #include "workbook/limits.h"
@@ -191,39 +192,6 @@ struct FreeXmlParser {
     }
 };
 
-/// libxml2 compares each attribute of a tag with all before it.
-bool has_crowded_tag(std::string_view bytes) {
-    for (std::size_t at = bytes.find('<'); at != std::string_view::npos; at = bytes.find('<', at)) {
-        const std::string_view rest = bytes.substr(at);
-        for (const auto& [open, close] :
-             {std::pair<std::string_view, std::string_view>{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}) {
-            if (rest.starts_with(open)) {
-                at = bytes.find(close, at + open.size());
-                break;
-            }
-        }
-        if (at == std::string_view::npos) {
-            return false;
-        }
-        if (bytes[at] != '<') {
-            continue;
-        }
-        std::size_t values = 0;
-        for (++at; at < bytes.size() && bytes[at] != '>'; ++at) {
-            if (bytes[at] == '"' || bytes[at] == '\'') {
-                at = bytes.find(bytes[at], at + 1);
-                if (at == std::string_view::npos) {
-                    return false;
-                }
-                if (++values > k_most_attributes) {
-                    return true;
-                }
-            }
-        }
-    }
-    return false;
-}
-
 }  // namespace
 
 const std::string& XmlAttributes::value(std::string_view name) const {
@@ -244,7 +212,7 @@ void read_xml_events(std::string_view bytes, const std::string& where, XmlHandle
     if (bytes.empty() || bytes.find('\0') != std::string_view::npos || !text::is_utf8(bytes)) {
         throw gum::InputError(not_well_formed_part(where, bytes.empty() ? "an empty part" : "bytes that are no UTF-8"));
     }
-    if (has_crowded_tag(bytes)) {
+    if (text::markup_size(bytes).most_in_tag > k_most_attributes) {
         throw gum::InputError(
             gum::Diagnostic{.code = "GC-WORKBOOK-0009",
                             .where = where,

@@ -20,6 +20,7 @@
 #include "app/archive_draft.h"
 #include "app/archive_replay.h"
 #include "app/cli/clock.h"
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
@@ -30,6 +31,7 @@
 #include "encoding/sha2.h"
 #include "signing/ed25519.h"
 #include "signing/verify.h"
+#include "system/cleanup.h"
 
 namespace gumcert::cli {
 
@@ -302,26 +304,35 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
     return done;
 }
 
-void require_output(const std::string& output, const ArchiveOptions& options) {
-    if (!output.empty() && output != "-") {
-        app::require_writable(output);
-        app::require_not_inputs({output}, {options.store, options.sign});
+/// Output of a reading action: a file, or the terminal.
+class Output {
+public:
+    /// Before anything of the archive is read.
+    Output(std::string place, const ArchiveOptions& options, const CommonOptions& common)
+        : place_(place == "-" ? "" : std::move(place)), inputs_{options.store, options.sign}, quiet_(common.quiet) {
+        if (!place_.empty()) {
+            app::require_writable(place_);
+            app::require_not_an_input(place_, inputs_);
+            at_start_ = begin_outputs({place_}, common);
+        }
     }
-}
+    void write(const std::string& text) const {
+        if (place_.empty()) {
+            write_to_stdout(text);
+            return;
+        }
+        write_outputs({{place_, text}}, inputs_, at_start_);
+        if (!quiet_) {
+            fmt::print("Written: {}\n", place_);
+        }
+    }
 
-/// Writes an output of a reading action: to a file, or to the terminal.
-ExitCode write_output(const std::string& text, const std::string& output, const ArchiveOptions& options,
-                      const CommonOptions& common) {
-    if (output.empty() || output == "-") {
-        write_to_stdout(text);
-        return done;
-    }
-    app::write_files({{output, text}}, {options.store, options.sign});
-    if (!common.quiet) {
-        fmt::print("Written: {}\n", output);
-    }
-    return done;
-}
+private:
+    std::string place_;
+    std::vector<fs::path> inputs_;
+    bool quiet_;
+    app::OutputsAtStart at_start_;
+};
 
 /// A name of a file in which nothing of the number leads elsewhere.
 std::string file_name_of_number(std::string number) {
@@ -341,18 +352,20 @@ ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& 
     const std::string output =
         options.output.empty() ? file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
     const auto store = opened(options, archive::Access::read_only);
-    require_output(output, options);
+    const Output file(output, options, common);
     archive::Evidence evidence = archive::evidence_of(*store, options.named.front());
     sign(evidence.head, options.sign);
-    return write_output(archive::to_json(evidence), output, options, common);
+    file.write(archive::to_json(evidence));
+    return done;
 }
 
 ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_only);
-    require_output(options.output, options);
+    const Output file(options.output, options, common);
     archive::Head head = archive::Archive(*store).head();
     sign(head, options.sign);
-    return write_output(archive::to_json(head), options.output, options, common);
+    file.write(archive::to_json(head));
+    return done;
 }
 
 /// Reads heads and looks at their signatures.
@@ -492,8 +505,10 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
         ~Removed() {
             std::error_code ignored;
             fs::remove(path, ignored);
+            system::forget_file(path);
         }
     } const removed{part};
+    system::remember_file(part);
     store->copy_to(part);
     ProgressLine progress(!common.quiet);
     archive::Verification verification;

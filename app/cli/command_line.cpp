@@ -88,6 +88,21 @@ void add_common(CLI::App& command, CommonOptions& common) {
     command.add_flag("--json-messages", common.json_messages, "Messages as one JSON object a line");
     command.add_option("--threads", common.threads, "Threads to use; results are the same bytes for any number")
         ->check(CLI::Range(1, 1024));
+    command
+        .add_option("--memory-limit", common.memory_limit,
+                    "Memory that the command may use, such as 500MB or 4GiB; 0 is no limit. Default: none; of commands "
+                    "that read files of others 1 GiB for every 10 MB")
+        ->transform(CLI::AsSizeValue(true))
+        ->type_name("SIZE");
+    command
+        .add_option(
+            "--time-limit", common.time_limit,
+            "Seconds after which the command ends; 0 is no limit. Default: none; of commands that read files of "
+            "others 30 for every 10 MB")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{100'000'000}))
+        ->type_name("SECONDS");
+    add_file(command, "--refusal-log", common.refusal_log,
+             "Adds a line for each refusal to this file: time, command, code, place. Also: GUMCERT_REFUSAL_LOG");
 }
 
 void add_document_options(CLI::App& command, DocumentOptions& options) {
@@ -538,6 +553,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*v
         return done;
     }
     arguments.command = program->get_subcommands().front()->get_name();
+    arguments.common.command = arguments.command;
     return std::nullopt;
 }
 

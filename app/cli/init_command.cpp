@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/method_library.h"
 
@@ -40,7 +41,9 @@ ExitCode init(const std::string& method, const std::string& folder, const std::s
                      "a method is a folder with a job that runs; gumcert init lists them",
                      nearest.empty() ? "choose one of the list" : "did you mean " + nearest + "?");
     }
-    const std::vector<std::filesystem::path> written = app::begin_with(*found, folder.empty() ? method : folder);
+    const std::filesystem::path place = folder.empty() ? method : folder;
+    (void)begin_outputs({place / found->job}, common);  // nothing that stands there is replaced
+    const std::vector<std::filesystem::path> written = app::begin_with(*found, place);
     if (!common.quiet) {
         std::string text = found->title + "\n\nWritten:\n";
         for (const std::filesystem::path& file : written) {

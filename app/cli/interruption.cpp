@@ -1,13 +1,16 @@
 #include "app/cli/interruption.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -16,6 +19,7 @@
 #include <thread>
 
 #include "app/cli/terminal.h"
+#include "system/ceilings.h"
 #include "system/cleanup.h"
 
 namespace gumcert::cli {
@@ -109,6 +113,18 @@ void wait_for_signal(int descriptor, bool json_messages) {
     end_by(signal);
 }
 
+gum::Diagnostic reached(system::Ceiling which, const CommonOptions& common) {
+    const bool memory = which == system::Ceiling::memory;
+    return {.code = "GC-STORE-0024",
+            .where = memory ? "--memory-limit" : "--time-limit",
+            .what = memory
+                        ? fmt::format("the memory of this command, {} MB, is used up", *common.memory_limit / 1'000'000)
+                        : fmt::format("the time of this command, {} s, is used up", *common.time_limit),
+            .rule = "a command keeps its limits, and leaves nothing behind where it cannot",
+            .action = memory ? "give it more by --memory-limit, or split the work; 0 is no limit"
+                             : "give it more by --time-limit, or split the work; 0 is no limit"};
+}
+
 bool messages_as_json = false;
 
 /// Memory can run out where no exception may leave: in a thread, in a destructor, before main(). What everywhere else
@@ -162,6 +178,37 @@ void clean_up_at_signals(bool json_messages) {
         sigemptyset(&handler.sa_mask);
         (void)::sigaction(signal, &handler, nullptr);
     }
+}
+
+CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem::path>& files) {
+    constexpr std::uint64_t k_step = 10'000'000;                 // [byte]
+    constexpr std::uint64_t k_memory = std::uint64_t{1} << 30U;  // [byte] a step of the largest file
+    constexpr std::uint64_t k_time = 30;                         // [s] a step of each
+    std::uint64_t steps = 0;
+    std::uint64_t most = 1;
+    for (const std::filesystem::path& file : files) {
+        std::error_code error;
+        const std::uint64_t size = std::filesystem::file_size(file, error);
+        const std::uint64_t own = error ? 1 : 1 + size / k_step;
+        steps += own;
+        most = std::max(most, own);
+    }
+    common.memory_limit = common.memory_limit.value_or(most * k_memory);
+    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * k_time);
+    return common;
+}
+
+void keep_ceilings(const CommonOptions& common) {
+    const system::Ceilings ceilings{.memory = common.memory_limit.value_or(0),
+                                    .time = std::chrono::seconds(common.time_limit.value_or(0))};
+    system::watch_ceilings(ceilings, [common](system::Ceiling which) {
+        constexpr std::chrono::seconds k_patience{20};  // for a set of files that is being put in place
+        const system::CleanupLock lock = system::clean_up(k_patience);
+        const gum::Diagnostic why = reached(which, common);
+        print_message(why, common);
+        log_refusal(why, common);
+        std::_Exit(storage_trouble);
+    });
 }
 
 void tell_stage(const std::string& text) {

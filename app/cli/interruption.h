@@ -2,6 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "app/cli/terminal.h"
 
 namespace gumcert::cli {
 
@@ -10,6 +13,14 @@ namespace gumcert::cli {
 /// it does. A signal that was ignored when the program began stays ignored.
 /// \param json_messages  the form of what is said
 void clean_up_at_signals(bool json_messages);
+
+/// Where --memory-limit and --time-limit are not given: what reading files of others may take. For every 10 MB begun of a
+/// file 1 GiB, the largest of them counting; and 30 s, all of them together.
+[[nodiscard]] CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem::path>& files);
+
+/// Keeps the command within its ceilings: one that is reached ends it by exit code 5 with a message that names it
+/// (GC-STORE-0024), after its children are ended and its temporary files removed.
+void keep_ceilings(const CommonOptions& common);
 
 /// What the program is doing, for the words of an interruption.
 void tell_stage(const std::string& text);

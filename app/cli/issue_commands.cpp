@@ -165,6 +165,46 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
                where_to_read.string());
 }
 
+/// Where the record is kept whose documents cannot be made: a folder in that of the outputs, so that it stands in no set
+/// with documents of an earlier evaluation (docs/adr/0057-records-are-kept.md).
+constexpr const char* k_kept_folder = "record-kept";
+
+/// Writes what was evaluated when no document can be made of it.
+void keep_evaluation(std::vector<app::OutputFile> files, const std::vector<fs::path>& inputs,
+                     const app::OutputsAtStart& at_start, const CommonOptions& common) {
+    for (app::OutputFile& file : files) {
+        file.path = file.path.parent_path() / k_kept_folder / file.path.filename();
+    }
+    write_outputs(files, inputs, at_start);
+    print_message(
+        {.code = "GC-STORE-0022",
+         .where = files.front().path.string(),
+         .what = "is the record of this evaluation, kept without documents: one of them cannot be made, as the "
+                 "next message says",
+         .rule = "what was evaluated is not lost, and never stands in one folder with documents of another "
+                 "evaluation",
+         .action = "mend what the next message says and give the command again, or print the record in "
+                   "another form: gumcert render " +
+                   files.front().path.string() + " --format html",
+         .severity = gum::Severity::warning},
+        common);
+}
+
+/// Says of a kept record that it is not the one of the documents beside its folder.
+void report_kept(const fs::path& folder, const CommonOptions& common) {
+    const fs::path kept = folder / k_kept_folder;
+    std::error_code error;
+    if (fs::exists(kept, error)) {
+        print_message({.code = "GC-STORE-0023",
+                       .where = kept.string(),
+                       .what = "holds the record of an earlier evaluation whose documents could not be made",
+                       .rule = "the record beside this folder is the new one, and the documents are of it",
+                       .action = "remove the folder, so that nobody takes it for this evaluation",
+                       .severity = gum::Severity::warning},
+                      common);
+    }
+}
+
 /// Documents of a kind of records as they stand in a folder.
 std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& folder) {
     std::vector<fs::path> files;
@@ -221,19 +261,29 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     if (!evaluation.covariance.empty()) {
         files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
     }
-    files.push_back({folder / k_audit_file, reports::audit_as_html(app::audit_view(std::span(evaluation.audit.get(), 1),
-                                                                                   {record.job_files.front().sha256}),
-                                                                   issuer.options().assets)});
-    const bool held_back = withheld(record, options.draft);
-    if (!held_back) {
-        progress("documents");
-        std::vector<app::IssuedDocument> issued = app::issue_documents(record, issuer.options());
-        for (std::size_t i = 0; i < issued.size(); ++i) {
-            files.push_back({documents[i], std::move(issued[i].bytes)});
-        }
-    }
     for (const fs::path& file : app::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
+    }
+    const bool held_back = withheld(record, options.draft);
+    try {
+        files.push_back({folder / k_audit_file,
+                         reports::audit_as_html(
+                             app::audit_view(std::span(evaluation.audit.get(), 1), {record.job_files.front().sha256}),
+                             issuer.options().assets)});
+        if (!held_back) {
+            progress("documents");
+            std::vector<app::IssuedDocument> issued = app::issue_documents(record, issuer.options());
+            for (std::size_t i = 0; i < issued.size(); ++i) {
+                files.push_back({documents[i], std::move(issued[i].bytes)});
+            }
+        }
+    } catch (...) {
+        progress.clear();
+        (void)explained(common, [&] {
+            keep_evaluation(files, inputs, at_start, common);
+            return done;
+        });
+        throw;
     }
     progress("writing");
     write_outputs(files, inputs, at_start);
@@ -244,6 +294,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     report_diagnostics(record, common);
     report_findings(record, common);
     report_audit(evaluation, common);
+    report_kept(folder, common);
     if (held_back) {
         report_withheld(job.string(), documents, common);
     }
@@ -367,7 +418,9 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     inputs.insert(inputs.end(), jobs.begin(), jobs.end());
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
-        outputs.insert(outputs.end(), {folder / "record.json", folder / "covariance.csv", folder / k_audit_file});
+        for (const fs::path& place : {folder, folder / k_kept_folder}) {
+            outputs.insert(outputs.end(), {place / "record.json", place / "covariance.csv", place / k_audit_file});
+        }
         for (const app::Kind& kind : app::program_kinds()) {
             const std::vector<fs::path> documents = document_files(kind, folder);
             outputs.insert(outputs.end(), documents.begin(), documents.end());

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/cli/archive_command.h"
 #include "app/cli/audit_command.h"
@@ -34,6 +37,20 @@ std::string version_text() {
     return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, executable_digest());
 }
 
+/// Commands that read files of others, and nothing else that takes long, have walls of their own.
+CommonOptions with_walls_of_command(const Arguments& a) {
+    if (a.command == "import") {
+        return with_walls(a.common, {a.file});
+    }
+    const bool reads_certificates = a.command == "check" && !a.files.empty() && a.files.front() == "dcc";
+    const bool audits_foreign =
+        a.command == "audit" && std::none_of(a.files.begin(), a.files.end(), [](const auto& file) {
+            return std::filesystem::path(file).extension() == ".json";  // a record, whose evaluation may take long
+        });
+    const bool has_walls = a.command == "verify" || reads_certificates || audits_foreign;
+    return has_walls ? with_walls(a.common, {a.files.begin(), a.files.end()}) : a.common;
+}
+
 ExitCode dispatch(int argc, char** argv, Arguments& a) {
     try {
         if (const std::optional<ExitCode> ended = read_command_line(argc, argv, version_text, a)) {
@@ -42,6 +59,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     } catch (const std::invalid_argument& wrong) {
         refuse_usage("command line", wrong.what(), "see gumcert --help", "correct the command");
     }
+    keep_ceilings(with_walls_of_command(a));
     if (a.documents.languages.size() > 2) {
         refuse_usage("--language", "more than two languages", "a document is printed in one language or in two",
                      "name the binding language first, and at most one more");
@@ -118,6 +136,9 @@ int main(int argc, char** argv) {
     // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.
     arguments.common.json_messages = std::any_of(
         argv + 1, argv + argc, [](const char* word) { return std::string_view(word) == "--json-messages"; });
+    if (const char* const log = std::getenv("GUMCERT_REFUSAL_LOG")) {
+        arguments.common.refusal_log = log;
+    }
     return explained(arguments.common, [&] {
         clean_up_at_signals(arguments.common.json_messages);
         return dispatch(argc, argv, arguments);

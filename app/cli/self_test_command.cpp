@@ -13,6 +13,7 @@
 
 #include "app/cli/clock.h"
 #include "app/cli/machine.h"
+#include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/output_files.h"
 #include "app/self_test/self_test.h"
@@ -182,10 +183,12 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
     std::vector<fs::path> inputs{shipped};
     add_program_files(inputs, share);
     const fs::path pdf = folder / "self-test.pdf";
-    for (const fs::path& file : {folder / "self-test.json", folder / "self-test.html", pdf}) {
+    const std::vector<fs::path> outputs{folder / "self-test.json", folder / "self-test.html", pdf};
+    for (const fs::path& file : outputs) {
         app::require_writable(file);
-        app::require_not_an_input(file, inputs);
     }
+    app::require_not_inputs(outputs, inputs);
+    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
     app::SelfTest test = app::run_self_test(files, static_cast<unsigned>(common.threads), templates,
                                             [&](const app::CaseOutcome& outcome) { tell(outcome, common); });
     ProgressLine progress(!common.quiet);
@@ -200,7 +203,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
     if (has_pdf) {
         (void)tried(pdf, common, [&] { written.push_back({pdf, app::self_test_pdf(test, digest, assets)}); });
     }
-    app::write_files(written, inputs);
+    write_outputs(written, inputs, at_start);
     progress.clear();
     const bool passes = test.passed() == test.cases.size();
     if (!common.quiet) {

@@ -8,7 +8,9 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/clock.h"
 #include "app/cli/interruption.h"
+#include "app/refusal_log.h"
 
 namespace gumcert::cli {
 
@@ -33,6 +35,23 @@ void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& commo
     }
 }
 
+void log_refusal(const gum::Diagnostic& why, const CommonOptions& common) {
+    if (common.refusal_log.empty()) {
+        return;
+    }
+    const std::string failure =
+        app::append_refusal(common.refusal_log, {time_now(), common.command, why.code, why.where});
+    if (!failure.empty()) {
+        print_message({.code = "GC-STORE-0025",
+                       .where = common.refusal_log,
+                       .what = "the refusal cannot be logged: " + failure,
+                       .rule = "a log of refusals is a file of its own that can be written to",
+                       .action = "name a new file by --refusal-log",
+                       .severity = gum::Severity::warning},
+                      common);
+    }
+}
+
 void print_messages(std::span<const gum::Diagnostic> diagnostics, const CommonOptions& common) {
     for (const gum::Diagnostic& diagnostic : diagnostics) {
         if (!common.quiet || diagnostic.severity != gum::Severity::note) {
@@ -46,6 +65,7 @@ namespace {
 ExitCode told(const gum::DiagnosedError& error, const CommonOptions& common, ExitCode code) {
     for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
         print_message(diagnostic, common);
+        log_refusal(diagnostic, common);
     }
     return code;
 }
@@ -78,20 +98,20 @@ ExitCode explained(const CommonOptions& common, const std::function<ExitCode()>&
         return tell_of_no_memory(common.json_messages);
     } catch (const std::filesystem::filesystem_error& error) {
         // A name that the system does not take, a folder that vanished: trouble with files, wherever it arose.
-        print_message({.code = "GC-STORE-0006",
-                       .where = error.path1().string(),
-                       .what = error.code().message(),
-                       .rule = "files and folders of a command can be read and written",
-                       .action = "check the name and the access rights"},
-                      common);
-        return storage_trouble;
+        return told(gum::StorageError(gum::Diagnostic{.code = "GC-STORE-0006",
+                                                      .where = error.path1().string(),
+                                                      .what = error.code().message(),
+                                                      .rule = "files and folders of a command can be read and written",
+                                                      .action = "check the name and the access rights"}),
+                    common, storage_trouble);
     } catch (const std::exception& error) {
-        print_message({.code = "GC-DEFECT-0001",
-                       .where = "gumcert",
-                       .what = error.what(),
-                       .rule = "this is a defect in the program",
-                       .action = "please report it with the job"},
-                      common);
+        const gum::Diagnostic why{.code = "GC-DEFECT-0001",
+                                  .where = "gumcert",
+                                  .what = error.what(),
+                                  .rule = "this is a defect in the program",
+                                  .action = "please report it with the job"};
+        print_message(why, common);
+        log_refusal(why, common);
         return defect;
     }
 }

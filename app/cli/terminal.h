@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,7 +29,11 @@ enum ExitCode : int {
 struct CommonOptions {
     bool quiet = false;
     bool json_messages = false;
-    int threads = 0;  // 0: as many as the machine has
+    int threads = 0;                                 // 0: as many as the machine has
+    std::optional<std::uint64_t> memory_limit = {};  // [byte], 0: none
+    std::optional<std::uint64_t> time_limit = {};    // [s], 0: none
+    std::string refusal_log = {};                    // "": none
+    std::string command = {};                        // "run", for the log
 };
 
 /// A terminal that is gone or full must not change the exit code.
@@ -39,6 +45,10 @@ void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arg
 
 /// One line on stderr: "where — what — rule — action [code]", or JSON.
 void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common);
+
+/// Adds a line to the log of refusals, where one is asked for. A log that cannot be written is told (GC-STORE-0025), and
+/// changes no exit code.
+void log_refusal(const gum::Diagnostic& why, const CommonOptions& common);
 
 /// Several of them; notes only where they are wanted.
 void print_messages(std::span<const gum::Diagnostic> diagnostics, const CommonOptions& common);

@@ -768,8 +768,15 @@ std::string order_free_name(const std::string& name) {
 void equal_rows(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
+        std::vector<std::string> names;  // of each row once: there are as many pairs as the square of the rows
+        for (const AuditedRow& row : budget.rows) {
+            names.push_back(order_free_name(row.quantity));
+        }
         for (std::size_t i = 0; i < budget.rows.size(); ++i) {
             for (std::size_t j = i + 1; j < budget.rows.size(); ++j) {
+                if (names[i] != names[j]) {
+                    continue;
+                }
                 const AuditedRow &a = budget.rows[i], &c = budget.rows[j];
                 const bool resolution = a.origin == Origin::resolution || c.origin == Origin::resolution ||
                                         a.contributor == Contributor::item_resolution ||
@@ -779,7 +786,7 @@ void equal_rows(const AuditSubject& subject, FindingCollector& findings) {
                 if (resolution || other_source || other_estimate || !(contribution_of(a) > 0.0) ||
                     a.used_u != c.used_u || std::abs(a.used_sensitivity) != std::abs(c.used_sensitivity) ||
                     a.unit != c.unit || !c.in_sum || a.used_nu != c.used_nu || a.quantity.empty() ||
-                    order_free_name(a.quantity) != order_free_name(c.quantity) || have_correlation(budget, i, j)) {
+                    have_correlation(budget, i, j)) {
                     continue;
                 }
                 AuditFinding finding = finding_at({.budget = b, .row = j, .of = budget, .is = c}, "",

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <span>
@@ -217,6 +218,16 @@ private:
                                 .severity = gum::Severity::warning});
     }
 
+    /// \throws gum::InputError  GC-DCC-0004
+    void require_few_numbers(std::size_t count, const XmlElement& at) const {
+        if (count > k_most_numbers) {
+            throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0004",
+                                                  .where = place_of(at, file_),
+                                                  .what = "more than 100000 numbers",
+                                                  .rule = "certificates are read up to a hundred thousand numbers",
+                                                  .action = "ask the issuer for the tables as files of their own"});
+        }
+    }
     void add_quantity(const XmlElement& quantity, const Context& context);
     void add_position(const XmlElement& coordinate, const Context& context);
     void add_rows(const XmlElement& quantity, const Context& context, const Form& main,
@@ -239,7 +250,8 @@ private:
     std::string file_;
     ImportedCertificate& out_;
     std::set<std::string, std::less<>> names_;
-    std::set<std::string, std::less<>> unknown_units_;  // each one is remarked once
+    std::map<std::pair<std::string, std::size_t>, std::size_t> next_version_;  ///< of words for so many rows
+    std::set<std::string, std::less<>> unknown_units_;                         // each one is remarked once
     std::size_t tables_ = 0;
 };
 
@@ -385,6 +397,7 @@ Form Reader::xml_list_of_reals(const XmlElement& element) {
         return child == nullptr ? std::vector<std::string>() : xml_list(child->text);
     };
     const std::vector<std::string> values = words_of("si:valueXMLList");
+    require_few_numbers(values.size(), element);
     const std::vector<std::string> units = words_of("si:unitXMLList");
     const std::vector<std::string> labels = words_of("si:labelXMLList");
     if (units.size() > 1 && units.size() != values.size()) {
@@ -492,8 +505,13 @@ std::string Reader::free_name(const std::string& base, const std::string& result
     };
     std::string name = base;
     const std::string longer = result.empty() ? base : result + "_" + base;
-    for (std::size_t n = 2; !free(name); ++n) {
-        name = n == 2 ? longer : longer + "_v" + std::to_string(n - 1);
+    if (!free(name)) {
+        // Names are never given back: the search goes on where the last one of the same words ended.
+        std::size_t& n = next_version_.try_emplace({longer, rows}, 1).first->second;
+        do {
+            name = n == 1 ? longer : longer + "_v" + std::to_string(n);
+            ++n;
+        } while (!free(name));
     }
     for (std::size_t row = 0; row < rows; ++row) {
         names_.insert(row_name(name, row));
@@ -545,13 +563,7 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
     if (rows == 0) {
         return;
     }
-    if (out_.quantities.size() + rows > k_most_numbers) {
-        throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0004",
-                                              .where = place_of(quantity, file_),
-                                              .what = "more than 100000 numbers",
-                                              .rule = "certificates are read up to a hundred thousand numbers",
-                                              .action = "ask the issuer for the tables as files of their own"});
-    }
+    require_few_numbers(out_.quantities.size() + rows, quantity);
     const std::string base = free_name(base_name(quantity, context, main), as_name(context.result_en), rows);
     for (std::size_t row = 0; row < rows; ++row) {
         ImportedQuantity imported;

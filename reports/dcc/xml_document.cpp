@@ -16,6 +16,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "reports/view/certificate_view.h"
 #include "text/markup.h"
+#include "text/markup_size.h"
 
 namespace gumcert::reports {
 
@@ -24,6 +25,7 @@ namespace {
 constexpr std::size_t k_largest_document = 64U << 20U;  // bytes
 constexpr std::size_t k_largest_depth = 64;
 constexpr std::size_t k_most_elements = 1'000'000;
+constexpr std::size_t k_most_attributes = 64;  // of a tag
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -46,12 +48,15 @@ std::string prefixed(std::string_view space, std::string_view name) {
 
 /// libxml2 hands an ampersand in an attribute over as "&#38;" as long as it does not replace entities, and leaves it to
 /// its own trees to undo that.
-std::string attribute_value(std::string text) {
+std::string attribute_value(std::string_view text) {
     constexpr std::string_view k_ampersand = "&#38;";
-    for (std::size_t at = text.find(k_ampersand); at != std::string::npos; at = text.find(k_ampersand, at + 1)) {
-        text.replace(at, k_ampersand.size(), "&");
+    std::string out;
+    std::size_t done = 0;
+    for (std::size_t at = text.find(k_ampersand); at != std::string_view::npos; at = text.find(k_ampersand, done)) {
+        out.append(text, done, at + 1 - done);
+        done = at + k_ampersand.size();
     }
-    return text;
+    return out.append(text, done);
 }
 
 /// What the callbacks of the parser work on. They are called from C: none lets an exception through.
@@ -110,7 +115,8 @@ void on_start(void* data, const xmlChar* name, const xmlChar*, const xmlChar* ur
         const xmlChar** const at = attributes + static_cast<std::ptrdiff_t>(5) * i;
         const auto* const first = reinterpret_cast<const char*>(at[3]);
         const auto* const last = reinterpret_cast<const char*>(at[4]);
-        element->attributes.emplace_back(prefixed(bytes_of(at[2]), bytes_of(at[0])), attribute_value({first, last}));
+        element->attributes.emplace_back(prefixed(bytes_of(at[2]), bytes_of(at[0])),
+                                         attribute_value({first, static_cast<std::size_t>(last - first)}));
     }
 }
 
@@ -265,6 +271,13 @@ XmlElement read_xml(std::string_view bytes, const std::string& file) {
     }
     if (bytes.empty()) {
         throw not_well_formed(file, "an empty file");
+    }
+    if (text::markup_size(bytes).most_in_tag > k_most_attributes) {  // libxml2 compares each of them with all before it
+        throw gum::InputError(gum::Diagnostic{.code = "GC-DCC-0004",
+                                              .where = file,
+                                              .what = "a tag of more than 64 attributes",
+                                              .rule = "certificates are read up to 64 attributes in a tag",
+                                              .action = "ask the issuer for a document in the form of the DCC schema"});
     }
     start_library();
     const std::unique_ptr<xmlParserCtxt, FreeParser> parser(

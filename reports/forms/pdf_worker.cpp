@@ -5,6 +5,7 @@
 #include "reports/printable_text.h"
 #include "reports/view/certificate_view.h"
 #include "system/cleanup.h"
+#include "system/no_network.h"
 #include "system/temporary.h"
 #include "text/lists.h"
 #include "text/markup.h"
@@ -322,8 +323,11 @@ private:
         std::vector<std::string> settings = {"HOME=" + folder_.path().string(), "LC_ALL=C.UTF-8", "TZ=UTC",
                                              "FONTCONFIG_FILE=" + (folder_.path() / "fonts.conf").string()};
         const system::CleanupLock lock = system::hold_cleanup();
-        const int failure = ::posix_spawn(&child_, arguments[0].c_str(), &actions, &attributes,
-                                          pointers(arguments).data(), pointers(settings).data());
+        int failure = 0;
+        (void)system::without_network([&] {  // where the kernel does not allow it, the PDF is set all the same
+            failure = ::posix_spawn(&child_, arguments[0].c_str(), &actions, &attributes, pointers(arguments).data(),
+                                    pointers(settings).data());
+        });
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         if (failure != 0) {

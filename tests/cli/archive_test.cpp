@@ -324,6 +324,20 @@ TEST_F(ArchiveOfALaboratory, BacksUpAndReplays) {
     EXPECT_TRUE(tells(archive({"replay", "EX-1"}), "[GC-ARCHIVE-0026]"));
 }
 
+TEST_F(ArchiveOfALaboratory, AnExportBringsAnInterruptedFolderIntoOrder) {
+    issue_the_example();
+    const fs::path out = folder() / "exports";
+    write_bytes(out / ".gumcert-unfinished.json", "torn");
+    const Ended refused = archive({"export", "EX-2026-0042", "-o", (out / "evidence.json").string()});
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_TRUE(tells(refused, "[GC-STORE-0013]")) << refused.err;
+    EXPECT_FALSE(fs::exists(out / "evidence.json"));
+    fs::remove(out / ".gumcert-unfinished.json");
+    EXPECT_EQ(archive({"export", "EX-2026-0042", "-o", (out / "evidence.json").string()}).code, 0);
+    EXPECT_EQ(archive({"head", "-o", (out / "head.json").string()}).code, 0);
+    EXPECT_TRUE(fs::exists(out / "head.json"));
+}
+
 TEST_F(ArchiveOfALaboratory, ProvesEachCertificateWithoutTheArchive) {
     issue_the_example();
     ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("evidence.json")}).code, 0);

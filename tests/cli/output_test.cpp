@@ -165,5 +165,33 @@ TEST_F(Output, AMachineWithoutNodeIsToldAtOnceAndAFaultOfTheJobBefore) {
     EXPECT_NE(wrong.err.find("R9"), std::string::npos) << wrong.err;
 }
 
+// A character without a glyph is found when the page is set, after everything was computed.
+TEST_F(Output, TheRecordIsKeptWhenADocumentCannotBeMade) {
+    need_pdf();
+    const fs::path out = folder() / "out";
+    ASSERT_EQ(run(job_, out).code, 0);
+    const std::map<std::string, std::string> old = contents_of(out);
+    change_json(job_, [](nlohmann::json& job) { job["title"] = "Table \U0001F600"; });
+    const Ended failed = run(job_, out);
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    EXPECT_LT(failed.err.find("[GC-STORE-0022]"), failed.err.find("[GC-REPORT-0011]")) << failed.err;
+    std::map<std::string, std::string> after = contents_of(out);
+    for (const auto& [name, bytes] : old) {
+        EXPECT_EQ(after[name], bytes) << name << " belongs to the old set";
+    }
+    const fs::path kept = out / "record-kept";
+    EXPECT_TRUE(fs::exists(kept / "covariance.csv"));
+    EXPECT_EQ(gumcert({"check", kept.string()}).code, 0) << "a set of its own";
+    EXPECT_EQ(gumcert({"check", out.string()}).code, 0);
+    const fs::path page = folder() / "page.html";
+    const Ended rendered = gumcert({"render", (kept / "record.json").string(), "--format", "html", "-o", page.string(),
+                                    "--share", GUMCERT_SOURCE_DIR});
+    EXPECT_EQ(rendered.code, 0) << rendered.err;
+    change_json(job_, [](nlohmann::json& job) { job["title"] = "Table"; });
+    const Ended good = run(job_, out);
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_NE(good.err.find("[GC-STORE-0023]"), std::string::npos) << "what was kept is older: " << good.err;
+}
+
 }  // namespace
 }  // namespace gumcert::cli

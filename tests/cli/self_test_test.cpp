@@ -123,6 +123,22 @@ TEST_F(Evidence, AFolderWithoutCasesAndAnOutputAmongThemAreRefused) {
     EXPECT_FALSE(fs::exists(share() / "reference_cases" / "self-test.json"));
 }
 
+TEST_F(Evidence, TheReportIsASetAndAnInterruptedOneIsSeenBeforeTheTest) {
+    make_share({k_case});
+    ASSERT_EQ(self_test().code, 0);
+    const fs::path out = folder() / "out";
+    EXPECT_EQ(gumcert({"check", out.string()}).code, 0);
+    const std::string manifest = bytes_of(out / ".gumcert-set.json");
+    EXPECT_NE(manifest.find("self-test.html"), std::string::npos) << manifest;
+    write_bytes(out / ".gumcert-unfinished.json", "torn");
+    const std::map<std::string, std::string> before = contents_of(out);
+    const Ended refused = self_test();
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_NE(refused.err.find("[GC-STORE-0013]"), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "") << "no case is computed for nothing";
+    EXPECT_EQ(contents_of(out), before);
+}
+
 TEST_F(Evidence, RerunOfRecordsEndsWithTheGravestAnswer) {
     const fs::path record = folder() / "record.json";
     const fs::path job = fs::path(GUMCERT_SOURCE_DIR) / "examples" / "certificate" / "end_gauge.json";

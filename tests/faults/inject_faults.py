@@ -11,7 +11,8 @@ ENOSPC, all from the n-th on fail, or the process is killed there (SIGKILL) or a
 2. after the next command, which is refused for another reason: exactly the old ones or exactly the new ones;
 3. exit code 0 with the new ones and the whole output of an undisturbed run, or 5 with a message that names a file, or
    the signal;
-4. nothing is left in the temporary folder or beside the outputs.
+4. nothing is left in the temporary folder or beside the outputs, but for the record of the new set whose documents could not
+   be made, whole in a folder of its own.
 
 Without --with-node the page is set by a stand-in that hands out the PDF of an undisturbed run: the calls of gumcert are
 the same, and the time is a tenth. --memory: every allocation in turn in place of every call.
@@ -44,7 +45,10 @@ def files_of(folder, hidden=False):
     if not folder.is_dir():
         return {}
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(folder.iterdir()) if hidden or not path.name.startswith(".")}
+            for path in sorted(folder.iterdir()) if path.is_file() and (hidden or not path.name.startswith("."))}
+
+
+KEPT = "record-kept"  # the set of an evaluation whose documents could not be made
 
 
 class Bench:
@@ -96,6 +100,13 @@ class Bench:
                    for name, files in [*self.sets.items(), ("none", {})]}
         return next((name for name, files in visible.items() if held == files), "mixture")
 
+    def is_kept_whole(self):
+        """Whether the kept set has the new record, and nothing that is not of the new evaluation."""
+        kept = files_of(self.out / KEPT)
+        hidden = set(files_of(self.out / KEPT, hidden=True)) - set(kept) - {".gumcert-set.json"}
+        return "record.json" in kept and not hidden and all(
+            self.sets["new"].get(name) == digest for name, digest in kept.items())
+
     def calls(self, kind):
         self.restore(True)
         count = self.folder / "count"
@@ -133,8 +144,10 @@ class Bench:
             breaches.append(f"after the next command: {state}, {sorted(files_of(self.out, True))}")
         elif state != "none" and files_of(self.out, hidden=True) != self.sets[state]:
             breaches.append(f"after the next command: {sorted(files_of(self.out, True))}")
-        elif state == "none" and self.out.exists() and any(self.out.iterdir()):
+        elif state == "none" and self.out.exists() and any(path.name != KEPT for path in self.out.iterdir()):
             breaches.append(f"left beside the outputs: {sorted(files_of(self.out, True))}")
+        if (self.out / KEPT).exists() and not self.is_kept_whole():
+            breaches.append(f"kept: {sorted(files_of(self.out / KEPT, True))}")
         if any(self.temporary.iterdir()):
             breaches.append(f"left in the temporary folder: {sorted(p.name for p in self.temporary.iterdir())}")
             shutil.rmtree(self.temporary)

@@ -1,4 +1,5 @@
 #include "reports/forms/pdf_worker.h"
+#include "system/no_network.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -380,6 +381,24 @@ TEST_F(PdfWorkerTest, WhatIsMissingIsNamed) {
     without.node_program = folder_ / "templates" / "pdf" / "render.mjs";  // no program
     EXPECT_THAT(told(without), HasSubstr("cannot be started"));
     expect_nothing_left();
+}
+
+TEST_F(PdfWorkerTest, ItReachesNoNetwork) {
+    SKIP_WITHOUT_PDF();
+    if (!system::without_network([] {})) {
+        GTEST_SKIP() << "the kernel does not allow it here";
+    }
+    put("templates/pdf/render.mjs",
+        "import net from 'node:net';\n"
+        "process.stdin.once('data', () => net.connect(9, '127.0.0.1').on('error', (e) =>\n"
+        "  console.log(JSON.stringify({status: 'template', messages: ['tried: ' + e.code]}))));\n");
+    PdfWorker worker(assets_);
+    try {
+        static_cast<void>(worker.set(view("x"), ""));
+        ADD_FAILURE() << "nothing was tried";
+    } catch (const gum::NoResultError& e) {
+        EXPECT_THAT(e.what(), HasSubstr("tried: EACCES"));
+    }
 }
 
 TEST_F(PdfWorkerTest, AnswersThatAreNoneAreRefused) {
