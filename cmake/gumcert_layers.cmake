@@ -172,7 +172,7 @@ set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
-set(GUMCERT_THIRD_PARTY_archive_store                      sqlite3.h sys/vfs.h)
+set(GUMCERT_THIRD_PARTY_archive_store                      libpq-fe.h sqlite3.h sys/vfs.h)
 set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
@@ -185,11 +185,12 @@ set(GUMCERT_THIRD_PARTY_app_cli                            CLI fcntl.h fmt gnu g
 set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/self_test app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
-set(GUMCERT_NOT_IN_HEADERS boost ceres sqlite3.h)
+set(GUMCERT_NOT_IN_HEADERS boost ceres libpq-fe.h sqlite3.h)
 # A header of ours, and the headers from outside that stand nowhere else: what they bring is compiled once, behind it.
 set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eigen/SVD)
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
-set(GUMCERT_PRIVATE_HEADERS archive/store/sqlite_schema.h archive/store/sqlite_statement.h
+set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
+                            archive/store/sqlite_schema.h archive/store/sqlite_statement.h
                             gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h

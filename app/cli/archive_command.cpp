@@ -26,7 +26,7 @@
 #include "app/read_file.h"
 #include "archive/archive.h"
 #include "archive/evidence.h"
-#include "archive/store/sqlite_store.h"
+#include "archive/store/open_store.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
 #include "signing/ed25519.h"
@@ -56,7 +56,7 @@ archive::Request request_of(const ArchiveOptions& options) {
 }
 
 std::unique_ptr<archive::Store> opened(const ArchiveOptions& options, archive::Access access) {
-    return archive::open_sqlite_store(options.store, access);
+    return archive::open_store(options.store, access);
 }
 
 bool as_json(const ArchiveOptions& options) {
@@ -122,9 +122,9 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
     const archive::LogEntry first =
         archive::first_entry(settings_of(options), fmt::format("gumcert {} (commit {})", k_version, k_commit),
                              random_nonce(), request_of(options));
-    (void)archive::create_sqlite_store(options.store, first);
+    const auto store = archive::create_store(options.store, first);
     if (!common.quiet) {
-        fmt::print("Begun: {}\n", options.store);
+        fmt::print("Begun: {}\n", store->name());
     }
     return told({first, false}, options, common);
 }
@@ -475,7 +475,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
                     {"head", head},
                     {"findings", shown_findings(verification.findings)}});
     } else if (!common.quiet) {
-        fmt::print("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n", options.store,
+        fmt::print("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n", store->name(),
                    verification.sound() ? "sound" : "NOT SOUND", verification.entries, verification.contents,
                    verification.certificates, heads.all().size());
         if (verification.head) {
@@ -513,7 +513,7 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     ProgressLine progress(!common.quiet);
     archive::Verification verification;
     {
-        const auto copy = archive::open_sqlite_store(part, archive::Access::read_only);
+        const auto copy = archive::open_store(part.string(), archive::Access::read_only);
         verification =
             archive::verify_store(*copy, {}, [&](const std::string& text) { progress("verifying: " + text); });
     }
@@ -529,6 +529,39 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     fs::rename(part, file);
     return told(archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options)),
                 options, common);
+}
+
+ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto from = opened(options, archive::Access::read_only);
+    const archive::Head head = archive::Archive(*from).head();
+    ProgressLine progress(!common.quiet);
+    progress("copying " + std::to_string(head.size) + " entries");
+    const auto to = archive::replay_into(*from, options.to);
+    const archive::Verification verification =
+        archive::verify_store(*to, {head}, [&](const std::string& text) { progress("verifying: " + text); });
+    progress.clear();
+    print_findings(verification.findings, common);
+    if (!verification.sound()) {
+        throw gum::StorageError(
+            gum::Diagnostic{.code = "GC-ARCHIVE-0011",
+                            .where = to->name(),
+                            .what = "the copy cannot be verified",
+                            .rule = "a copy is verified before it counts as one",
+                            .action = "remove it, and see what gumcert archive verify says of the archive"});
+    }
+    if (as_json(options)) {
+        print_json({{"schema", "gumcert/archive-migration/1"},
+                    {"from", from->name()},
+                    {"to", to->name()},
+                    {"entries", verification.entries},
+                    {"contents", verification.contents},
+                    {"head", json::parse(archive::to_json(*verification.head))}});
+    } else if (!common.quiet) {
+        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n", to->name(),
+                   verification.entries, verification.contents, verification.certificates, from->name(),
+                   encoding::hexadecimal(verification.head->root), verification.head->at);
+    }
+    return done;
 }
 
 ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
@@ -580,7 +613,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     return same == numbers.size() ? done : negative_answer;
 }
 
-constexpr std::array<Action, 16> k_actions = {{
+constexpr std::array<Action, 17> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
     {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
     {"number", 0, 0, "nothing more", " store by why key format ", take_number},
@@ -597,6 +630,7 @@ constexpr std::array<Action, 16> k_actions = {{
     {"head", 0, 0, "nothing more", " store output sign ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
+    {"migrate", 0, 0, "nothing more", " store to format ", migrate},
     {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format ", replay},
 }};
 
@@ -607,7 +641,8 @@ struct GivenOption {
 };
 
 void require_options(const Action& action, const ArchiveOptions& o) {
-    const std::array<GivenOption, 12> given = {{{"store", "--store", !o.store.empty()},
+    const std::array<GivenOption, 13> given = {{{"store", "--store", !o.store.empty()},
+                                                {"to", "--to", !o.to.empty()},
                                                 {"by", "--by", !o.by.empty()},
                                                 {"why", "--why", !o.why.empty()},
                                                 {"key", "--request-key", !o.request_key.empty()},
@@ -644,6 +679,10 @@ void require_options(const Action& action, const ArchiveOptions& o) {
     }
     if (std::string_view(action.name) == "backup" && o.output.empty()) {
         refuse_usage(command, "--output is missing", "a backup is a new file", "name it with -o");
+    }
+    if (takes("to") && o.to.empty()) {
+        refuse_usage(command, "--to is missing", "an archive is copied into a new one",
+                     "name a new file, or an empty database as postgresql://…");
     }
     const std::string_view name = action.name;
     if ((name == "withdraw" || name == "settings") && o.why.empty()) {

@@ -11,7 +11,7 @@ namespace gumcert::cli {
 struct ArchiveOptions {
     std::string action;              ///< "init", "add" …
     std::vector<std::string> named;  ///< numbers of certificates, or files
-    std::string store, by, why, request_key, format, output, numbering, sign, trust, share;
+    std::string store, to, by, why, request_key, format, output, numbering, sign, trust, share;
     std::vector<std::string> heads, persons;
     bool one_pair_of_eyes = false;
 };

@@ -324,7 +324,10 @@ void add_archive(CLI::App& program, Arguments& a) {
     command.add_option("NAME", o.named,
                        "Numbers of certificates; of add and amend a record and its documents; of verify "
                        "evidence");
-    add_file(command, "--store", o.store, "The archive: one file on a disk of this machine");
+    add_file(command, "--store", o.store,
+             "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
+             "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");
+    add_file(command, "--to", o.to, "For migrate: the new archive, as --store");
     command.add_option("--by", o.by, "Who does this: a name, as it will stand in the log")->type_name("PERSON");
     command.add_option("--why", o.why, "The reason, for the log; withdraw and settings need it")->type_name("TEXT");
     command
@@ -371,7 +374,9 @@ void add_archive(CLI::App& program, Arguments& a) {
         "amend brings in an amendment: when it is issued, its original is amended or superseded. withdraw ends a\n"
         "certificate, a draft or a number. list and show read; export writes the evidence of one certificate, which\n"
         "verify reads without the archive; head writes what proves later that nothing was changed: keep it elsewhere.\n"
-        "verify computes every hash again, backup copies while others write, and verifies the copy; replay evaluates\n"
+        "verify computes every hash again, backup copies while others write, and verifies the copy; migrate copies "
+        "into\n"
+        "an archive of either kind, with the same entries, hashes and heads; replay evaluates\n"
         "archived records with this program, and reports what differs. Exit code 1 where verify or replay finds\n"
         "something. docs/archive.md");
 }

@@ -273,7 +273,6 @@ void SqliteStore::copy_to(const fs::path& file) {
     if (stepped != SQLITE_DONE || finished != SQLITE_OK) {
         refuse_sqlite(copy.get(), stepped != SQLITE_DONE ? stepped : finished, file.string());
     }
-    // One file that can be read from a disc that nobody writes.
     (void)pragma(copy.get(), "journal_mode = DELETE", file.string());
 }
 
@@ -291,7 +290,12 @@ void require_archive(sqlite3* database, const fs::path& file) {
 
 }  // namespace
 
-std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first) {
+void close_sqlite_file(const fs::path& file) {
+    const Database database = open_database(file, SQLITE_OPEN_READWRITE);
+    (void)pragma(database.get(), "journal_mode = DELETE", file.string());
+}
+
+std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
     std::error_code error;
     if (fs::exists(file, error) || error) {
         refuse_store("GC-ARCHIVE-0002", file, error ? error.message() : "is there already",
@@ -311,6 +315,9 @@ std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry&
         (void)pragma(raw, "application_id = " + std::to_string(k_application_id), file.string());
         (void)pragma(raw, "user_version = " + std::to_string(k_schema_version), file.string());
         store->append(first);
+        if (fill) {
+            fill(*store);
+        }
     });
     return store;
 }

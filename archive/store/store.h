@@ -11,6 +11,8 @@
 
 namespace gumcert::archive {
 
+enum class Access { read_only, read_and_write };
+
 /// Bytes that are kept under their hash.
 struct Content {
     std::string sha256;  ///< name, 64 hexadecimal digits
@@ -60,5 +62,8 @@ public:
     /// \param file  a name that is not there yet
     virtual void copy_to(const std::filesystem::path& file) = 0;
 };
+
+/// Adds entries and contents to a store that is being made.
+using Fill = std::function<void(Store&)>;
 
 }  // namespace gumcert::archive

@@ -378,5 +378,22 @@ TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
         tells(archive({"add", path("other.json"), path("out/certificate.pdf")}, "R. Lin"), "[GC-ARCHIVE-0029]"));
 }
 
+/// The log that is copied is the same: heads and evidence of the one hold for the other, and both verifiers read it.
+TEST_F(ArchiveOfALaboratory, MigratesIntoANewArchive) {
+    issue_the_example();
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    Ended ended = archive({"migrate", "--to", path("other.archive")});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_TRUE(tells(ended, "sound")) << ended.out;
+    ended = gumcert({"archive", "verify", "--store", path("other.archive"), "--head", path("head.json")});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(verified_elsewhere({path("other.archive"), "--head", path("head.json")}).code, 0);
+    EXPECT_EQ(archive({"migrate", "--to", path("other.archive")}).code, 5) << "it is there already";
+    EXPECT_EQ(archive({"migrate"}).code, 2) << "--to is missing";
+    ended = archive({"migrate", "--to", "postgresql://keeper:secret@/x?host=/nowhere"});
+    EXPECT_EQ(ended.code, 5);
+    EXPECT_FALSE(tells(ended, "secret")) << ended.err;
+}
+
 }  // namespace
 }  // namespace gumcert::cli

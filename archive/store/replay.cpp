@@ -1,0 +1,47 @@
+#include "archive/store/replay.h"
+
+#include <optional>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::archive {
+
+namespace {
+
+LogEntry first_entry_of(Store& store) {
+    // Of the kind that only the first entry has; where the log was tampered with, what is copied is as it is.
+    std::optional<LogEntry> first;
+    store.each_entry([&](const LogEntry& entry) {
+        if (!first) {
+            first = entry;
+        }
+    });
+    if (!first) {
+        throw gum::StorageError(
+            gum::Diagnostic{.code = "GC-ARCHIVE-0007",
+                            .where = store.name(),
+                            .what = "the log is empty",
+                            .rule = "the file of an archive is an undamaged SQLite database",
+                            .action = "restore the newest backup that gumcert archive verify accepts"});
+    }
+    return *first;
+}
+
+}  // namespace
+
+void replay(Store& from, const std::function<void(const LogEntry&, const Fill&)>& create) {
+    from.read([&] {
+        const LogEntry first = first_entry_of(from);
+        create(first, [&](Store& to) {
+            // Contents before the entries that name them.
+            from.each_content([&](const Content& content) { to.put(content); });
+            from.each_entry([&](const LogEntry& entry) {
+                if (entry != first) {
+                    to.append(entry);
+                }
+            });
+        });
+    });
+}
+
+}  // namespace gumcert::archive
