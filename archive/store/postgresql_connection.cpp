@@ -117,7 +117,7 @@ PostgresqlConnection::PostgresqlConnection(const std::string& address) : name_("
 
 void PostgresqlConnection::check(const PGresult* result) const {
     if (result == nullptr) {
-        refuse_state("", name_, first_line(PQerrorMessage(connection_.get())));
+        throw std::bad_alloc();  // libpq makes a result of every other trouble
     }
     const ExecStatusType status = PQresultStatus(result);
     if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) {

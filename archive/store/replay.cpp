@@ -9,7 +9,6 @@ namespace gumcert::archive {
 namespace {
 
 LogEntry first_entry_of(Store& store) {
-    // Of the kind that only the first entry has; where the log was tampered with, what is copied is as it is.
     std::optional<LogEntry> first;
     store.each_entry([&](const LogEntry& entry) {
         if (!first) {
@@ -21,7 +20,7 @@ LogEntry first_entry_of(Store& store) {
             gum::Diagnostic{.code = "GC-ARCHIVE-0007",
                             .where = store.name(),
                             .what = "the log is empty",
-                            .rule = "the file of an archive is an undamaged SQLite database",
+                            .rule = "the database of an archive is undamaged",
                             .action = "restore the newest backup that gumcert archive verify accepts"});
     }
     return *first;

@@ -1,5 +1,6 @@
 #include "archive/store/sqlite_statement.h"
 
+#include <new>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -19,6 +20,8 @@ namespace {
 void refuse_sqlite(sqlite3* database, int result, const std::string& name) {
     const std::string what = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(result);
     switch (result & 0xFF) {
+        case SQLITE_NOMEM:
+            throw std::bad_alloc();  // says nothing about the store
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
             fail("GC-ARCHIVE-0004", name, what, "one program writes at a time, and the others wait for up to 60 s",
@@ -95,6 +98,9 @@ bool Statement::next() {
 std::string Statement::column(int index) const {
     const void* const data = sqlite3_column_blob(statement_, index);
     const int size = sqlite3_column_bytes(statement_, index);
+    if (data == nullptr && sqlite3_errcode(database_) == SQLITE_NOMEM) {
+        throw std::bad_alloc();  // not the empty text that it looks like
+    }
     return data == nullptr ? std::string()
                            : std::string(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -224,6 +225,7 @@ private:
     fs::path file_;
     Database database_;
 
+    [[nodiscard]] std::vector<std::string> integrity_problems();
     [[nodiscard]] Statement statement(std::string_view sql) { return {database_.get(), sql, name()}; }
 
     void transact(const char* begin, const std::function<void()>& work) {
@@ -239,12 +241,27 @@ private:
     }
 };
 
-std::vector<std::string> SqliteStore::own_problems() {
+std::vector<std::string> SqliteStore::integrity_problems() {
     std::vector<std::string> problems;
     Statement integrity = statement("PRAGMA integrity_check(20)");
     while (integrity.next()) {
         if (const std::string line = integrity.column(0); line != "ok") {
             problems.push_back("SQLite finds: " + line);
+        }
+    }
+    return problems;
+}
+
+std::vector<std::string> SqliteStore::own_problems() {
+    std::vector<std::string> problems = integrity_problems();
+    // Where memory runs out, SQLite tells of a page that it could not get, as of a damaged one. Damage is found again, with
+    // the same words, while there is memory.
+    if (!problems.empty()) {
+        constexpr sqlite3_uint64 k_enough = 4U << 20U;
+        void* const some = sqlite3_malloc64(k_enough);
+        sqlite3_free(some);
+        if (some == nullptr || integrity_problems() != problems) {
+            throw std::bad_alloc();
         }
     }
     Statement keys = statement("PRAGMA foreign_key_check");
@@ -302,24 +319,35 @@ std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry&
                      "an archive is begun in a new file", "choose another name");
     }
     refuse_network_share(file.parent_path());
-    Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-    prepare(database.get(), file, Access::read_and_write);
-    sqlite3* const raw = database.get();
-    auto store = std::make_unique<SqliteStore>(file, std::move(database));
-    store->write([&] {
-        if (pragma(raw, "user_version", file.string()) != "0") {  // somebody else was faster
-            refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
-                         "choose another name");
+    bool begun = false;
+    try {
+        Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+        prepare(database.get(), file, Access::read_and_write);
+        sqlite3* const raw = database.get();
+        auto store = std::make_unique<SqliteStore>(file, std::move(database));
+        store->write([&] {
+            if (pragma(raw, "user_version", file.string()) != "0") {  // somebody else was faster
+                refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
+                             "choose another name");
+            }
+            begun = true;
+            execute(raw, k_schema, file.string());
+            (void)pragma(raw, "application_id = " + std::to_string(k_application_id), file.string());
+            (void)pragma(raw, "user_version = " + std::to_string(k_schema_version), file.string());
+            store->append(first);
+            if (fill) {
+                fill(*store);
+            }
+        });
+        return store;
+    } catch (...) {
+        if (begun) {  // by this program, and not finished
+            for (const char* const ending : {"", "-wal", "-shm"}) {
+                fs::remove(file.string() + ending, error);
+            }
         }
-        execute(raw, k_schema, file.string());
-        (void)pragma(raw, "application_id = " + std::to_string(k_application_id), file.string());
-        (void)pragma(raw, "user_version = " + std::to_string(k_schema_version), file.string());
-        store->append(first);
-        if (fill) {
-            fill(*store);
-        }
-    });
-    return store;
+        throw;
+    }
 }
 
 std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {

@@ -57,7 +57,10 @@ TEST(Stores, OnAServerShowTheirAttacks) {
         "DELETE FROM gumcert_archive.log WHERE seq = 4",
         "DELETE FROM gumcert_archive.log WHERE seq > 6",
         "TRUNCATE gumcert_archive.log",
-        "UPDATE gumcert_archive.log SET seq = CASE seq WHEN 4 THEN 1000004 WHEN 5 THEN 4 END WHERE seq IN (4)",
+        "UPDATE gumcert_archive.log SET seq = 1000004 WHERE seq = 4",
+        "UPDATE gumcert_archive.log SET seq = 1000004 WHERE seq = 4; UPDATE gumcert_archive.log SET seq = 4 WHERE seq "
+        "= 5; "
+        "UPDATE gumcert_archive.log SET seq = 5 WHERE seq = 1000004",
         "UPDATE gumcert_archive.content SET bytes = bytes || 'x'::bytea",
         "DELETE FROM gumcert_archive.content WHERE sha256 = (SELECT min(sha256) FROM gumcert_archive.content)",
         "INSERT INTO gumcert_archive.content VALUES(repeat('0', 64), 'x')",

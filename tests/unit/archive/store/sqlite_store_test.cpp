@@ -161,5 +161,90 @@ TEST(SqliteStore, HasTheSchemaOfVersionOne) {
     EXPECT_EQ(schema_digest(), "6731650982c8f934c3d33781f4ab2651259bf5ab761c843c54e87fb0d3659e9e");
 }
 
+TEST(SqliteStore, IsNotLeftHalfBegun) {
+    const StoreFolder folder;
+    const LogEntry first = entry_after(nullptr);
+    EXPECT_THROW(
+        (void)create_sqlite_store(folder.file(), first, [](Store&) { throw std::runtime_error("on the way"); }),
+        std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(folder.file()));
+    EXPECT_EQ(code_of([&] { (void)create_sqlite_store(folder.file(), first); }), "");
+    EXPECT_EQ(code_of([&] { (void)create_sqlite_store(folder.file(), first); }), "GC-ARCHIVE-0002");
+    EXPECT_TRUE(std::filesystem::exists(folder.file())) << "it is somebody else's";
+}
+
+/// Memory of SQLite that ends at a chosen allocation.
+class EndOfMemory {
+public:
+    EndOfMemory() {
+        sqlite3_shutdown();
+        sqlite3_config(SQLITE_CONFIG_GETMALLOC, &usual_);
+        sqlite3_mem_methods ending = usual_;
+        ending.xMalloc = [](int size) { return failing() ? nullptr : usual_.xMalloc(size); };
+        ending.xRealloc = [](void* old, int size) { return failing() ? nullptr : usual_.xRealloc(old, size); };
+        sqlite3_config(SQLITE_CONFIG_MALLOC, &ending);
+    }
+    ~EndOfMemory() {
+        sqlite3_shutdown();
+        sqlite3_config(SQLITE_CONFIG_MALLOC, &usual_);
+    }
+    EndOfMemory(const EndOfMemory&) = delete;
+    EndOfMemory& operator=(const EndOfMemory&) = delete;
+
+    /// From the n-th allocation on there is no more; 0: there is always some.
+    static void after(long n) {
+        left_ = n;
+        ended_ = false;
+    }
+    static bool ended() { return ended_; }
+
+private:
+    static inline sqlite3_mem_methods usual_ = {};
+    static inline long left_ = 0;
+    static inline bool ended_ = false;
+
+    static bool failing() {
+        if (left_ > 0 && --left_ == 0) {
+            ended_ = true;
+            return true;  // this one alone: what follows may go on with a wrong result
+        }
+        return false;
+    }
+};
+
+/// Memory that runs out is never a statement about the archive.
+TEST(SqliteStore, CallsNoSoundArchiveDamagedWhereMemoryEnds) {
+    const StoreFolder folder;
+    const EndOfMemory memory;
+    {
+        const LogEntry first = entry_after(nullptr);
+        const auto store = create_sqlite_store(folder.file(), first);
+        LogEntry last = first;
+        store->write([&] {
+            for (int i = 0; i < 40; ++i) {
+                last = entry_after(&last, "key " + std::to_string(i));
+                const std::string bytes(5000, static_cast<char>('a' + i % 26));
+                store->put({encoding::sha256(bytes + std::to_string(i)), bytes});
+                store->append(last);
+            }
+        });
+    }
+    int ended = 0;
+    for (long n = 1;; ++n) {
+        EndOfMemory::after(n);
+        try {
+            const auto store = open_sqlite_store(folder.file(), Access::read_only);
+            EXPECT_EQ(store->own_problems(), std::vector<std::string>()) << "allocation " << n;
+        } catch (const std::bad_alloc&) {
+            ++ended;
+        }
+        if (!EndOfMemory::ended()) {
+            break;
+        }
+    }
+    EXPECT_GT(ended, 100);
+    EndOfMemory::after(0);
+}
+
 }  // namespace
 }  // namespace gumcert::archive
