@@ -344,20 +344,37 @@ std::vector<LogEntry> Archive::history(const std::string& certificate) {
     return entries;
 }
 
+std::vector<ListedCertificate> Archive::listed() {
+    std::vector<ListedCertificate> certificates;
+    std::map<std::string, std::string> items;
+    for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
+        if (const std::optional<json> body = body_of(draft)) {
+            items[draft.certificate] = text_in(*body, "new", "item");
+        }
+    }
+    for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
+        certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
+    }
+    return certificates;
+}
+
 std::vector<ListedCertificate> Archive::list() {
     std::vector<ListedCertificate> certificates;
+    store_.read([&] { certificates = listed(); });
+    return certificates;
+}
+
+void Archive::each_record(const std::function<void(std::size_t number)>& begin,
+                          const std::function<void(const ListedCertificate&, std::string bytes)>& visit) {
     store_.read([&] {
-        std::map<std::string, std::string> items;
-        for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
-            if (const std::optional<json> body = body_of(draft)) {
-                items[draft.certificate] = text_in(*body, "new", "item");
-            }
-        }
-        for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
-            certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
+        std::vector<ListedCertificate> certificates = listed();
+        std::erase_if(certificates, [](const ListedCertificate& one) { return one.record.empty(); });
+        begin(certificates.size());
+        for (const ListedCertificate& one : certificates) {
+            // A record that is missing is for the verifier to tell; here it is one that says nothing.
+            visit(one, store_.content(one.record).value_or(""));
         }
     });
-    return certificates;
 }
 
 std::string Archive::record_of(const std::string& certificate) {
@@ -371,10 +388,25 @@ std::string Archive::record_of(const std::string& certificate) {
     return std::move(*bytes);
 }
 
-Head Archive::head() {
+WalkedLog Archive::walked() {
     WalkedLog log;
     store_.read([&] { store_.each_entry([&](const LogEntry& entry) { log.add(entry); }); });
-    return log.head();
+    return log;
+}
+
+Head Archive::head() {
+    return walked().head();
+}
+
+Head Archive::head_since(const Head& earlier) {
+    std::optional<Head> head = walked().head_since(earlier);
+    if (!head) {
+        refuse_request("GC-ARCHIVE-0036", "head of " + std::to_string(earlier.size) + " entries, " + earlier.at,
+                       "the archive does not begin with these entries",
+                       "an archive begins with what its earlier heads say",
+                       "the log was cut off, rewritten, or belongs to another archive: compare with a backup");
+    }
+    return std::move(*head);
 }
 
 }  // namespace gumcert::archive

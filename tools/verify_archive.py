@@ -91,6 +91,33 @@ def root_of_proof(entry, index, size, proof):
     return root if last == 0 else None
 
 
+def is_extended(earlier, earlier_root, size, root, proof):
+    """RFC 9162, 2.1.4.2: whether a tree of size leaves begins with one of the earlier ones."""
+    if not 0 < earlier <= size:
+        return False
+    if earlier == size:
+        return not proof and earlier_root == root
+    if not earlier & earlier - 1:
+        proof = [earlier_root, *proof]
+    if not proof:
+        return False
+    node, last = earlier - 1, size - 1
+    while node & 1:
+        node, last = node >> 1, last >> 1
+    old = new = proof[0]
+    for beside in proof[1:]:
+        if last == 0:
+            return False
+        if node & 1 or node == last:
+            old, new = sha256(b"\x01" + beside + old), sha256(b"\x01" + beside + new)
+            while not node & 1 and node:
+                node, last = node >> 1, last >> 1
+        else:
+            new = sha256(b"\x01" + new + beside)
+        node, last = node >> 1, last >> 1
+    return last == 0 and old == earlier_root and new == root
+
+
 def unhex(digits):
     if not re.fullmatch("([0-9a-f]{2})*", digits):
         raise ValueError("hexadecimal digits are missing")
@@ -368,6 +395,15 @@ class Head:
             raise ValueError("no head of an archive") from missing
         if type(self.size) is not int or self.size < 1:
             raise ValueError("no head of an archive")
+        self.extends = None
+        if "extends" in value:
+            try:
+                earlier = value["extends"]
+                self.extends = earlier["size"], unhex(earlier["root"]), [unhex(one) for one in earlier["proof"]]
+            except (KeyError, TypeError, AttributeError) as missing:
+                raise ValueError("no head of an archive") from missing
+            if type(self.extends[0]) is not int:
+                raise ValueError("no head of an archive")
         self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
 
     def faults(self, name, public_key):
@@ -379,6 +415,16 @@ class Head:
                 yield f"{name}: the head is signed with another key than the trusted one"
         elif public_key:
             yield f"{name}: the head is not signed"
+
+
+def verify_head(head, name, heads, public_key):
+    """Findings of a head without its archive: it extends the earlier ones."""
+    yield from head.faults(name, public_key)
+    if head.extends and not is_extended(head.extends[0], head.extends[1], head.size, head.root, head.extends[2]):
+        yield f"{name}: its proof does not lead to its root"
+    for earlier in heads:
+        if head.archive != earlier.archive or not head.extends or head.extends[:2] != (earlier.size, earlier.root):
+            yield f"{name}: does not prove that it extends the head of {earlier.size} entries"
 
 
 def verify_store(path, heads):
@@ -519,6 +565,12 @@ def findings(path, head_files=(), public_key="", tell=lambda text: None):
         yield from verify_store(path, heads)
         return
     value = strict_object(pathlib.Path(path).read_bytes())
+    if value is not None and value.get("schema") == "gumcert/archive-head/1":
+        try:
+            yield from verify_head(Head(value), path, heads, public_key)
+        except ValueError as wrong:
+            yield f"{path}: {wrong}"
+        return
     if value is None or value.get("schema") != "gumcert/archive-evidence/1":
         yield "neither an archive nor evidence"
         return
