@@ -485,8 +485,9 @@ def findings_of(database, heads):
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
     kept = set()
     for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
-        digest = digest.decode("utf-8", "replace")
-        if hashlib.sha256(data).hexdigest() != digest:
+        # A damaged row may hold NULL where text and bytes belong.
+        digest = digest.decode("utf-8", "replace") if isinstance(digest, bytes) else ""
+        if hashlib.sha256(data if isinstance(data, bytes) else b"").hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
             yield f"content {digest}: no entry of the log names it"
