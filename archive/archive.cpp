@@ -227,6 +227,39 @@ Written Archive::take_number(const Request& request) {
     });
 }
 
+Written Archive::take_amendment_number(const std::string& original, const Request& request) {
+    const LogEntry wanted = entry_for(request, "numbered");
+    return write(wanted, [&] {
+        require_known(original, store_.entries_of(original));
+        const std::string series = series_of_amendments(original);
+        LogRules rules = rules_for({original}, "");
+        if (rules.life(original)->state != "issued") {
+            refuse_breach({Breach::Kind::amendment, "certificate " + original + " is " + rules.life(original)->state,
+                           "an amendment amends or replaces a certificate that is issued and holds"},
+                          wanted, "");
+        }
+        // All before the next one were taken, or chosen by hand.
+        long long ordinal = 1;
+        for (;; ++ordinal) {
+            const std::vector<LogEntry> chosen = store_.entries_of(series + std::to_string(ordinal));
+            if (chosen.empty()) {
+                break;
+            }
+            for (const LogEntry& known : chosen) {
+                rules.take(known);
+            }
+        }
+        LogEntry entry = wanted;
+        entry.certificate = series + std::to_string(ordinal);
+        json body = changed_state("", "numbered", request.why);
+        body["new"]["amends"] = original;
+        body["new"]["ordinal"] = ordinal;
+        body["new"]["series"] = series;
+        entry.body = gumcert::json::canonical_json(body);
+        return append(rules, entry);
+    });
+}
+
 Written Archive::draft(const Draft& draft, const Request& request) {
     LogEntry entry = entry_for(request, "drafted", draft.number);
     entry.record = encoding::sha256(draft.record);

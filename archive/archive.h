@@ -79,6 +79,8 @@ public:
     /// Takes the next certificate number; where it is not used in the end, it is withdrawn with a reason.
     /// \return its entry names it
     Written take_number(const Request& request);
+    /// Takes the next number for an amendment of an issued certificate: "EX-2026-0001/A1", A2 …
+    Written take_amendment_number(const std::string& original, const Request& request);
     Written draft(const Draft& draft, const Request& request);
     /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
     ///              amended or superseded, in one transaction.

@@ -244,9 +244,7 @@ class Rules:
             return "old or new state is another one"
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
-            pattern = self.settings["numbering"]
-            good = (pattern and series == pattern.replace("YYYY", entry["at"][:4].decode(), 1) and type(ordinal) is int and
-                    number_in(series, ordinal) == number and ordinal == self.ordinals.get(series, 0) + 1)
+            good = type(ordinal) is int and self.is_next(number, series, ordinal, text(body, "new", "amends"), entry["at"][:4].decode())
             return None if good or not self.judges_numbers else f"the number {number} does not follow the last one"
         if kind == "drafted":
             return self.breach_of_draft(names, body, life)
@@ -262,6 +260,16 @@ class Rules:
         if kind == "withdrawn" and not text(body, "why"):
             return "no reason is given"
         return None
+
+    def is_next(self, number, series, ordinal, amends, year):
+        if amends:
+            free = self.ordinals.get(series, 0) + 1
+            while f"{series}{free}" in self.lives:
+                free += 1
+            return self.state(amends) == "issued" and series == amends + "/A" and ordinal == free and number == f"{series}{ordinal}"
+        pattern = self.settings["numbering"]
+        return (pattern and series == pattern.replace("YYYY", year, 1) and number_in(series, ordinal) == number and
+                ordinal == self.ordinals.get(series, 0) + 1)
 
     def breach_of_draft(self, names, body, life):
         number, documents = names["certificate"], part(body, "new", "documents")

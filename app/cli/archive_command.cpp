@@ -136,7 +136,10 @@ ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& com
 
 ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_and_write);
-    return told(archive::Archive(*store).take_number(request_of(options)), options, common);
+    archive::Archive archive(*store);
+    return told(options.amend.empty() ? archive.take_number(request_of(options))
+                                      : archive.take_amendment_number(options.amend, request_of(options)),
+                options, common);
 }
 
 ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, bool is_amendment) {
@@ -697,7 +700,7 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
 constexpr std::array<Action, 17> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
     {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
-    {"number", 0, 0, "nothing more", " store by why key format ", take_number},
+    {"number", 0, 0, "nothing more", " store by why key format amend ", take_number},
     {"add", 1, k_any, "a record and its documents", " store by why key format trust ", add_certificate},
     {"review", 1, 1, "the number of a certificate", " store by why key format ", review_certificate},
     {"authorise", 1, 1, "the number of a certificate", " store by why key format ", authorise_certificate},
@@ -722,7 +725,7 @@ struct GivenOption {
 };
 
 void require_options(const Action& action, const ArchiveOptions& o) {
-    const std::array<GivenOption, 17> given = {{{"store", "--store", !o.store.empty()},
+    const std::array<GivenOption, 18> given = {{{"store", "--store", !o.store.empty()},
                                                 {"by", "--by", !o.by.empty()},
                                                 {"why", "--why", !o.why.empty()},
                                                 {"key", "--request-key", !o.request_key.empty()},
@@ -735,6 +738,7 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                                                 {"sign", "--sign", !o.sign.empty()},
                                                 {"trust", "--trust", !o.trust.empty()},
                                                 {"csv", "--format csv", o.format == "csv"},
+                                                {"amend", "--amend", !o.amend.empty()},
                                                 {"source", "--source", !o.source.empty()},
                                                 {"since", "--since", !o.since.empty()},
                                                 {"until", "--until", !o.until.empty()},

@@ -346,6 +346,10 @@ void add_archive(CLI::App& program, Arguments& a) {
              "For add and amend: certificates that are trusted, as of gumcert verify. For verify: the public key\n"
              "(PEM, Ed25519) that heads must be signed with");
     command
+        .add_option("--amend", o.amend,
+                    "For number: the certificate that is amended; taken is its next number, as EX-2026-0042/A1")
+        ->type_name("NUMBER");
+    command
         .add_option(
             "--source", o.source,
             "For affected: the standard, by its identification in the register or the number of its certificate")

@@ -292,6 +292,7 @@ TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment
                                "The certificate of STD-017 was withdrawn by its issuer."});
     const Ended ended = archive(again);
     EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_TRUE(tells(archive({"number", "--amend", "EX-2026-0042"}, "R. Lin"), "EX-2026-0042/A1 numbered"));
     const json found = json::parse(ended.out, nullptr, false);
     ASSERT_EQ(found["certificates"].size(), 1U) << ended.out;
     EXPECT_EQ(found["certificates"][0]["outcome"], "printed");
@@ -306,7 +307,7 @@ TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment
     ASSERT_EQ(evaluated.code, 0) << evaluated.err;
     const Ended amended = archive({"amend", record}, "R. Lin");
     EXPECT_EQ(amended.code, 0) << amended.err;
-    const json entry = shown({"show", "EX-2026-0042/A1"})["entries"][0]["body"];
+    const json entry = shown({"show", "EX-2026-0042/A1"})["entries"][1]["body"];
     EXPECT_EQ(entry["why"], "The certificate of STD-017 was withdrawn by its issuer.");
     EXPECT_FALSE(entry["amends"]["changes"].empty());
 
