@@ -359,7 +359,7 @@ void add_archive(CLI::App& program, Arguments& a) {
             "--since", o.since,
             "For affected: the first day of use that counts, as 2026-11-21. For head: an earlier head, which the "
             "new one proves to extend")
-        ->type_name("DATE|FILE");
+        ->type_name("DATE");
     command.add_option("--until", o.until, "For affected: the last day of use that counts. Default: there is none")
         ->type_name("DATE");
     command
