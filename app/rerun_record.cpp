@@ -168,6 +168,22 @@ bool RerunRecord::is_negative() const {
     return not_evaluated || count(ChangeKind::printed) > 0 || count(ChangeKind::verdict) > 0;
 }
 
+void tell_changes(const std::string& before, const reports::EvaluationRecord& now, RerunRecord& rerun) {
+    json left = json::parse(before);
+    json right = json::parse(reports::to_canonical_json(now));
+    for (json* const one : {&left, &right}) {  // they follow from the rest, or differ by their nature
+        one->erase("digest");
+        one->erase("software");
+    }
+    tell_differences(left, right, [&rerun](const std::string& pointer, const json* stated, const json* other) {
+        const ChangeKind kind = kind_of_change(pointer, stated, other);
+        ++rerun.counts.at(static_cast<std::size_t>(kind));
+        if (rerun.changes.size() < k_most_changes) {
+            rerun.changes.push_back({kind, pointer, as_read(stated), as_read(other)});
+        }
+    });
+}
+
 RerunRecord rerun_record(const std::string& text, const std::string& name, unsigned threads,
                          const std::filesystem::path& templates, const gum::Progress& progress,
                          std::span<const Kind> kinds) {
@@ -187,19 +203,7 @@ RerunRecord rerun_record(const std::string& text, const std::string& name, unsig
         rerun.not_evaluated = error.diagnostics().front();
         return rerun;
     }
-    json before = json::parse(text);
-    json now = json::parse(reports::to_canonical_json(evaluated));
-    for (json* const one : {&before, &now}) {  // they follow from the rest, or differ by their nature
-        one->erase("digest");
-        one->erase("software");
-    }
-    tell_differences(before, now, [&rerun](const std::string& pointer, const json* stated, const json* other) {
-        const ChangeKind kind = kind_of_change(pointer, stated, other);
-        ++rerun.counts.at(static_cast<std::size_t>(kind));
-        if (rerun.changes.size() < k_most_changes) {
-            rerun.changes.push_back({kind, pointer, as_read(stated), as_read(other)});
-        }
-    });
+    tell_changes(text, evaluated, rerun);
     return rerun;
 }
 

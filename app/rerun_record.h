@@ -52,6 +52,10 @@ struct RerunRecord {
     [[nodiscard]] bool is_negative() const;
 };
 
+/// Compares a record with another one of the same measurement, and puts what differs into `rerun`.
+/// \param before  the record as JSON
+void tell_changes(const std::string& before, const reports::EvaluationRecord& now, RerunRecord& rerun);
+
 /// Evaluates the job in a record with this version of the program and compares. The version that made the record does not
 /// matter; its own digest, where it states one, and those of its files do.
 /// \param text  of the record

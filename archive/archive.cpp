@@ -227,6 +227,39 @@ Written Archive::take_number(const Request& request) {
     });
 }
 
+Written Archive::take_amendment_number(const std::string& original, const Request& request) {
+    const LogEntry wanted = entry_for(request, "numbered");
+    return write(wanted, [&] {
+        require_known(original, store_.entries_of(original));
+        const std::string series = series_of_amendments(original);
+        LogRules rules = rules_for({original}, "");
+        if (rules.life(original)->state != "issued") {
+            refuse_breach({Breach::Kind::amendment, "certificate " + original + " is " + rules.life(original)->state,
+                           "an amendment amends or replaces a certificate that is issued and holds"},
+                          wanted, "");
+        }
+        // All before the next one were taken, or chosen by hand.
+        long long ordinal = 1;
+        for (;; ++ordinal) {
+            const std::vector<LogEntry> chosen = store_.entries_of(series + std::to_string(ordinal));
+            if (chosen.empty()) {
+                break;
+            }
+            for (const LogEntry& known : chosen) {
+                rules.take(known);
+            }
+        }
+        LogEntry entry = wanted;
+        entry.certificate = series + std::to_string(ordinal);
+        json body = changed_state("", "numbered", request.why);
+        body["new"]["amends"] = original;
+        body["new"]["ordinal"] = ordinal;
+        body["new"]["series"] = series;
+        entry.body = gumcert::json::canonical_json(body);
+        return append(rules, entry);
+    });
+}
+
 Written Archive::draft(const Draft& draft, const Request& request) {
     LogEntry entry = entry_for(request, "drafted", draft.number);
     entry.record = encoding::sha256(draft.record);
@@ -344,20 +377,37 @@ std::vector<LogEntry> Archive::history(const std::string& certificate) {
     return entries;
 }
 
+std::vector<ListedCertificate> Archive::listed() {
+    std::vector<ListedCertificate> certificates;
+    std::map<std::string, std::string> items;
+    for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
+        if (const std::optional<json> body = body_of(draft)) {
+            items[draft.certificate] = text_in(*body, "new", "item");
+        }
+    }
+    for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
+        certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
+    }
+    return certificates;
+}
+
 std::vector<ListedCertificate> Archive::list() {
     std::vector<ListedCertificate> certificates;
+    store_.read([&] { certificates = listed(); });
+    return certificates;
+}
+
+void Archive::each_record(const std::function<void(std::size_t number)>& begin,
+                          const std::function<void(const ListedCertificate&, std::string bytes)>& visit) {
     store_.read([&] {
-        std::map<std::string, std::string> items;
-        for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
-            if (const std::optional<json> body = body_of(draft)) {
-                items[draft.certificate] = text_in(*body, "new", "item");
-            }
-        }
-        for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
-            certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
+        std::vector<ListedCertificate> certificates = listed();
+        std::erase_if(certificates, [](const ListedCertificate& one) { return one.record.empty(); });
+        begin(certificates.size());
+        for (const ListedCertificate& one : certificates) {
+            // A record that is missing is for the verifier to tell; here it is one that says nothing.
+            visit(one, store_.content(one.record).value_or(""));
         }
     });
-    return certificates;
 }
 
 std::string Archive::record_of(const std::string& certificate) {
@@ -371,10 +421,25 @@ std::string Archive::record_of(const std::string& certificate) {
     return std::move(*bytes);
 }
 
-Head Archive::head() {
+WalkedLog Archive::walked() {
     WalkedLog log;
     store_.read([&] { store_.each_entry([&](const LogEntry& entry) { log.add(entry); }); });
-    return log.head();
+    return log;
+}
+
+Head Archive::head() {
+    return walked().head();
+}
+
+Head Archive::head_since(const Head& earlier) {
+    std::optional<Head> head = walked().head_since(earlier);
+    if (!head) {
+        refuse_request("GC-ARCHIVE-0036", "head of " + std::to_string(earlier.size) + " entries, " + earlier.at,
+                       "the archive does not begin with these entries",
+                       "an archive begins with what its earlier heads say",
+                       "the log was cut off, rewritten, or belongs to another archive: compare with a backup");
+    }
+    return std::move(*head);
 }
 
 }  // namespace gumcert::archive

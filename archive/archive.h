@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -78,6 +79,8 @@ public:
     /// Takes the next certificate number; where it is not used in the end, it is withdrawn with a reason.
     /// \return its entry names it
     Written take_number(const Request& request);
+    /// Takes the next number for an amendment of an issued certificate: "EX-2026-0001/A1", A2 …
+    Written take_amendment_number(const std::string& original, const Request& request);
     Written draft(const Draft& draft, const Request& request);
     /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
     ///              amended or superseded, in one transaction.
@@ -92,14 +95,23 @@ public:
     [[nodiscard]] CertificateLife life(const std::string& certificate);
     [[nodiscard]] std::vector<LogEntry> history(const std::string& certificate);
     [[nodiscard]] std::vector<ListedCertificate> list();
+    /// The certificates of list() that have a record, with its bytes, all of one state of the archive.
+    /// \param number  of certificates, before the first one
+    void each_record(const std::function<void(std::size_t number)>& begin,
+                     const std::function<void(const ListedCertificate&, std::string bytes)>& visit);
     /// Bytes of the record that holds.
     [[nodiscard]] std::string record_of(const std::string& certificate);
     [[nodiscard]] Head head();
+    /// The same with the proof that nothing was changed since an earlier head.
+    /// \throws gum::InputError  GC-ARCHIVE-0036 where the archive does not begin with what it says
+    [[nodiscard]] Head head_since(const Head& earlier);
 
 private:
     Store& store_;
 
+    [[nodiscard]] std::vector<ListedCertificate> listed();
     [[nodiscard]] LogRules rules_for(const std::vector<std::string>& certificates, const std::string& series);
+    [[nodiscard]] WalkedLog walked();
     LogEntry append(LogRules& rules, LogEntry entry);
     Written write(const LogEntry& wanted, const std::function<LogEntry()>& work);
     void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);

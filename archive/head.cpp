@@ -37,6 +37,19 @@ std::string bytes_at(const nlohmann::json& object, const char* key, std::size_t 
     refuse_head(name, key);
 }
 
+Head::Extension extension_in(const nlohmann::json& value, const std::string& name) {
+    const nlohmann::json size = value.is_object() ? value.value("size", nlohmann::json()) : nlohmann::json();
+    const nlohmann::json proof = value.is_object() ? value.value("proof", nlohmann::json()) : nlohmann::json();
+    if (!size.is_number_integer() || size.get<std::int64_t>() < 1 || !proof.is_array()) {
+        refuse_head(name, "extends");
+    }
+    Head::Extension extension{size.get<std::int64_t>(), bytes_at(value, "root", k_hash_bytes, name), {}};
+    for (const nlohmann::json& node : proof) {
+        extension.proof.push_back(bytes_at({{"proof", node}}, "proof", k_hash_bytes, name));
+    }
+    return extension;
+}
+
 nlohmann::json unsigned_json(const Head& head) {
     return {{"schema", k_head_schema},
             {"archive", encoding::hexadecimal(head.archive)},
@@ -64,6 +77,30 @@ Head WalkedLog::head() const {
     return head;
 }
 
+std::optional<Head> WalkedLog::head_since(const Head& earlier) const {
+    if (earlier.size < 1 || earlier.size > head_.size || earlier.archive != head_.archive) {
+        return std::nullopt;
+    }
+    const auto size = static_cast<std::size_t>(earlier.size);
+    if (tree_.root(size) != earlier.root) {
+        return std::nullopt;
+    }
+    Head later = head();
+    later.extends = Head::Extension{earlier.size, earlier.root, tree_.consistency_proof(size, tree_.size())};
+    return later;
+}
+
+bool proves_its_extension(const Head& head) {
+    return head.extends && head.extends->size >= 1 &&
+           is_extended(static_cast<std::size_t>(head.extends->size), head.extends->root,
+                       static_cast<std::size_t>(head.size), head.root, head.extends->proof);
+}
+
+bool proves_extension(const Head& later, const Head& earlier) {
+    return later.extends && later.archive == earlier.archive && later.extends->size == earlier.size &&
+           later.extends->root == earlier.root && proves_its_extension(later);
+}
+
 std::string signed_bytes(const Head& head) {
     return gumcert::json::canonical_json(unsigned_json(head));
 }
@@ -74,6 +111,15 @@ std::string to_json(const Head& head) {
         object["signature"] = {{"algorithm", "Ed25519"},
                                {"public_key", encoding::hexadecimal(head.signature->public_key)},
                                {"value", encoding::hexadecimal(head.signature->value)}};
+    }
+    if (head.extends) {
+        nlohmann::json proof = nlohmann::json::array();
+        for (const std::string& node : head.extends->proof) {
+            proof.push_back(encoding::hexadecimal(node));
+        }
+        object["extends"] = {{"size", head.extends->size},
+                             {"root", encoding::hexadecimal(head.extends->root)},
+                             {"proof", std::move(proof)}};
     }
     return gumcert::json::canonical_json(object);
 }
@@ -103,6 +149,9 @@ Head head_from_json(std::string_view text, const std::string& name) {
         }
         head.signature = Head::Signature{bytes_at(*signature, "public_key", k_hash_bytes, name),
                                          bytes_at(*signature, "value", k_signature_bytes, name)};
+    }
+    if (const auto extends = object->find("extends"); extends != object->end()) {
+        head.extends = extension_in(*extends, name);
     }
     return head;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "archive/store/entry.h"
 #include "archive/store/merkle.h"
@@ -24,6 +25,14 @@ struct Head {
         friend bool operator==(const Signature&, const Signature&) = default;
     };
     std::optional<Signature> signature = {};
+    /// Shows that the archive begins with all that an earlier head speaks of. It is not signed: it proves itself.
+    struct Extension {
+        std::int64_t size = 0;           ///< of the earlier head
+        std::string root;                ///< of the earlier head
+        std::vector<std::string> proof;  ///< archive/store/merkle.h
+        friend bool operator==(const Extension&, const Extension&) = default;
+    };
+    std::optional<Extension> extends = {};
 
     friend bool operator==(const Head&, const Head&) = default;
 };
@@ -35,12 +44,20 @@ public:
     /// All of it but the root, which takes time.
     [[nodiscard]] const Head& without_root() const { return head_; }
     [[nodiscard]] Head head() const;
+    /// The same with the proof that it extends an earlier one.
+    /// \return none where it does not
+    [[nodiscard]] std::optional<Head> head_since(const Head& earlier) const;
     [[nodiscard]] const MerkleTree& tree() const { return tree_; }
 
 private:
     Head head_;
     MerkleTree tree_;
 };
+
+/// Whether the proof in a head shows that its log begins with that of an earlier one, without the archive.
+[[nodiscard]] bool proves_extension(const Head& later, const Head& earlier);
+/// Whether the proof in a head leads from the root that it names to its own.
+[[nodiscard]] bool proves_its_extension(const Head& head);
 
 /// Canonical JSON with hashes in hexadecimal, schema "gumcert/archive-head/1".
 [[nodiscard]] std::string to_json(const Head& head);

@@ -63,6 +63,10 @@ std::string worded_state(const std::string& state) {
 
 }  // namespace
 
+std::string series_of_amendments(const std::string& original) {
+    return original + "/A";
+}
+
 std::optional<json> body_of(const LogEntry& entry) {
     std::optional<json> body = gumcert::json::parse_faultless(entry.body, {});
     return body && body->is_object() ? body : std::nullopt;
@@ -106,6 +110,32 @@ const CertificateLife* LogRules::life(const std::string& certificate) const {
 long long LogRules::last_ordinal(const std::string& series) const {
     const auto found = ordinals_.find(series);
     return found == ordinals_.end() ? 0 : found->second;
+}
+
+long long LogRules::next_amendment(const std::string& original) const {
+    const std::string series = series_of_amendments(original);
+    long long ordinal = last_ordinal(series) + 1;
+    while (life(series + std::to_string(ordinal)) != nullptr) {
+        ++ordinal;
+    }
+    return ordinal;
+}
+
+bool LogRules::is_next_number(const LogEntry& entry, const json& body) const {
+    const std::string series = text_of(member(body, "new"), "series");
+    const json& ordinal = member(member(body, "new"), "ordinal");
+    if (!ordinal.is_number_integer()) {
+        return false;
+    }
+    const auto number = ordinal.get<long long>();
+    const std::string amends = text_of(member(body, "new"), "amends");
+    if (!amends.empty()) {
+        const CertificateLife* const original = life(amends);
+        return original != nullptr && original->state == "issued" && series == series_of_amendments(amends) &&
+               number == next_amendment(amends) && entry.certificate == series + std::to_string(number);
+    }
+    return !settings_.numbering.empty() && series == series_of(settings_.numbering, entry.at) &&
+           number == last_ordinal(series) + 1 && number_in(series, number) == entry.certificate;
 }
 
 std::string LogRules::due() const {
@@ -213,11 +243,7 @@ std::optional<Breach> LogRules::breach_of_life(const LogEntry& entry, const json
                       "an entry states the old and the new state");
     }
     if (entry.kind == "numbered") {
-        const std::string series = text_of(member(body, "new"), "series");
-        const json& ordinal = member(member(body, "new"), "ordinal");
-        if (settings_.numbering.empty() || series != series_of(settings_.numbering, entry.at) ||
-            !ordinal.is_number_integer() || ordinal.get<long long>() != last_ordinal(series) + 1 ||
-            number_in(series, ordinal.get<long long>()) != entry.certificate) {
+        if (!is_next_number(entry, body)) {
             return breach(Breach::Kind::number, "the number is " + entry.certificate,
                           "certificate numbers follow each other without gaps");
         }

@@ -49,6 +49,9 @@ public:
     [[nodiscard]] const std::map<std::string, CertificateLife>& lives() const { return lives_; }
     /// The highest ordinal of a series that is taken; 0 where none is.
     [[nodiscard]] long long last_ordinal(const std::string& series) const;
+    /// The next ordinal of the amendments of a certificate: of all that are known, the first one behind those taken that
+    /// nobody has chosen by hand.
+    [[nodiscard]] long long next_amendment(const std::string& original) const;
     /// What must come next: "amended-by EX-1": an amendment that is issued, and the entry of the original is missing. ""
     /// where anything may come.
     [[nodiscard]] std::string due() const;
@@ -64,11 +67,14 @@ private:
     std::optional<Breach> breach_of(const LogEntry& entry, const nlohmann::json& body) const;
     std::optional<Breach> breach_of_archive(const LogEntry& entry, const nlohmann::json& body) const;
     std::optional<Breach> breach_of_life(const LogEntry& entry, const nlohmann::json& body) const;
+    [[nodiscard]] bool is_next_number(const LogEntry& entry, const nlohmann::json& body) const;
     std::optional<Breach> breach_of_draft(const LogEntry& entry, const nlohmann::json& body) const;
     std::optional<Breach> breach_of_person(const LogEntry& entry) const;
     void apply(const LogEntry& entry, const nlohmann::json& body);
 };
 
+/// Series of the amendments of a certificate: "EX-2026-0001/A", before the ordinal.
+[[nodiscard]] std::string series_of_amendments(const std::string& original);
 /// Body of an entry as JSON; none where it is none, or not an object.
 [[nodiscard]] std::optional<nlohmann::json> body_of(const LogEntry& entry);
 /// A text of the body, such as "state" in its part "new"; "" where there is none.

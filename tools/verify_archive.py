@@ -91,6 +91,33 @@ def root_of_proof(entry, index, size, proof):
     return root if last == 0 else None
 
 
+def is_extended(earlier, earlier_root, size, root, proof):
+    """RFC 9162, 2.1.4.2: whether a tree of size leaves begins with one of the earlier ones."""
+    if not 0 < earlier <= size:
+        return False
+    if earlier == size:
+        return not proof and earlier_root == root
+    if not earlier & earlier - 1:
+        proof = [earlier_root, *proof]
+    if not proof:
+        return False
+    node, last = earlier - 1, size - 1
+    while node & 1:
+        node, last = node >> 1, last >> 1
+    old = new = proof[0]
+    for beside in proof[1:]:
+        if last == 0:
+            return False
+        if node & 1 or node == last:
+            old, new = sha256(b"\x01" + beside + old), sha256(b"\x01" + beside + new)
+            while not node & 1 and node:
+                node, last = node >> 1, last >> 1
+        else:
+            new = sha256(b"\x01" + new + beside)
+        node, last = node >> 1, last >> 1
+    return last == 0 and old == earlier_root and new == root
+
+
 def unhex(digits):
     if not re.fullmatch("([0-9a-f]{2})*", digits):
         raise ValueError("hexadecimal digits are missing")
@@ -217,9 +244,7 @@ class Rules:
             return "old or new state is another one"
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
-            pattern = self.settings["numbering"]
-            good = (pattern and series == pattern.replace("YYYY", entry["at"][:4].decode(), 1) and type(ordinal) is int and
-                    number_in(series, ordinal) == number and ordinal == self.ordinals.get(series, 0) + 1)
+            good = type(ordinal) is int and self.is_next(number, series, ordinal, text(body, "new", "amends"), entry["at"][:4].decode())
             return None if good or not self.judges_numbers else f"the number {number} does not follow the last one"
         if kind == "drafted":
             return self.breach_of_draft(names, body, life)
@@ -235,6 +260,16 @@ class Rules:
         if kind == "withdrawn" and not text(body, "why"):
             return "no reason is given"
         return None
+
+    def is_next(self, number, series, ordinal, amends, year):
+        if amends:
+            free = self.ordinals.get(series, 0) + 1
+            while f"{series}{free}" in self.lives:
+                free += 1
+            return self.state(amends) == "issued" and series == amends + "/A" and ordinal == free and number == f"{series}{ordinal}"
+        pattern = self.settings["numbering"]
+        return (pattern and series == pattern.replace("YYYY", year, 1) and number_in(series, ordinal) == number and
+                ordinal == self.ordinals.get(series, 0) + 1)
 
     def breach_of_draft(self, names, body, life):
         number, documents = names["certificate"], part(body, "new", "documents")
@@ -368,6 +403,15 @@ class Head:
             raise ValueError("no head of an archive") from missing
         if type(self.size) is not int or self.size < 1:
             raise ValueError("no head of an archive")
+        self.extends = None
+        if "extends" in value:
+            try:
+                earlier = value["extends"]
+                self.extends = earlier["size"], unhex(earlier["root"]), [unhex(one) for one in earlier["proof"]]
+            except (KeyError, TypeError, AttributeError) as missing:
+                raise ValueError("no head of an archive") from missing
+            if type(self.extends[0]) is not int:
+                raise ValueError("no head of an archive")
         self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
 
     def faults(self, name, public_key):
@@ -379,6 +423,16 @@ class Head:
                 yield f"{name}: the head is signed with another key than the trusted one"
         elif public_key:
             yield f"{name}: the head is not signed"
+
+
+def verify_head(head, name, heads, public_key):
+    """Findings of a head without its archive: it extends the earlier ones."""
+    yield from head.faults(name, public_key)
+    if head.extends and not is_extended(head.extends[0], head.extends[1], head.size, head.root, head.extends[2]):
+        yield f"{name}: its proof does not lead to its root"
+    for earlier in heads:
+        if head.archive != earlier.archive or not head.extends or head.extends[:2] != (earlier.size, earlier.root):
+            yield f"{name}: does not prove that it extends the head of {earlier.size} entries"
 
 
 def verify_store(path, heads):
@@ -439,8 +493,9 @@ def findings_of(database, heads):
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
     kept = set()
     for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
-        digest = digest.decode("utf-8", "replace")
-        if hashlib.sha256(data).hexdigest() != digest:
+        # A damaged row may hold NULL where text and bytes belong.
+        digest = digest.decode("utf-8", "replace") if isinstance(digest, bytes) else ""
+        if hashlib.sha256(data if isinstance(data, bytes) else b"").hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
             yield f"content {digest}: no entry of the log names it"
@@ -519,6 +574,12 @@ def findings(path, head_files=(), public_key="", tell=lambda text: None):
         yield from verify_store(path, heads)
         return
     value = strict_object(pathlib.Path(path).read_bytes())
+    if value is not None and value.get("schema") == "gumcert/archive-head/1":
+        try:
+            yield from verify_head(Head(value), path, heads, public_key)
+        except ValueError as wrong:
+            yield f"{path}: {wrong}"
+        return
     if value is None or value.get("schema") != "gumcert/archive-evidence/1":
         yield "neither an archive nor evidence"
         return

@@ -17,11 +17,13 @@
 #include <string_view>
 #include <utility>
 
+#include "app/affected_certificates.h"
 #include "app/archive_draft.h"
 #include "app/archive_replay.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
+#include "app/laboratory_overview.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
 #include "archive/archive.h"
@@ -136,7 +138,10 @@ ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& com
 
 ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_and_write);
-    return told(archive::Archive(*store).take_number(request_of(options)), options, common);
+    archive::Archive archive(*store);
+    return told(options.amend.empty() ? archive.take_number(request_of(options))
+                                      : archive.take_amendment_number(options.amend, request_of(options)),
+                options, common);
 }
 
 ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, bool is_amendment) {
@@ -362,7 +367,10 @@ ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& 
 ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_only);
     const Output file(options.output, options, common);
-    archive::Head head = archive::Archive(*store).head();
+    archive::Archive archive(*store);
+    const std::string& since = options.since;
+    archive::Head head =
+        since.empty() ? archive.head() : archive.head_since(archive::head_from_json(app::read_file(since), since));
     sign(head, options.sign);
     file.write(archive::to_json(head));
     return done;
@@ -445,11 +453,59 @@ ExitCode verify_bundle(const std::string& file, const ArchiveOptions& options, c
     return sound ? done : negative_answer;
 }
 
+bool is_head(const std::string& text) {
+    const json value = json::parse(text, nullptr, false);
+    return value.is_object() && value.value("schema", json()) == "gumcert/archive-head/1";
+}
+
+/// A head without its archive: its signature, and whether it extends earlier ones.
+ExitCode verify_head(const std::string& file, const ArchiveOptions& options, const CommonOptions& common) {
+    const archive::Head head = archive::head_from_json(app::read_file(file), file);
+    Heads heads(options);
+    heads.look_at(head, file);
+    std::vector<gum::Diagnostic> findings = heads.findings();
+    const auto add = [&](const archive::Head* earlier) {
+        findings.push_back(
+            {.code = "GC-ARCHIVE-0051",
+             .where = file,
+             .what = earlier == nullptr ? std::string("its proof does not lead to its root")
+                                        : "does not prove that it extends the head of " +
+                                              std::to_string(earlier->size) + " entries, " + earlier->at,
+             .rule = "a later head proves that the log begins with what an earlier one says",
+             .action = "ask for a head that is made with gumcert archive head --since and the earlier head"});
+    };
+    if (head.extends && !archive::proves_its_extension(head)) {
+        add(nullptr);
+    }
+    for (const archive::Head& earlier : heads.all()) {
+        if (!archive::proves_extension(head, earlier)) {
+            add(&earlier);
+        }
+    }
+    print_findings(findings, common);
+    if (as_json(options)) {
+        print_json({{"schema", "gumcert/archive-verification/1"},
+                    {"sound", findings.empty()},
+                    {"entries", head.size},
+                    {"extends", head.extends ? json(head.extends->size) : json()},
+                    {"heads", heads.all().size()},
+                    {"findings", shown_findings(findings)}});
+    } else if (!common.quiet) {
+        fmt::print("{}: {}\n  {} entries, {}{}\n", file, findings.empty() ? "sound" : "NOT SOUND", head.size, head.at,
+                   head.extends ? fmt::format("; extends a head of {} entries", head.extends->size)
+                                : "; extends no earlier head");
+    }
+    return findings.empty() ? done : negative_answer;
+}
+
 ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& common) {
     if (!options.named.empty()) {
         ExitCode code = done;
         for (const std::string& file : options.named) {
-            code = std::max(code, explained(common, [&] { return verify_bundle(file, options, common); }));
+            code = std::max(code, explained(common, [&] {
+                                return is_head(app::read_file(file)) ? verify_head(file, options, common)
+                                                                     : verify_bundle(file, options, common);
+                            }));
         }
         return code;
     }
@@ -613,10 +669,86 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     return same == numbers.size() ? done : negative_answer;
 }
 
-constexpr std::array<Action, 17> k_actions = {{
+/// Drafts of amendments, each in a folder of its own that is not there yet.
+void write_drafts(const std::vector<app::AffectedCertificate>& affected, const ArchiveOptions& options) {
+    const fs::path output = options.output;
+    std::map<fs::path, std::vector<app::OutputFile>> by_folder;
+    for (const app::AffectedCertificate& one : affected) {
+        for (const app::OutputFile& file : one.draft) {
+            const fs::path folder = output / *file.path.begin();
+            std::error_code error;
+            if (fs::exists(folder, error) || error) {
+                refuse_usage(folder.string(), "is there already", "a draft is written into a new folder",
+                             "choose another folder with -o");
+            }
+            const fs::path place = output / file.path;
+            by_folder[place.parent_path()].push_back({place, file.bytes});
+        }
+    }
+    for (const auto& [folder, files] : by_folder) {
+        app::write_files(files, {options.store}, {}, false);
+    }
+}
+
+void require_query(const ArchiveOptions& options) {
+    for (const auto& [name, value] : {std::pair("--source", &options.source), std::pair("--since", &options.since)}) {
+        if (value->empty()) {
+            refuse_usage("archive affected", std::string(name) + " is missing",
+                         "the search is for a standard and the days since it was wrong", "name both");
+        }
+    }
+    for (const std::string* const day : {&options.since, &options.until}) {
+        if (!day->empty() && !app::is_day(*day)) {
+            refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
+        }
+    }
+    if (!options.output.empty() && options.register_folder.empty()) {
+        refuse_usage("archive affected", "-o without --register",
+                     "amendments are drafted of certificates that are calculated again",
+                     "name the folder of the laboratory with the corrected standard");
+    }
+}
+
+ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& common) {
+    require_query(options);
+    std::string corrected;
+    if (!options.register_folder.empty()) {
+        corrected = app::read_file(fs::path(options.register_folder) / "standards" / (options.source + ".json"));
+    }
+    const auto store = opened(options, archive::Access::read_only);
+    archive::Archive archive(*store);
+    ProgressLine progress(!common.quiet);
+    const auto tell = [&](const std::string& text) { progress(text); };
+    const app::WrongStandard standard{.name = options.source, .since = options.since, .until = options.until};
+    const auto threads = static_cast<unsigned>(common.threads);
+    std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell);
+    if (!options.register_folder.empty()) {
+        std::set<std::string> used;
+        for (const archive::ListedCertificate& one : archive.list()) {
+            used.insert(one.number);
+        }
+        app::recalculate(
+            affected,
+            {.standard = options.source,
+             .corrected = corrected,
+             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
+             .templates = templates_folder(options.share)},
+            threads, [&](const std::string& number) { return !used.contains(number); }, tell);
+    }
+    progress.clear();
+    if (!options.output.empty()) {
+        write_drafts(affected, options);
+    }
+    write_to_stdout(options.format == "json"  ? app::affected_json(affected, standard)
+                    : options.format == "csv" ? app::affected_csv(affected)
+                                              : app::affected_text(affected));
+    return affected.empty() ? done : negative_answer;
+}
+
+constexpr std::array<Action, 18> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
     {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
-    {"number", 0, 0, "nothing more", " store by why key format ", take_number},
+    {"number", 0, 0, "nothing more", " store by why key format amend ", take_number},
     {"add", 1, k_any, "a record and its documents", " store by why key format trust ", add_certificate},
     {"review", 1, 1, "the number of a certificate", " store by why key format ", review_certificate},
     {"authorise", 1, 1, "the number of a certificate", " store by why key format ", authorise_certificate},
@@ -627,11 +759,12 @@ constexpr std::array<Action, 17> k_actions = {{
     {"list", 0, 0, "nothing more", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
     {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
-    {"head", 0, 0, "nothing more", " store output sign ", write_head},
+    {"head", 0, 0, "nothing more", " store output sign since ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
     {"migrate", 0, 0, "nothing more", " store to format ", migrate},
     {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format ", replay},
+    {"affected", 0, 0, "nothing more", " store why format csv output source since until register ", find_affected},
 }};
 
 struct GivenOption {
@@ -641,7 +774,7 @@ struct GivenOption {
 };
 
 void require_options(const Action& action, const ArchiveOptions& o) {
-    const std::array<GivenOption, 13> given = {{{"store", "--store", !o.store.empty()},
+    const std::array<GivenOption, 19> given = {{{"store", "--store", !o.store.empty()},
                                                 {"to", "--to", !o.to.empty()},
                                                 {"by", "--by", !o.by.empty()},
                                                 {"why", "--why", !o.why.empty()},
@@ -653,7 +786,13 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                                                 {"four", "--no-four-eyes", o.one_pair_of_eyes},
                                                 {"head", "--head", !o.heads.empty()},
                                                 {"sign", "--sign", !o.sign.empty()},
-                                                {"trust", "--trust", !o.trust.empty()}}};
+                                                {"trust", "--trust", !o.trust.empty()},
+                                                {"csv", "--format csv", o.format == "csv"},
+                                                {"amend", "--amend", !o.amend.empty()},
+                                                {"source", "--source", !o.source.empty()},
+                                                {"since", "--since", !o.since.empty()},
+                                                {"until", "--until", !o.until.empty()},
+                                                {"register", "--register", !o.register_folder.empty()}}};
     const auto takes = [&](const char* word) {
         return action.takes.find(" " + std::string(word) + " ") != std::string_view::npos;
     };

@@ -334,11 +334,14 @@ void add_archive(CLI::App& program, Arguments& a) {
         .add_option("--request-key", o.request_key,
                     "A text of your own that makes the request one: asked again with it, nothing happens twice")
         ->type_name("KEY");
-    command.add_option("--format", o.format, "text (for people) or json (for programs). Default: text")
+    command
+        .add_option("--format", o.format,
+                    "text (for people), json (for programs) or, of affected, csv (for tables). Default: text")
         ->type_name("FORM")
-        ->check(CLI::IsMember({"text", "json"}));
+        ->check(CLI::IsMember({"text", "json", "csv"}));
     add_file(command, "-o,--output", o.output,
-             "File of export (default: the number with -evidence.json), head (default: the terminal) or backup");
+             "File of export (default: the number with -evidence.json), head (default: the terminal) or backup; of\n"
+             "affected a folder for drafts of amendments");
     command
         .add_option("--numbering", o.numbering,
                     "Pattern of certificate numbers for init and settings, such as EX-YYYY-####; default: the archive "
@@ -360,6 +363,29 @@ void add_archive(CLI::App& program, Arguments& a) {
     add_file(command, "--trust", o.trust,
              "For add and amend: certificates that are trusted, as of gumcert verify. For verify: the public key\n"
              "(PEM, Ed25519) that heads must be signed with");
+    command
+        .add_option("--amend", o.amend,
+                    "For number: the certificate that is amended; taken is its next number, as EX-2026-0042/A1")
+        ->type_name("NUMBER");
+    command
+        .add_option(
+            "--source", o.source,
+            "For affected: the standard, by its identification in the register or the number of its certificate")
+        ->type_name("ID");
+    command
+        .add_option(
+            "--since", o.since,
+            "For affected: the first day of use that counts, as 2026-11-21. For head: an earlier head, which the "
+            "new one proves to extend")
+        ->type_name("DATE");
+    command.add_option("--until", o.until, "For affected: the last day of use that counts. Default: there is none")
+        ->type_name("DATE");
+    command
+        .add_option(
+            "--register", o.register_folder,
+            "For affected: folder of the laboratory with the corrected standard; the certificates are calculated "
+            "again")
+        ->type_name("DIR");
     add_share(command, o.share);
     command.footer(
         "Example: gumcert archive init --store lab.archive --by \"A. Keeper\" --numbering EX-YYYY-####\n"
@@ -376,8 +402,9 @@ void add_archive(CLI::App& program, Arguments& a) {
         "verify reads without the archive; head writes what proves later that nothing was changed: keep it elsewhere.\n"
         "verify computes every hash again, backup copies while others write, and verifies the copy; migrate copies "
         "into\n"
-        "an archive of either kind, with the same entries, hashes and heads; replay evaluates\n"
-        "archived records with this program, and reports what differs. Exit code 1 where verify or replay finds\n"
+        "an archive of either kind, with the same entries, hashes and heads; replay evaluates archived records with\n"
+        "this program, and reports what differs; affected finds the certificates that rest on a standard, calculates\n"
+        "them again, and drafts amendments. Exit code 1 where verify, replay or affected finds\n"
         "something. docs/archive.md");
 }
 

@@ -86,4 +86,70 @@ std::optional<std::string> root_of_proof(const std::string& entry, std::size_t i
     return last == 0 ? std::optional(root) : std::nullopt;
 }
 
+std::vector<std::string> MerkleTree::consistency_proof(std::size_t earlier, std::size_t size) const {
+    std::vector<std::string> from_the_top;
+    std::size_t first = 0;
+    bool is_known = true;  // whether the part that is left is all of the earlier tree: its root is known then
+    while (earlier < size) {
+        const std::size_t left = left_part(size);
+        if (earlier <= left) {
+            from_the_top.push_back(subtree(leaves_, first + left, size - left));
+            size = left;
+        } else {
+            from_the_top.push_back(subtree(leaves_, first, left));
+            first += left;
+            earlier -= left;
+            size -= left;
+            is_known = false;
+        }
+    }
+    if (!is_known) {
+        from_the_top.push_back(subtree(leaves_, first, size));
+    }
+    return {from_the_top.rbegin(), from_the_top.rend()};
+}
+
+bool is_extended(std::size_t earlier, const std::string& earlier_root, std::size_t size, const std::string& root,
+                 const std::vector<std::string>& proof) {
+    if (earlier == 0 || earlier > size) {
+        return false;
+    }
+    if (earlier == size) {
+        return proof.empty() && earlier_root == root;
+    }
+    std::vector<std::string> path = proof;
+    if (std::has_single_bit(earlier)) {
+        path.insert(path.begin(), earlier_root);
+    }
+    if (path.empty()) {
+        return false;
+    }
+    std::size_t node = earlier - 1;
+    std::size_t last = size - 1;
+    while (node % 2 == 1) {
+        node /= 2;
+        last /= 2;
+    }
+    std::string found_earlier = path.front();
+    std::string found = path.front();
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        if (last == 0) {
+            return false;
+        }
+        if (node % 2 == 1 || node == last) {
+            found_earlier = node_hash(path[i], found_earlier);
+            found = node_hash(path[i], found);
+            while (node % 2 == 0 && node != 0) {
+                node /= 2;
+                last /= 2;
+            }
+        } else {
+            found = node_hash(found, path[i]);
+        }
+        node /= 2;
+        last /= 2;
+    }
+    return last == 0 && found_earlier == earlier_root && found == root;
+}
+
 }  // namespace gumcert::archive

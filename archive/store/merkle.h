@@ -21,6 +21,9 @@ public:
     /// What is needed beside a leaf to find the root of the first `size` leaves (RFC 6962, 2.1.1), the lowest first.
     /// \param index  from 0, below size
     [[nodiscard]] std::vector<std::string> inclusion_proof(std::size_t index, std::size_t size) const;
+    /// What shows that the first `size` leaves begin with the first `earlier` ones (RFC 6962, 2.1.2).
+    /// \param earlier  1 … size; of two equal sizes nothing is needed
+    [[nodiscard]] std::vector<std::string> consistency_proof(std::size_t earlier, std::size_t size) const;
 
 private:
     std::vector<std::string> leaves_;  // hashes, 32 bytes each
@@ -30,5 +33,9 @@ private:
 /// \return none where the proof has another length than that of such a leaf
 [[nodiscard]] std::optional<std::string> root_of_proof(const std::string& entry, std::size_t index, std::size_t size,
                                                        const std::vector<std::string>& proof);
+
+/// Whether a proof shows that a tree of `size` leaves begins with one of `earlier` leaves (RFC 9162, 2.1.4.2).
+[[nodiscard]] bool is_extended(std::size_t earlier, const std::string& earlier_root, std::size_t size,
+                               const std::string& root, const std::vector<std::string>& proof);
 
 }  // namespace gumcert::archive

@@ -5,6 +5,8 @@
 //                                                       "not sound: CODE …"
 //   archive_driver write FILE WHO COUNT                 drafts COUNT certificates, and says of each one when it is kept
 //   archive_driver number FILE WHO COUNT                takes COUNT numbers, and prints them
+//   archive_driver fill FILE COUNT RECORD               a new archive with COUNT drafts, each durable by itself: of RECORD, with
+//                                                       its number in place of "EX-2026-0042"
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -105,6 +107,23 @@ int number(const std::vector<std::string>& words) {
     return 0;
 }
 
+int fill(const std::vector<std::string>& words) {
+    const std::string record = content_of(words.at(3));
+    const std::string number = "EX-2026-0042";
+    test::Clock clock;
+    const Request request{.actor = "A. Author", .at = clock.next(), .request_key = "", .why = ""};
+    const auto store = create_sqlite_store(words.at(1), first_entry({}, "gumcert of the tests", "nonce", request));
+    Archive archive(*store);
+    for (int i = 0; i < std::stoi(words.at(2)); ++i) {
+        Draft draft{.number = "L-" + std::to_string(i), .item = "gauge", .record = record, .documents = {}};
+        for (std::size_t at = draft.record.find(number); at != std::string::npos; at = draft.record.find(number, at)) {
+            draft.record.replace(at, number.size(), draft.number);
+        }
+        (void)archive.draft(draft, request);
+    }
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -115,6 +134,7 @@ int main(int argc, char** argv) {
                : what == "judge"  ? judge()
                : what == "write"  ? write(words)
                : what == "number" ? number(words)
+               : what == "fill"   ? fill(words)
                                   : 2;
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';

@@ -265,6 +265,29 @@ def refused_by_triggers(path):
             database.close()
 
 
+def consistency_proof(earlier, leaves, is_known=True):
+    """RFC 6962, 2.1.2, as it is written there."""
+    if earlier == len(leaves):
+        return [] if is_known else [verify_archive.root_of(leaves)]
+    left = 1 << (len(leaves) - 1).bit_length() - 1
+    if earlier <= left:
+        return consistency_proof(earlier, leaves[:left], is_known) + [verify_archive.root_of(leaves[left:])]
+    return consistency_proof(earlier - left, leaves[left:], False) + [verify_archive.root_of(leaves[:left])]
+
+
+def trees_extend_each_other():
+    leaves = [verify_archive.leaf(str(i).encode()) for i in range(64)]
+    roots = [verify_archive.root_of(leaves[:i]) for i in range(65)]
+    for size in range(1, 65):
+        for earlier in range(1, size + 1):
+            proof = consistency_proof(earlier, leaves[:size])
+            name = f"a tree of {size} that extends one of {earlier}"
+            expect(verify_archive.is_extended(earlier, roots[earlier], size, roots[size], proof), name)
+            for spoiled in [proof + [roots[1]], *([*proof[:i], roots[0], *proof[i + 1:]] for i in range(len(proof)))]:
+                expect(not verify_archive.is_extended(earlier, roots[earlier], size, roots[size], spoiled), f"{name}: another proof")
+            expect(not verify_archive.is_extended(earlier, roots[0], size, roots[size], proof), f"{name}: another root")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
@@ -274,6 +297,7 @@ def main():
     options = parser.parse_args()
     rng = random.Random(options.seed)
     judges = Judges(options.driver)
+    trees_extend_each_other()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         sound = []

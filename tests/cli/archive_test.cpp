@@ -274,6 +274,89 @@ TEST_F(ArchiveOfALaboratory, ComparesAnAmendmentWithWhatWasIssued) {
     EXPECT_TRUE(tells(archive(files("amend", "second"), "R. Lin"), "[GC-ARCHIVE-0035]"));
 }
 
+TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment) {
+    fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "laboratory", folder(),
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    issue_the_example();
+    const std::vector<std::string> query = {"affected", "--source", "STD-017", "--since", "2026-03-02"};
+    const Ended listed = archive(query);
+    EXPECT_EQ(listed.code, 1) << listed.err;
+    EXPECT_TRUE(tells(listed, "EX-2026-0042              issued")) << listed.out;
+    EXPECT_EQ(archive({"affected", "--source", "STD-018", "--since", "2026-03-02"}).code, 0);
+    EXPECT_EQ(archive({"affected", "--source", "STD-017", "--since", "2026-12-01"}).code, 0);
+
+    fs::copy(folder() / "laboratory", folder() / "corrected", fs::copy_options::recursive);
+    replace_in(folder() / "corrected" / "standards" / "STD-017.json", "50.000623", "50.000643");
+    std::vector<std::string> again = query;
+    again.insert(again.end(), {"--register", path("corrected"), "-o", path("drafts"), "--format", "json", "--why",
+                               "The certificate of STD-017 was withdrawn by its issuer."});
+    const Ended ended = archive(again);
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_TRUE(tells(archive({"number", "--amend", "EX-2026-0042"}, "R. Lin"), "EX-2026-0042/A1 numbered"));
+    const json found = json::parse(ended.out, nullptr, false);
+    ASSERT_EQ(found["certificates"].size(), 1U) << ended.out;
+    EXPECT_EQ(found["certificates"][0]["outcome"], "printed");
+    EXPECT_EQ(found["certificates"][0]["draft"], "EX-2026-0042_A1");
+
+    // The draft is a job that runs, and the archive takes its record as the amendment.
+    const fs::path draft = folder() / "drafts" / "EX-2026-0042_A1";
+    const std::string job = json::parse(bytes_of(draft / "changes.json"))["job"];
+    const std::string record = path("amendment.json");
+    const Ended evaluated =
+        gumcert({"evaluate", (draft / job).string(), "-o", record, "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_EQ(evaluated.code, 0) << evaluated.err;
+    const Ended amended = archive({"amend", record}, "R. Lin");
+    EXPECT_EQ(amended.code, 0) << amended.err;
+    const json entry = shown({"show", "EX-2026-0042/A1"})["entries"][1]["body"];
+    EXPECT_EQ(entry["why"], "The certificate of STD-017 was withdrawn by its issuer.");
+    EXPECT_FALSE(entry["amends"]["changes"].empty());
+
+    const Ended twice = archive(again);
+    EXPECT_EQ(json::parse(twice.out, nullptr, false)["certificates"].size(), 2U) << "the amendment is a draft by now";
+    EXPECT_TRUE(tells(archive(query), "EX-2026-0042/A1"));
+}
+
+TEST_F(ArchiveOfALaboratory, RefusesASearchThatSaysTooMuchOrTooLittle) {
+    begin();
+    const std::vector<std::vector<std::string>> wrong = {
+        {"affected"},
+        {"affected", "--source", "STD-017"},
+        {"affected", "--since", "2026-03-02"},
+        {"affected", "--source", "STD-017", "--since", "March"},
+        {"affected", "--source", "STD-017", "--since", "2026-03-02", "--until", "2026-02-30"},
+        {"affected", "--source", "STD-017", "--since", "2026-03-02", "-o", path("drafts")},
+        {"list", "--format", "csv"},
+        {"list", "--source", "STD-017"}};
+    for (const std::vector<std::string>& words : wrong) {
+        EXPECT_EQ(archive(words).code, 2) << words.back();
+    }
+}
+
+TEST_F(ArchiveOfALaboratory, ProvesByHeadsAloneThatTheLogOnlyGrew) {
+    issue_the_example();
+    ASSERT_EQ(archive({"head", "-o", path("early.json")}).code, 0);
+    ASSERT_EQ(archive({"withdraw", "EX-2026-0042", "--why", "the standard was wrong"}, "M. Weber").code, 0);
+    ASSERT_EQ(archive({"head", "-o", path("plain.json")}).code, 0);
+    ASSERT_EQ(archive({"head", "--since", path("early.json"), "-o", path("late.json")}).code, 0);
+    const auto verified = [&](const char* head) {
+        const Ended ended = gumcert({"archive", "verify", path(head), "--head", path("early.json")});
+        EXPECT_EQ(verified_elsewhere({path(head), "--head", path("early.json")}).code, ended.code) << head;
+        return ended;
+    };
+    const Ended sound = verified("late.json");
+    EXPECT_EQ(sound.code, 0) << sound.err;
+    EXPECT_TRUE(tells(sound, "extends a head of 5 entries"));
+    EXPECT_TRUE(tells(verified("plain.json"), "[GC-ARCHIVE-0051]"));
+    change_json(folder() / "late.json", [](json& head) { head["root"] = head["chain"]; });
+    EXPECT_EQ(verified("late.json").code, 1);
+    // An archive that does not begin with the earlier head makes no proof.
+    fs::remove(store());
+    begin();
+    const Ended other = archive({"head", "--since", path("early.json")});
+    EXPECT_EQ(other.code, 3);
+    EXPECT_TRUE(tells(other, "[GC-ARCHIVE-0036]"));
+}
+
 TEST_F(ArchiveOfALaboratory, SeesThatTheEndWasCutOff) {
     issue_the_example();
     ASSERT_EQ(archive({"backup", "-o", path("early.archive")}, "K. Keeper").code, 0);

@@ -103,7 +103,10 @@ private:
         if (chance(5) == 0) {
             (void)archive.advance(draft.number, "withdrawn", by("R. Reviewer", "the item was damaged"));
         } else if (steps >= 3 && !is_amendment && chance(3) == 0) {
-            Draft amendment = sample_draft(draft.number + "/A1", std::to_string(chance(1000)));
+            const std::string number =
+                chance(2) == 0 ? draft.number + "/A1"
+                               : archive.take_amendment_number(draft.number, by("A. Author")).entry.certificate;
+            Draft amendment = sample_draft(number, std::to_string(chance(1000)));
             amendment.amends = Draft::Amends{.number = draft.number,
                                              .kind = chance(2) == 0 ? "amended" : "replaced",
                                              .changes = {{"U", "l", "0.1", "0.2"}}};

@@ -61,6 +61,36 @@ TEST_F(ArchiveOnSqlite, LeadsACertificateThroughItsLife) {
     EXPECT_TRUE(verify_store(*store_).sound());
 }
 
+TEST_F(ArchiveOnSqlite, NumbersAmendmentsWithoutGapOrDouble) {
+    const std::string number = issued();
+    const auto next = [&] { return archive_.take_amendment_number(number, by("A. Author")).entry.certificate; };
+    const auto amend = [&](const std::string& amendment) {
+        Draft draft = sample_draft(amendment);
+        draft.amends = Draft::Amends{.number = number, .kind = "amended", .changes = {{"U", "l", "1", "2"}}};
+        (void)archive_.draft(draft, by("A. Author", "a digit"));
+    };
+    EXPECT_EQ(next(), number + "/A1");
+    amend(number + "/A2");  // by hand
+    EXPECT_EQ(next(), number + "/A3");
+    amend(number + "/A5");
+    EXPECT_EQ(next(), number + "/A4");
+    EXPECT_EQ(next(), number + "/A6");
+    EXPECT_EQ(issued(), "EX-2026-002") << "the series of the archive goes on";
+    const Request again = by("A. Author", "", "key");
+    const Written first = archive_.take_amendment_number(number, again);
+    EXPECT_EQ(first.entry.certificate, number + "/A7");
+    EXPECT_EQ(archive_.take_amendment_number(number, again).entry, first.entry);
+    EXPECT_EQ(code_of([&] { (void)archive_.take_amendment_number("EX-2026-999", by("A. Author")); }),
+              "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)archive_.take_amendment_number(number + "/A1", by("A. Author")); }),
+              "GC-ARCHIVE-0031")
+        << "it is not issued";
+    amend(number + "/A1");
+    lead_to_issue(number + "/A1");
+    EXPECT_EQ(code_of([&] { (void)next(); }), "GC-ARCHIVE-0031") << "it is amended already";
+    EXPECT_TRUE(verify_store(*store_).sound());
+}
+
 TEST_F(ArchiveOnSqlite, RefusesWithTheCodeOfTheRule) {
     const std::string number = archive_.take_number(by("A. Author")).entry.certificate;
     const Head before = archive_.head();

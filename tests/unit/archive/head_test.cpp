@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "encoding/sha2.h"
 #include "tests/support/archive_folder.h"
 
 namespace gumcert::archive {
@@ -71,6 +72,44 @@ TEST(ArchiveHead, GrowsWithTheLog) {
     EXPECT_EQ(log.head().at, "time of the second");
     EXPECT_EQ(log.head().size, 2);
     EXPECT_EQ(roots, (std::vector<std::string>{log.tree().root(1), log.tree().root(2)}));
+}
+
+TEST(ArchiveHead, ProvesThatItExtendsEveryEarlierOne) {
+    WalkedLog log;
+    std::vector<Head> heads;
+    for (int i = 0; i < 20; ++i) {
+        LogEntry entry;
+        entry.hash = encoding::sha256_bytes(std::to_string(i));
+        entry.at = "2026";
+        log.add(entry);
+        heads.push_back(log.head());
+    }
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+        const std::optional<Head> later = log.head_since(heads[i]);
+        ASSERT_TRUE(later);
+        const Head read = head_from_json(to_json(*later), "head.json");
+        EXPECT_EQ(read, *later);
+        EXPECT_EQ(signed_bytes(read), signed_bytes(log.head())) << "a proof needs no signature";
+        for (std::size_t j = 0; j < heads.size(); ++j) {
+            EXPECT_EQ(proves_extension(read, heads[j]), i == j);
+        }
+        Head other = read;
+        other.extends->size = 21;
+        EXPECT_FALSE(proves_its_extension(other));
+        other = read;
+        other.root = heads[0].root;
+        EXPECT_FALSE(proves_its_extension(other));
+    }
+    Head rewritten = heads[4];
+    rewritten.root = heads[5].root;
+    EXPECT_FALSE(log.head_since(rewritten));
+    rewritten = heads[4];
+    rewritten.archive = heads[5].chain;
+    EXPECT_FALSE(log.head_since(rewritten));
+    EXPECT_FALSE(proves_its_extension(log.head()));
+    nlohmann::json object = nlohmann::json::parse(to_json(*log.head_since(heads[4])));
+    object["extends"]["proof"][0] = "00";
+    EXPECT_EQ(test::code_of([&] { (void)head_from_json(object.dump(), "head.json"); }), "GC-ARCHIVE-0049");
 }
 
 }  // namespace

@@ -78,5 +78,45 @@ TEST(MerkleRoot, DoesNotTakeANodeForALeaf) {
     EXPECT_NE(forged.root(), tree.root());
 }
 
+TEST(ConsistencyProof, ShowsForEveryTwoSizesThatTheLaterTreeExtendsTheEarlierOne) {
+    const MerkleTree tree = tree_of(64);
+    for (std::size_t size = 1; size <= tree.size(); ++size) {
+        for (std::size_t earlier = 1; earlier <= size; ++earlier) {
+            std::vector<std::string> proof = tree.consistency_proof(earlier, size);
+            EXPECT_TRUE(is_extended(earlier, tree.root(earlier), size, tree.root(size), proof))
+                << earlier << " " << size;
+            EXPECT_FALSE(is_extended(earlier, tree.root(1) + "x", size, tree.root(size), proof));
+            if (earlier < size) {
+                EXPECT_FALSE(is_extended(earlier, tree.root(earlier), size, tree.root(earlier), proof));
+                EXPECT_FALSE(is_extended(size, tree.root(size), earlier, tree.root(earlier), proof));
+            }
+            for (std::string& node : proof) {
+                node[5] = static_cast<char>(node[5] ^ 1);
+                EXPECT_FALSE(is_extended(earlier, tree.root(earlier), size, tree.root(size), proof));
+                node[5] = static_cast<char>(node[5] ^ 1);
+            }
+            proof.push_back(tree.root(1));
+            EXPECT_FALSE(is_extended(earlier, tree.root(earlier), size, tree.root(size), proof)) << "too long";
+            proof.pop_back();
+            if (!proof.empty()) {
+                proof.pop_back();
+                EXPECT_FALSE(is_extended(earlier, tree.root(earlier), size, tree.root(size), proof)) << "too short";
+            }
+        }
+    }
+}
+
+TEST(ConsistencyProof, DoesNotExistForATreeThatWasRewritten) {
+    const MerkleTree tree = tree_of(40);
+    for (std::size_t earlier = 1; earlier < 40; ++earlier) {
+        MerkleTree other;
+        for (std::size_t i = 0; i < 40; ++i) {
+            other.add("entry " + std::to_string(i) + (i == earlier - 1 ? " rewritten" : ""));
+        }
+        EXPECT_FALSE(is_extended(earlier, tree.root(earlier), 40, other.root(), other.consistency_proof(earlier, 40)));
+        EXPECT_FALSE(is_extended(earlier, tree.root(earlier), 40, other.root(), tree.consistency_proof(earlier, 40)));
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::archive

@@ -1,0 +1,492 @@
+#include "app/affected_certificates.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "app/recompute_record.h"
+#include "gum/monte_carlo/worker_threads.h"
+#include "jobs/file_source.h"
+#include "json/canonical_json.h"
+#include "text/csv_field.h"
+#include "text/lists.h"
+#include "text/visible_text.h"
+
+namespace gumcert::app {
+
+namespace {
+
+constexpr std::size_t k_records_at_once = 256;  // bounds the memory of the search
+
+/// A record that was read, without its bytes.
+struct SearchedRecord {
+    archive::ListedCertificate certificate;
+    std::optional<RecordReferences> references;  ///< none: it cannot be read
+};
+
+/// Reads all records of an archive, and what they rest on.
+class RecordSearch {
+public:
+    RecordSearch(unsigned threads, const gum::Progress& progress) : threads_(threads), progress_(progress) {}
+
+    std::vector<SearchedRecord> read(archive::Archive& archive) {
+        std::size_t number = 0;
+        archive.each_record([&](std::size_t count) { number = count; },
+                            [&](const archive::ListedCertificate& certificate, std::string bytes) {
+                                found_.push_back({certificate, std::nullopt});
+                                waiting_.push_back(std::move(bytes));
+                                if (waiting_.size() == k_records_at_once) {
+                                    look_at_waiting();
+                                    if (progress_) {
+                                        progress_(std::to_string(found_.size()) + " of " + std::to_string(number) +
+                                                  " records searched");
+                                    }
+                                }
+                            });
+        look_at_waiting();
+        return std::move(found_);
+    }
+
+private:
+    gum::WorkerThreads threads_;
+    const gum::Progress& progress_;
+    std::vector<SearchedRecord> found_;
+    std::vector<std::string> waiting_;
+
+    void look_at_waiting() {
+        const std::size_t first = found_.size() - waiting_.size();
+        threads_.run(waiting_.size(), [&](unsigned /*worker*/, std::size_t task) {
+            found_[first + task].references = references_of(waiting_[task]);
+        });
+        waiting_.clear();
+    }
+};
+
+/// Which records say which text: every text is looked at once for each name, however many records say it.
+class TextsOfRecords {
+public:
+    explicit TextsOfRecords(const std::vector<SearchedRecord>& records) {
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            if (records[i].references) {
+                for (const StandardReference& one : records[i].references->references) {
+                    records_[one.text].push_back(i);
+                }
+            }
+        }
+    }
+    [[nodiscard]] std::set<std::size_t> that_name(const std::string& name) const {
+        std::set<std::size_t> found;
+        for (const auto& [text, records] : records_) {
+            if (names(text, name)) {
+                found.insert(records.begin(), records.end());
+            }
+        }
+        return found;
+    }
+
+private:
+    std::map<std::string, std::vector<std::size_t>> records_;
+};
+
+bool is_in_period(const RecordReferences& references, const std::string& since, const std::string& until) {
+    const bool is_before = !references.used_to.empty() && references.used_to < since;
+    const bool is_after = !until.empty() && !references.used_from.empty() && references.used_from > until;
+    return !is_before && !is_after;
+}
+
+std::vector<StandardReference> references_that_name(const std::string& name, const RecordReferences& references) {
+    std::vector<StandardReference> found;
+    std::copy_if(references.references.begin(), references.references.end(), std::back_inserter(found),
+                 [&](const StandardReference& one) { return names(one.text, name); });
+    return found;
+}
+
+gum::Diagnostic cannot_say(const std::string& number, std::string what) {
+    return {.code = "GC-ARCHIVE-0062",
+            .where = number,
+            .what = std::move(what),
+            .rule =
+                "a certificate is calculated again where its record holds the job, and the job takes the standard "
+                "from the register",
+            .action = "correct the job by hand, and evaluate it"};
+}
+
+/// Puts the corrected file of the register into the job of a record.
+bool correct_files(reports::EvaluationRecord& record, const Correction& correction) {
+    bool found = false;
+    for (reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name) == correction.standard) {
+            file = reports::input_file(file.name, correction.corrected, true);
+            found = true;
+        }
+    }
+    return found;
+}
+
+double number_or(const nlohmann::json& object, const char* key, double otherwise) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+}
+
+/// The largest change of a value, or of its U, relative to U, of all values with U that two records have in common.
+double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
+    double largest = 0.0;
+    if (before.is_object() && now.is_object()) {
+        const double U = number_or(before, "U", 0.0);
+        if (U > 0.0 && before.contains("value") && now.contains("value")) {
+            const double value = number_or(before, "value", 0.0);
+            largest =
+                std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
+        }
+        for (const auto& [key, item] : before.items()) {
+            if (const auto other = now.find(key); other != now.end()) {
+                largest = std::max(largest, largest_shift(item, *other));
+            }
+        }
+    } else if (before.is_array() && now.is_array()) {
+        for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+            largest = std::max(largest, largest_shift(before[i], now[i]));
+        }
+    }
+    return largest;
+}
+
+std::string folder_of_number(std::string number) {
+    std::replace_if(
+        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
+    return number;
+}
+
+/// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
+/// stay as they are: the job lies so much deeper.
+class DraftPlaces {
+public:
+    explicit DraftPlaces(const std::vector<reports::InputFile>& files) {
+        for (const reports::InputFile& file : files) {
+            std::size_t depth = 0;
+            for (const auto& part : std::filesystem::path(file.name)) {
+                depth += part == ".." ? std::size_t{1} : 0;
+            }
+            depth_ = std::max(depth_, depth);
+        }
+    }
+    [[nodiscard]] std::filesystem::path of(const std::string& name) const {
+        std::filesystem::path place;
+        for (std::size_t i = 0; i < depth_; ++i) {
+            place /= "job";
+        }
+        if (name.starts_with(jobs::k_laboratory_prefix)) {
+            return place / "laboratory" / name.substr(jobs::k_laboratory_prefix.size());
+        }
+        return (place / name).lexically_normal();
+    }
+
+private:
+    std::size_t depth_ = 0;
+};
+
+std::string written(const nlohmann::ordered_json& value) {
+    return value.dump(2) + "\n";
+}
+
+nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const RecordChange& change : changes) {
+        if (change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict) {
+            list.push_back({{"kind", word_of(change.kind)},
+                            {"place", change.place},
+                            {"before", change.before},
+                            {"now", change.now}});
+        }
+    }
+    return list;
+}
+
+/// Job, certificate data and all files of an amendment.
+/// \return none where the job cannot be written beside each other again
+std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const reports::EvaluationRecord& corrected,
+                                          const Correction& correction) {
+    constexpr const char* record_name = "original_record.json";
+    const DraftPlaces places(corrected.job_files);
+    const std::filesystem::path folder = folder_of_number(one.draft_number);
+    std::map<std::string, std::string> files;
+    for (const reports::InputFile& file : corrected.job_files) {
+        if (std::filesystem::path(file.name).is_absolute()) {
+            return {};
+        }
+        files[file.name] = reports::bytes_of(file).value_or("");
+    }
+    const std::string& job_name = corrected.job_files.front().name;
+    nlohmann::ordered_json job = nlohmann::ordered_json::parse(files[job_name], nullptr, false, true);
+    if (!job.is_object() || !job.contains("certificate")) {
+        return {};
+    }
+    const bool inside = job["certificate"].is_object();
+    const std::string certificate_name =
+        inside || !job["certificate"].is_string() ? "" : job["certificate"].get<std::string>();
+    if (!inside && !files.contains(certificate_name)) {
+        return {};
+    }
+    nlohmann::ordered_json certificate =
+        inside ? job["certificate"] : nlohmann::ordered_json::parse(files[certificate_name], nullptr, false, true);
+    if (!certificate.is_object()) {
+        return {};
+    }
+    certificate["number"] = one.draft_number;
+    certificate["amendment"] = {
+        {"kind", "amended"},
+        {"number", one.certificate.number},
+        {"reason", correction.reason},
+        {"changes", {"Results calculated again with the corrected standard " + correction.standard}},
+        {"record", record_name}};
+    if (inside) {
+        job["certificate"] = certificate;
+    } else {
+        files[certificate_name] = written(certificate);
+    }
+    if (std::any_of(files.begin(), files.end(),
+                    [](const auto& file) { return file.first.starts_with(jobs::k_laboratory_prefix); })) {
+        job["laboratory"] = "laboratory";
+    }
+    files[job_name] = written(job);
+    std::vector<OutputFile> draft;
+    for (const auto& [name, bytes] : files) {
+        draft.push_back({folder / places.of(name), bytes});
+    }
+    draft.push_back({folder / places.of(record_name), one.record});
+    draft.push_back({folder / "changes.json",
+                     gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                    {"number", one.draft_number},
+                                                    {"amends", one.certificate.number},
+                                                    {"reason", correction.reason},
+                                                    {"job", places.of(job_name).generic_string()},
+                                                    {"changes", shown_change_list(one.recalculated->changes)}})});
+    return draft;
+}
+
+void recalculate_one(AffectedCertificate& one, const Correction& correction,
+                     const std::function<std::string(const std::string&)>& number_for) {
+    const std::string& number = one.certificate.number;
+    RerunRecord result{.name = number};
+    try {
+        reports::EvaluationRecord record = reports::record_from_json(one.record, number);
+        result.made_by = record.software;
+        result.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
+            result.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            result.not_evaluated = cannot_say(
+                number, one.through.empty() ? "its job does not take the standard from the register"
+                                            : "it rests on " + one.through + ", which is to be amended first");
+        } else {
+            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
+            tell_changes(one.record, now, result);
+            one.shift = largest_shift(nlohmann::json::parse(one.record),
+                                      nlohmann::json::parse(reports::to_canonical_json(now)));
+            one.recalculated = result;
+            if (result.is_negative() && one.certificate.state == "issued") {
+                one.draft_number = number_for(number);
+                one.draft = drafted_amendment(one, record, correction);
+                if (one.draft.empty()) {
+                    one.draft_number.clear();
+                }
+            }
+        }
+    } catch (const gum::DiagnosedError& error) {
+        const gum::Diagnostic& first = error.diagnostics().front();
+        result.not_evaluated = cannot_say(number, first.what);
+    }
+    one.recalculated = std::move(result);
+}
+
+/// Of which a person reads first.
+auto rank_of(const AffectedCertificate& one) {
+    const bool unknown = one.recalculated && one.recalculated->not_evaluated.has_value();
+    const std::size_t verdicts = one.recalculated ? one.recalculated->count(ChangeKind::verdict) : 0;
+    const bool changed = one.recalculated && one.recalculated->is_negative() && !unknown;
+    return std::tuple(verdicts == 0, !changed, !unknown, -one.shift, one.certificate.number);
+}
+
+std::string outcome_of(const AffectedCertificate& one) {
+    return !one.recalculated                                  ? "not_recalculated"
+           : one.recalculated->not_evaluated                  ? "cannot_say"
+           : one.recalculated->count(ChangeKind::verdict) > 0 ? "verdict"
+           : one.recalculated->count(ChangeKind::printed) > 0 ? "printed"
+                                                              : "same";
+}
+
+std::string period_of(const AffectedCertificate& one) {
+    return one.used_from.empty() && one.used_to.empty() ? "unknown"
+           : one.used_from == one.used_to               ? one.used_to
+                                                        : one.used_from + "/" + one.used_to;
+}
+
+std::string filled(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text + "  ";
+}
+
+std::string three_digits(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+    return {text.data(), end.ptr};
+}
+
+std::string draft_folder(const AffectedCertificate& one) {
+    return one.draft.empty() ? "" : folder_of_number(one.draft_number);
+}
+
+}  // namespace
+
+std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
+                                               unsigned threads, const gum::Progress& progress) {
+    const std::vector<SearchedRecord> records = RecordSearch(threads, progress).read(archive);
+    const TextsOfRecords texts(records);
+    std::vector<AffectedCertificate> affected;
+    std::set<std::size_t> known;
+    struct Wanted {
+        std::string name, through;
+    };
+    std::deque<Wanted> wanted{{standard.name, ""}};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (!records[i].references && records[i].certificate.state != "withdrawn") {  // it may rest on anything
+            known.insert(i);
+            affected.push_back({.certificate = records[i].certificate,
+                                .used_from = {},
+                                .used_to = {},
+                                .because = {{StandardReference::Kind::source, "the record cannot be read"}},
+                                .through = {},
+                                .record = {}});
+        }
+    }
+    while (!wanted.empty()) {
+        const Wanted next = std::move(wanted.front());
+        wanted.pop_front();
+        for (const std::size_t i : texts.that_name(next.name)) {
+            const SearchedRecord& record = records[i];
+            // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
+            if (record.certificate.state == "withdrawn" || record.certificate.number == next.name ||
+                !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") ||
+                !known.insert(i).second) {
+                continue;
+            }
+            affected.push_back({.certificate = record.certificate,
+                                .used_from = record.references->used_from,
+                                .used_to = record.references->used_to,
+                                .because = references_that_name(next.name, *record.references),
+                                .through = next.through,
+                                .record = {}});
+            wanted.push_back({record.certificate.number, record.certificate.number});
+        }
+    }
+    for (AffectedCertificate& one : affected) {
+        one.record = archive.record_of(one.certificate.number);  // a content that is missing is refused here
+    }
+    std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
+        return a.certificate.number < b.certificate.number;
+    });
+    return affected;
+}
+
+void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
+                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress) {
+    // The archive is asked by one thread.
+    std::map<std::string, std::string> numbers;
+    for (const AffectedCertificate& one : affected) {
+        int ordinal = 1;
+        while (!is_free(one.certificate.number + "/A" + std::to_string(ordinal))) {
+            ++ordinal;
+        }
+        numbers[one.certificate.number] = one.certificate.number + "/A" + std::to_string(ordinal);
+    }
+    gum::WorkerThreads workers(threads);
+    for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
+        const std::size_t count = std::min(k_records_at_once, affected.size() - first);
+        workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
+            recalculate_one(affected[first + task], correction,
+                            [&](const std::string& number) { return numbers.at(number); });
+        });
+        if (progress) {
+            progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
+        }
+    }
+    std::sort(affected.begin(), affected.end(),
+              [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
+}
+
+std::string affected_text(const std::vector<AffectedCertificate>& affected) {
+    std::string text;
+    for (const AffectedCertificate& one : affected) {
+        text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
+                filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
+        if (one.recalculated && !one.recalculated->not_evaluated) {
+            text += "  " + three_digits(one.shift) + " U";
+        }
+        text += one.draft.empty() ? "" : "  draft " + draft_folder(one);
+        text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +
+                word_of(one.because.front().kind) + " \"" + text::visible(one.because.front().text, 120) + "\"\n";
+        if (one.recalculated && one.recalculated->not_evaluated) {
+            text += "    " + text::visible(one.recalculated->not_evaluated->what, 200) + "\n";
+        }
+    }
+    return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
+}
+
+std::string affected_json(const std::vector<AffectedCertificate>& affected, const WrongStandard& standard) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const AffectedCertificate& one : affected) {
+        nlohmann::json because = nlohmann::json::array();
+        for (const StandardReference& reference : one.because) {
+            because.push_back({{"kind", word_of(reference.kind)}, {"text", reference.text}});
+        }
+        nlohmann::json shown{{"number", one.certificate.number},
+                             {"state", one.certificate.state},
+                             {"item", one.certificate.item},
+                             {"record", one.certificate.record},
+                             {"used_from", one.used_from},
+                             {"used_to", one.used_to},
+                             {"because", std::move(because)},
+                             {"through", one.through},
+                             {"outcome", outcome_of(one)},
+                             {"shift", nullptr},
+                             {"changes", nlohmann::json::array()},
+                             {"draft", draft_folder(one)},
+                             {"cannot_say", ""}};
+        if (one.recalculated) {
+            shown["changes"] = shown_change_list(one.recalculated->changes);
+            if (one.recalculated->not_evaluated) {
+                shown["cannot_say"] = one.recalculated->not_evaluated->what;
+            } else {
+                shown["shift"] = one.shift;
+            }
+        }
+        list.push_back(std::move(shown));
+    }
+    return gumcert::json::canonical_json({{"schema", "gumcert/archive-affected/1"},
+                                          {"standard", standard.name},
+                                          {"since", standard.since},
+                                          {"until", standard.until},
+                                          {"certificates", std::move(list)}});
+}
+
+std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
+    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft\n";
+    for (const AffectedCertificate& one : affected) {
+        const bool calculated = one.recalculated && !one.recalculated->not_evaluated;
+        all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
+               text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
+               text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
+               "," + (calculated ? nlohmann::json(one.shift).dump() : "") + "," + text::csv_field(draft_folder(one)) +
+               "\n";
+    }
+    return all;
+}
+
+}  // namespace gumcert::app

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output_files.h"
+#include "app/rerun_record.h"
+#include "app/standard_references.h"
+#include "archive/archive.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
+
+namespace gumcert::app {
+
+/// A standard that was found wrong, and since when.
+struct WrongStandard {
+    std::string name;   ///< identification in the register, or number of its certificate
+    std::string since;  ///< first day of use that is affected, "2026-03-01"
+    std::string until;  ///< last one; "" without
+};
+
+/// A certificate that rests on it.
+struct AffectedCertificate {
+    archive::ListedCertificate certificate;
+    std::string used_from, used_to;          ///< days of the work; "" where the record states none
+    std::vector<StandardReference> because;  ///< what its record says
+    std::string through;  ///< number of the affected certificate that it rests on itself; "" where on the standard
+    std::string record;   ///< bytes
+
+    // After recalculate().
+    std::optional<RerunRecord> recalculated = {};
+    double shift = 0.0;                  ///< largest change of a value or of its U, relative to the U that was issued
+    std::vector<OutputFile> draft = {};  ///< of the amendment, below a folder of its own; empty where none is needed
+    std::string draft_number = {};       ///< of the amendment
+};
+
+/// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
+/// every one that rests on a certificate that was found, from the first day on. What names() says of references_of() is
+/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones.
+[[nodiscard]] std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
+                                                             unsigned threads, const gum::Progress& progress = {});
+
+/// How affected certificates are calculated again.
+struct Correction {
+    std::string standard;   ///< identification
+    std::string corrected;  ///< bytes of its file in the register, with what holds
+    std::string reason;     ///< of the amendments
+    std::filesystem::path templates;
+};
+
+/// Evaluates the jobs of affected records with the corrected standard, on several cores, compares with what was issued,
+/// drafts an amendment of each issued certificate of which a printed digit or a verdict changes, and ranks: verdicts
+/// that changed first, then by shift, those of which nothing can be said (GC-ARCHIVE-0062) before those that stay.
+/// \param is_free  whether a number of a certificate was not used yet
+void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
+                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress = {});
+
+/// For people, for programs (schema gumcert/archive-affected/1), as a table.
+[[nodiscard]] std::string affected_text(const std::vector<AffectedCertificate>& affected);
+[[nodiscard]] std::string affected_json(const std::vector<AffectedCertificate>& affected,
+                                        const WrongStandard& standard);
+[[nodiscard]] std::string affected_csv(const std::vector<AffectedCertificate>& affected);
+
+}  // namespace gumcert::app

@@ -1,0 +1,200 @@
+#include "app/affected_certificates.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "app/evaluate_job.h"
+#include "app/read_file.h"
+#include "archive/store/sqlite_store.h"
+#include "tests/support/archive_folder.h"
+#include "tests/support/sample_archive.h"
+
+namespace gumcert::app {
+namespace {
+
+using archive::Draft;
+using nlohmann::json;
+
+const std::filesystem::path k_affected_tree(GUMCERT_SOURCE_DIR);
+
+class ArchiveOfStandards : public testing::Test {
+protected:
+    void add(const std::string& number, const std::string& record, bool is_issued = true) {
+        Draft draft = archive::test::sample_draft(number);
+        draft.record = record;
+        (void)archive_.draft(draft, by("A. Author"));
+        if (is_issued) {
+            for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+                (void)archive_.advance(number, kind, by("R. Reviewer"));
+            }
+        }
+    }
+    archive::Request by(const std::string& who) {
+        return {.actor = who, .at = clock_.next(), .request_key = "", .why = "a reason"};
+    }
+    [[nodiscard]] std::set<std::string> found(const WrongStandard& standard, unsigned threads = 2) {
+        std::set<std::string> numbers;
+        for (const AffectedCertificate& one : find_affected(archive_, standard, threads)) {
+            EXPECT_TRUE(numbers.insert(one.certificate.number).second) << "listed twice";
+            EXPECT_FALSE(one.because.empty());
+        }
+        return numbers;
+    }
+
+    archive::test::StoreFolder folder_;
+    archive::test::Clock clock_;
+    std::unique_ptr<archive::Store> store_ =
+        archive::create_sqlite_store(folder_.file(), archive::first_entry({}, "gumcert", "nonce", by("K. Keeper")));
+    archive::Archive archive_{*store_};
+};
+
+/// Says that a record rests on something, in one of the ways that records have.
+void let_rest_on(json& record, const std::string& name, int way) {
+    switch (way) {
+        case 0:
+            record["certificate"]["data"]["standards"].push_back({{"identification", name}, {"certificate", "X"}});
+            break;
+        case 1:
+            record["certificate"]["data"]["standards"].push_back({{"identification", "Y"}, {"certificate", name}});
+            break;
+        case 2:
+            record["job"]["files"].push_back(
+                {{"name", "laboratory/standards/" + name + ".json"}, {"encoding", "utf-8"}, {"content", "{}"}});
+            break;
+        case 3:
+            record["results"]["l"]["budget"].push_back({{"components", {{{"source", name + ", certificate 7"}}}}});
+            break;
+        case 4:
+            record["job"]["files"].push_back({{"name", "laboratory/standards/Z.json"},
+                                              {"encoding", "utf-8"},
+                                              {"content", json{{"calibrations", {{{"certificate", name}}}}}.dump()}});
+            break;
+        default:
+            record["certificate"]["data"]["conditions"].push_back({{"sensor", name}});
+    }
+}
+
+/// What a record says of something that it does not rest on.
+void mention(json& record, const std::string& name) {
+    record["title"] = name;
+    record["results"]["l"]["budget"].push_back({{"source", name + "1, " + name + "-2, X" + name}});
+}
+
+// The oracle knows what was put in, and follows it by itself; it reads no record.
+TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
+    constexpr int k_certificates = 400;
+    constexpr int k_standards = 12;
+    std::mt19937_64 random(7);
+    const auto chance = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
+    struct Truth {
+        std::set<int> standards, certificates;
+        std::string day;
+        bool is_withdrawn = false;
+    };
+    std::vector<Truth> truth;
+    const auto number = [](int i) { return "EX-" + std::to_string(i); };
+    for (int i = 0; i < k_certificates; ++i) {
+        Truth one;
+        json record = {{"title", "x"}};
+        for (int n = chance(3); n > 0; --n) {
+            one.standards.insert(chance(k_standards));
+        }
+        if (i > 0 && chance(3) == 0) {
+            one.certificates.insert(chance(i));
+        }
+        for (const int standard : one.standards) {
+            let_rest_on(record, "STD-" + std::to_string(standard), chance(6));
+        }
+        for (const int certificate : one.certificates) {
+            let_rest_on(record, number(certificate), chance(6));
+        }
+        mention(record, "STD-" + std::to_string(chance(k_standards)) + "x");
+        if (chance(5) > 0) {
+            one.day = "2026-0" + std::to_string(1 + chance(9)) + "-15";
+            record["certificate"]["data"]["dates"]["performed_to"] = one.day;
+        }
+        add(number(i), record.dump(), chance(4) > 0);
+        if (chance(10) == 0) {
+            one.is_withdrawn = true;
+            (void)archive_.advance(number(i), "withdrawn", by("R. Reviewer"));
+        }
+        truth.push_back(one);
+    }
+    for (int standard = 0; standard < k_standards; ++standard) {
+        const WrongStandard wrong{"STD-" + std::to_string(standard), "2026-04-01",
+                                  standard % 2 == 0 ? "" : "2026-06-30"};
+        std::set<std::string> expected;
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (int i = 0; i < k_certificates; ++i) {
+                const Truth& one = truth[static_cast<std::size_t>(i)];
+                const bool after = one.day.empty() || one.day >= wrong.since;
+                const bool before = one.day.empty() || wrong.until.empty() || one.day <= wrong.until;
+                bool rests = one.standards.contains(standard) && before;
+                for (const int other : one.certificates) {
+                    rests = rests || expected.contains(number(other));
+                }
+                if (rests && after && !one.is_withdrawn) {
+                    grows = expected.insert(number(i)).second || grows;
+                }
+            }
+        }
+        EXPECT_FALSE(expected.empty());
+        EXPECT_EQ(found(wrong, 1), expected) << wrong.name;
+        EXPECT_EQ(found(wrong, 3), expected) << wrong.name;
+    }
+}
+
+TEST_F(ArchiveOfStandards, TellARecordThatCannotBeRead) {
+    add("EX-1", "no record");
+    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), std::set<std::string>{"EX-1"});
+}
+
+TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
+    const std::filesystem::path folder = k_affected_tree / "examples" / "laboratory";
+    const std::string record = reports::to_canonical_json(
+        evaluate_job(folder / "end_gauge.json", CovarianceFile::none, 1, k_affected_tree / "templates").record);
+    add("EX-2026-0042", record);
+    add("EX-2026-0042/A1", R"({"title": "a number that is taken"})", false);
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string registered = read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const auto calculated = [&](const std::string& corrected) {
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(
+            affected,
+            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
+            2, [](const std::string& number) { return !number.ends_with("/A1"); });
+        return affected;
+    };
+    std::vector<AffectedCertificate> same = calculated(registered);
+    ASSERT_EQ(same.size(), 2U);
+    EXPECT_EQ(same[1].certificate.number, "EX-2026-0042");
+    EXPECT_STREQ(same[1].recalculated->outcome(), "same");
+    EXPECT_EQ(same[1].shift, 0.0);
+    EXPECT_TRUE(same[1].draft.empty());
+    EXPECT_EQ(same[0].recalculated->not_evaluated->code, "GC-ARCHIVE-0062");
+
+    std::string corrected = registered;
+    corrected.replace(corrected.find("50.000623"), 9, "50.001623");  // 1 µm: the gauge is out of its limits now
+    const std::vector<AffectedCertificate> changed = calculated(corrected);
+    ASSERT_EQ(changed.size(), 2U);
+    const AffectedCertificate& first = changed[0];
+    EXPECT_EQ(first.certificate.number, "EX-2026-0042");
+    EXPECT_GT(first.recalculated->count(ChangeKind::verdict), 0U);
+    EXPECT_GT(first.recalculated->count(ChangeKind::printed), 0U);
+    EXPECT_GT(first.shift, 1.0);
+    EXPECT_EQ(first.draft_number, "EX-2026-0042/A2");
+    const std::string all = affected_json(changed, {"STD-017", "2026-03-02", ""});
+    EXPECT_EQ(json::parse(all)["certificates"][0]["outcome"], "verdict");
+    EXPECT_EQ(json::parse(all)["certificates"][1]["outcome"], "cannot_say");
+    EXPECT_EQ(all, affected_json(calculated(corrected), {"STD-017", "2026-03-02", ""}));
+    EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
+    EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace gumcert::app
