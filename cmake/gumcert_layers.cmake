@@ -16,7 +16,7 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
                           reports/audit reports/studies reports/dcc audit/sources signing imports archive/store archive
-                          app app/self_test app/cli)
+                          app app/archive app/self_test app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -109,13 +109,16 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      reports/record/make/comparison reports/record/make/rotary_table
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
-                                                     imports workbook audit audit/rules audit/sources archive)
+                                                     imports workbook audit audit/rules audit/sources)
+set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum/monte_carlo certificate/gates jobs
+                                                     reports/record reports/record/make/certificate reports signing
+                                                     imports app archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
 set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates reports/record
                                                      reports/record/make reports reports/view reports/forms signing
-                                                     imports jobs/laboratory app app/self_test audit/rules reports/audit
-                                                     archive/store archive)
+                                                     imports jobs/laboratory app app/archive app/self_test audit/rules
+                                                     reports/audit archive/store archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
@@ -176,13 +179,14 @@ set(GUMCERT_THIRD_PARTY_archive_store                      libpq-fe.h sqlite3.h 
 set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
+set(GUMCERT_THIRD_PARTY_app_archive                        nlohmann)
 set(GUMCERT_THIRD_PARTY_app_self_test                      nlohmann)
 set(GUMCERT_THIRD_PARTY_app_cli                            CLI fcntl.h fmt gnu gumcert_build_info.h gumcert_made_with.h
                                                            gumcert_templates.h link.h nlohmann sys/resource.h
                                                            sys/utsname.h unistd.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/self_test app/cli)
+set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/archive app/self_test app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres libpq-fe.h sqlite3.h)

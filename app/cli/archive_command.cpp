@@ -17,9 +17,9 @@
 #include <string_view>
 #include <utility>
 
-#include "app/affected_certificates.h"
-#include "app/archive_draft.h"
-#include "app/archive_replay.h"
+#include "app/archive/affected_certificates.h"
+#include "app/archive/archive_draft.h"
+#include "app/archive/archive_replay.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/archive/standard_references.h"
 #include "app/output_files.h"
 #include "app/rerun_record.h"
-#include "app/standard_references.h"
 #include "archive/archive.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/progress.h"

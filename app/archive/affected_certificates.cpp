@@ -1,4 +1,4 @@
-#include "app/affected_certificates.h"
+#include "app/archive/affected_certificates.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/archive_replay.h"
+#include "app/archive/archive_replay.h"
 
 #include <algorithm>
 #include <utility>

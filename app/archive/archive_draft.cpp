@@ -1,4 +1,4 @@
-#include "app/archive_draft.h"
+#include "app/archive/archive_draft.h"
 
 #include <algorithm>
 #include <utility>

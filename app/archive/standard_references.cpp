@@ -1,4 +1,4 @@
-#include "app/standard_references.h"
+#include "app/archive/standard_references.h"
 
 #include <algorithm>
 #include <array>
