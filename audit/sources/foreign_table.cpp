@@ -376,6 +376,9 @@ public:
             }
             last = number;
             if (tables_.budgets.size() >= k_most_tables) {
+                tables_.not_read.push_back(sheet_.place({.row = number, .column = row.front()->address.column}) +
+                                           ": what follows is not looked at; an audit takes up to " +
+                                           std::to_string(k_most_tables) + " tables");
                 break;
             }
             take(number, row);
@@ -398,7 +401,11 @@ private:
             in_rows_ = false;
             return;
         }
-        if (!in_rows_ || !heads_ || budget_.rows.size() >= k_most_rows) {
+        if (!in_rows_ || !heads_ || is_too_long_) {
+            return;
+        }
+        if (budget_.rows.size() == k_most_rows) {
+            is_too_long_ = true;
             return;
         }
         AuditedRow read = RowReader(sheet_, *heads_, row, tables_.not_read).read();
@@ -436,7 +443,10 @@ private:
     }
 
     void finish() {
-        if (heads_ && !budget_.rows.empty()) {
+        if (is_too_long_) {  // a part of its rows would give another u_c
+            tables_.not_read.push_back(budget_.place + ": the table is not looked at; it has more than the " +
+                                       std::to_string(k_most_rows) + " rows that an audit takes");
+        } else if (heads_ && !budget_.rows.empty()) {
             budget_.name = name_;
             state_claims(budget_, statements_);
             const std::optional<double> p = budget_.claims.coverage_probability;
@@ -457,6 +467,7 @@ private:
         statements_ = {};
         heads_.reset();
         in_rows_ = false;
+        is_too_long_ = false;
     }
 
     const SheetView& sheet_;
@@ -464,6 +475,7 @@ private:
     ForeignTables& tables_;
     std::optional<Heads> heads_;
     bool in_rows_ = false;
+    bool is_too_long_ = false;
     AuditedBudget budget_;
     Statements statements_;
 };

@@ -151,5 +151,36 @@ TEST(BudgetsIn, AsksForACoverageProbabilityThatCannotBe) {
     EXPECT_NE(tables.not_read[0].find("coverage probability of 9.5"), std::string::npos);
 }
 
+/// A part of a table gives another u_c than the table: it is read whole, or not, and then that is said.
+TEST(BudgetsIn, SaysWhereATableIsTooLong) {
+    const auto table = [](int rows) {
+        std::string csv = "quantity,unit,u,sensitivity\n";
+        for (int i = 0; i < rows; ++i) {
+            csv += "x" + std::to_string(i) + ",mm,0.001,1\n";
+        }
+        return csv;
+    };
+    const ForeignTables whole = tables_of(table(10'000));
+    ASSERT_EQ(whole.budgets.size(), 1U);
+    EXPECT_EQ(whole.budgets.front().rows.size(), 10'000U);
+    EXPECT_TRUE(whole.not_read.empty());
+    const ForeignTables too_long = tables_of(table(10'001) + "\n\n\n" + table(2));
+    ASSERT_EQ(too_long.budgets.size(), 1U) << "the next table is read";
+    EXPECT_EQ(too_long.budgets.front().rows.size(), 2U);
+    ASSERT_EQ(too_long.not_read.size(), 1U);
+    EXPECT_NE(too_long.not_read.front().find("10000 rows"), std::string::npos);
+}
+
+TEST(BudgetsIn, SaysWhereTablesAreTooMany) {
+    std::string csv;
+    for (int i = 0; i < 10'001; ++i) {
+        csv += "quantity,unit,u,sensitivity\na,mm,0.001,1\n\n\n";
+    }
+    const ForeignTables tables = tables_of(csv);
+    EXPECT_EQ(tables.budgets.size(), 10'000U);
+    ASSERT_EQ(tables.not_read.size(), 1U);
+    EXPECT_NE(tables.not_read.front().find("what follows is not looked at"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
