@@ -110,7 +110,7 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
                                                      imports workbook audit audit/rules audit/sources)
-set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum/monte_carlo certificate/gates jobs
+set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/monte_carlo certificate/gates jobs
                                                      reports/record reports/record/make/certificate reports signing
                                                      imports app archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record

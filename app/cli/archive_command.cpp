@@ -20,6 +20,7 @@
 #include "app/archive/affected_certificates.h"
 #include "app/archive/archive_draft.h"
 #include "app/archive/archive_replay.h"
+#include "app/archive/archive_statistics.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
@@ -745,7 +746,15 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     return affected.empty() ? done : negative_answer;
 }
 
-constexpr std::array<Action, 18> k_actions = {{
+ExitCode show_statistics(const ArchiveOptions& options, const CommonOptions&) {
+    const auto store = opened(options, archive::Access::read_only);
+    archive::Archive archive(*store);
+    const app::ArchiveStatistics statistics = app::statistics_of(archive);
+    write_to_stdout(as_json(options) ? app::statistics_json(statistics) : app::statistics_text(statistics));
+    return done;
+}
+
+constexpr std::array<Action, 19> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
     {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
     {"number", 0, 0, "nothing more", " store by why key format amend ", take_number},
@@ -764,6 +773,7 @@ constexpr std::array<Action, 18> k_actions = {{
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
     {"migrate", 0, 0, "nothing more", " store to format ", migrate},
     {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format ", replay},
+    {"statistics", 0, 0, "nothing more", " store format ", show_statistics},
     {"affected", 0, 0, "nothing more", " store why format csv output source since until register ", find_affected},
 }};
 

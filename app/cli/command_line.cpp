@@ -403,7 +403,9 @@ void add_archive(CLI::App& program, Arguments& a) {
         "verify computes every hash again, backup copies while others write, and verifies the copy; migrate copies "
         "into\n"
         "an archive of either kind, with the same entries, hashes and heads; replay evaluates archived records with\n"
-        "this program, and reports what differs; affected finds the certificates that rest on a standard, calculates\n"
+        "this program, and reports what differs; statistics counts certificates by month, method and person, and "
+        "charts\n"
+        "E_n and repeatability; affected finds the certificates that rest on a standard, calculates\n"
         "them again, and drafts amendments. Exit code 1 where verify, replay or affected finds\n"
         "something. docs/archive.md");
 }

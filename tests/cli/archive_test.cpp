@@ -478,5 +478,14 @@ TEST_F(ArchiveOfALaboratory, MigratesIntoANewArchive) {
     EXPECT_FALSE(tells(ended, "secret")) << ended.err;
 }
 
+TEST_F(ArchiveOfALaboratory, CountsWhatItDid) {
+    issue_the_example();
+    const json counted = shown({"statistics"});
+    EXPECT_EQ(counted["by_state"]["issued"], 1);
+    EXPECT_EQ(counted["by_month"]["2026-11"], 1);
+    EXPECT_EQ(counted["by_method"]["CP-01"], 1);
+    EXPECT_TRUE(tells(archive({"statistics"}), "Certificates by state")) << "for people, too";
+}
+
 }  // namespace
 }  // namespace gumcert::cli

@@ -1,0 +1,284 @@
+#include "app/archive/archive_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
+
+#include "gum/distribution_quantile.h"
+#include "json/canonical_json.h"
+#include "text/lists.h"
+#include "text/visible_text.h"
+
+namespace gumcert::app {
+
+namespace {
+
+using nlohmann::json;
+
+const json& part_of(const json& object, const char* key) {
+    static const json k_nothing;
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && found != object.end() ? *found : k_nothing;
+}
+
+std::string word_in(const json& object, const char* key) {
+    const json& value = part_of(object, key);
+    return value.is_string() ? value.get<std::string>() : "";
+}
+
+/// The smallest standard deviation of n readings that one in control exceeds with probability 1 − 0.99865, as beyond
+/// three standard deviations of a normal distribution: σ √(χ²/ν).
+double control_limit(double sigma, std::int64_t nu) {
+    constexpr double k_beyond = 0.00135;
+    gum::Distribution half_chi_squared;
+    half_chi_squared.kind = gum::DistributionKind::gamma;
+    half_chi_squared.scale = 1.0;
+    half_chi_squared.shape = 0.5 * static_cast<double>(nu);
+    return sigma * std::sqrt(2.0 * gum::upper_quantile(half_chi_squared, k_beyond) / static_cast<double>(nu));
+}
+
+class StatisticsOfRecords {
+public:
+    void look_at(const archive::ListedCertificate& certificate, const std::string& bytes) {
+        if (certificate.state == "withdrawn") {
+            return;
+        }
+        const json record = json::parse(bytes, nullptr, false);
+        if (!record.is_object()) {
+            found_.not_read.push_back(certificate.number);
+            return;
+        }
+        const json& data = part_of(part_of(record, "certificate"), "data");
+        const std::string method = word_in(part_of(data, "method"), "identification");
+        const json& dates = part_of(data, "dates");
+        count(found_.by_kind, word_in(record, "kind"));
+        count(found_.by_method, method);
+        if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
+            count(found_.by_month, word_in(dates, "issued").substr(0, 7));
+            count(found_.by_authoriser, word_in(part_of(part_of(data, "persons"), "authorised_by"), "name"));
+        }
+        found_.amendments += part_of(data, "amendment").is_object() ? 1U : 0U;
+        const std::string done = word_in(dates, "performed_to");
+        const std::string day = done.empty() ? word_in(dates, "performed_from") : done;
+        take_scores(certificate.number, day, part_of(record, "comparison"));
+        take_readings(certificate.number, day, method, part_of(record, "readings"));
+    }
+    void count_state(const std::string& state) { count(found_.by_state, state); }
+
+    ArchiveStatistics finish() && {
+        std::sort(found_.scores.begin(), found_.scores.end(), [](const ArchivedScores& a, const ArchivedScores& b) {
+            return std::tie(a.day, a.number) < std::tie(b.day, b.number);
+        });
+        for (auto& [key, scatters] : scatters_) {
+            std::sort(scatters.begin(), scatters.end(), [](const ArchivedScatter& x, const ArchivedScatter& y) {
+                return std::tuple(value_of(x), x.day, x.number) < std::tuple(value_of(y), y.day, y.number);
+            });
+            for (auto first = scatters.begin(); first != scatters.end();) {
+                const auto last = std::find_if(first, scatters.end(), [&](const ArchivedScatter& one) {
+                    return value_of(one) > k_near * value_of(*first);
+                });
+                if (last - first > 1) {
+                    found_.charts.push_back(chart_of(key, {first, last}));
+                }
+                first = last;
+            }
+        }
+        return std::move(found_);
+    }
+
+private:
+    using ChartKey = std::tuple<std::string, std::string, std::string>;
+    static constexpr double k_near = 1.05;
+    ArchiveStatistics found_;
+    std::map<ChartKey, std::vector<ArchivedScatter>> scatters_;
+
+    static bool by_day(const ArchivedScatter& a, const ArchivedScatter& b) {
+        return std::tie(a.day, a.number) < std::tie(b.day, b.number);
+    }
+    /// By which sets of readings are compared with each other.
+    static double value_of(const ArchivedScatter& one) {
+        constexpr double k_away = 10.0;  // standard deviations
+        const double size = std::abs(one.mean);
+        return size > k_away * one.standard_deviation ? size : 0.0;
+    }
+    static RepeatabilityChart chart_of(const ChartKey& key, std::vector<ArchivedScatter> scatters) {
+        RepeatabilityChart chart;
+        std::tie(chart.method, chart.input, chart.unit) = key;
+        chart.near = value_of(scatters.front());
+        std::sort(scatters.begin(), scatters.end(), by_day);
+        double sum = 0.0;
+        for (const ArchivedScatter& one : scatters) {
+            chart.degrees_of_freedom += one.n - 1;
+            sum += static_cast<double>(one.n - 1) * one.standard_deviation * one.standard_deviation;
+        }
+        chart.pooled_standard_deviation = std::sqrt(sum / static_cast<double>(chart.degrees_of_freedom));
+        for (ArchivedScatter& one : scatters) {
+            one.limit = control_limit(chart.pooled_standard_deviation, one.n - 1);
+        }
+        chart.scatters = std::move(scatters);
+        return chart;
+    }
+
+    static void count(std::map<std::string, std::size_t>& counts, const std::string& name) {
+        ++counts[name.empty() ? "(not stated)" : name];
+    }
+
+    static void add_score(ArchivedScores& scores, const json& row) {
+        const json& En = part_of(row, "En");
+        if (En.is_number()) {
+            const double size = std::abs(En.get<double>());
+            ++scores.scores;
+            scores.above_one += size > 1.0 ? 1U : 0U;
+            scores.largest = std::max(scores.largest, size);
+        }
+    }
+    /// Of points, or of the participants at each item.
+    void take_scores(const std::string& number, const std::string& day, const json& comparison) {
+        ArchivedScores scores{.number = number, .day = day};
+        const json& items = part_of(comparison, "items");
+        if (items.is_array() && !items.empty()) {
+            for (const json& item : items) {
+                for (const json& row : part_of(item, "pairs")) {
+                    add_score(scores, row);
+                }
+            }
+        }
+        for (const json& point : part_of(comparison, "points")) {
+            add_score(scores, point);
+        }
+        if (scores.scores > 0) {
+            found_.scores.push_back(std::move(scores));
+        }
+    }
+
+    void take_readings(const std::string& number, const std::string& day, const std::string& method,
+                       const json& readings) {
+        for (const json& one : readings) {
+            const json& s = part_of(one, "standard_deviation");
+            const json& mean = part_of(one, "mean");
+            const json& n = part_of(one, "n");
+            if (!s.is_number() || !mean.is_number() || !n.is_number_integer() || n.get<std::int64_t>() < 2) {
+                continue;
+            }
+            const std::string component = word_in(one, "component");
+            const std::string input = word_in(one, "input") + (component.empty() ? "" : ", " + component);
+            scatters_[{method, input, word_in(one, "unit")}].push_back({.number = number,
+                                                                        .day = day,
+                                                                        .mean = mean.get<double>(),
+                                                                        .standard_deviation = s.get<double>(),
+                                                                        .n = n.get<std::int64_t>()});
+        }
+    }
+};
+
+std::string digits(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+    return {text.data(), end.ptr};
+}
+
+std::string counts_as_text(const char* title, const std::map<std::string, std::size_t>& counts) {
+    std::string text;
+    for (const auto& [name, count] : counts) {
+        text += text.empty() ? std::string(title) + "\n" : "";
+        const std::string number = std::to_string(count);
+        text += "  " + std::string(number.size() < 7 ? 7 - number.size() : 0, ' ') + number + "  " +
+                text::visible(name, 100) + "\n";
+    }
+    return text;
+}
+
+std::string place_of(const RepeatabilityChart& chart) {
+    return text::visible(chart.method.empty() ? "(no method)" : chart.method, 60) + ", " +
+           text::visible(chart.input, 60) + " near " + digits(chart.near) + " " + text::visible(chart.unit, 20);
+}
+
+}  // namespace
+
+ArchiveStatistics statistics_of(archive::Archive& archive) {
+    StatisticsOfRecords all;
+    for (const archive::ListedCertificate& one : archive.list()) {
+        all.count_state(one.state);
+    }
+    archive.each_record([](std::size_t) {}, [&](const archive::ListedCertificate& certificate,
+                                                const std::string& bytes) { all.look_at(certificate, bytes); });
+    return std::move(all).finish();
+}
+
+std::string statistics_text(const ArchiveStatistics& statistics) {
+    std::string text = counts_as_text("Certificates by state", statistics.by_state) +
+                       counts_as_text("Issued, by month", statistics.by_month) +
+                       counts_as_text("Issued, by who authorised them", statistics.by_authoriser) +
+                       counts_as_text("By method", statistics.by_method) +
+                       counts_as_text("By kind of evaluation", statistics.by_kind);
+    text += "Amendments: " + std::to_string(statistics.amendments) + "\n";
+    for (const ArchivedScores& one : statistics.scores) {
+        text += &one == statistics.scores.data() ? "|E_n| of comparisons: scores, above 1, largest\n" : "";
+        text += "  " + text::visible(one.number, 40) + "  " + text::visible(one.day, 20) + "  " +
+                std::to_string(one.scores) + "  " + std::to_string(one.above_one) + "  " + digits(one.largest) + "\n";
+    }
+    for (const RepeatabilityChart& chart : statistics.charts) {
+        text += &chart == statistics.charts.data() ? "Repeatability: pooled standard deviation of a reading\n" : "";
+        text += "  " + place_of(chart) + ": " + digits(chart.pooled_standard_deviation) + " " +
+                text::visible(chart.unit, 20) + ", " + std::to_string(chart.degrees_of_freedom) +
+                " degrees of freedom, " + std::to_string(chart.scatters.size()) + " sets of readings\n";
+        for (const ArchivedScatter& one : chart.scatters) {
+            if (one.is_above()) {
+                text += "    ABOVE THE LIMIT: " + text::visible(one.number, 40) + "  " + text::visible(one.day, 20) +
+                        "  " + digits(one.standard_deviation) + " of " + std::to_string(one.n) + " readings, limit " +
+                        digits(one.limit) + "\n";
+            }
+        }
+    }
+    for (const std::string& number : statistics.not_read) {
+        text += "Not read: the record of " + text::visible(number, 80) + "\n";
+    }
+    return text;
+}
+
+std::string statistics_json(const ArchiveStatistics& statistics) {
+    json scores = json::array();
+    for (const ArchivedScores& one : statistics.scores) {
+        scores.push_back({{"number", one.number},
+                          {"day", one.day},
+                          {"scores", one.scores},
+                          {"above_one", one.above_one},
+                          {"largest", one.largest}});
+    }
+    json charts = json::array();
+    for (const RepeatabilityChart& chart : statistics.charts) {
+        json values = json::array();
+        for (const ArchivedScatter& one : chart.scatters) {
+            values.push_back({{"number", one.number},
+                              {"day", one.day},
+                              {"mean", one.mean},
+                              {"standard_deviation", one.standard_deviation},
+                              {"n", one.n},
+                              {"limit", one.limit},
+                              {"above", one.is_above()}});
+        }
+        charts.push_back({{"method", chart.method},
+                          {"input", chart.input},
+                          {"near", chart.near},
+                          {"unit", chart.unit},
+                          {"pooled_standard_deviation", chart.pooled_standard_deviation},
+                          {"degrees_of_freedom", chart.degrees_of_freedom},
+                          {"values", std::move(values)}});
+    }
+    return gumcert::json::canonical_json({{"schema", "gumcert/archive-statistics/1"},
+                                          {"by_state", statistics.by_state},
+                                          {"by_month", statistics.by_month},
+                                          {"by_authoriser", statistics.by_authoriser},
+                                          {"by_method", statistics.by_method},
+                                          {"by_kind", statistics.by_kind},
+                                          {"amendments", statistics.amendments},
+                                          {"not_read", statistics.not_read},
+                                          {"scores", std::move(scores)},
+                                          {"charts", std::move(charts)}});
+}
+
+}  // namespace gumcert::app
