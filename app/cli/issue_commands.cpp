@@ -265,6 +265,13 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         inputs.push_back(file);
     }
     const bool held_back = withheld(record, options.draft);
+    const auto keep = [&] {
+        progress.clear();
+        (void)explained(common, [&] {
+            keep_evaluation(files, inputs, at_start, common);
+            return done;
+        });
+    };
     try {
         files.push_back({folder / k_audit_file,
                          reports::audit_as_html(
@@ -277,12 +284,14 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
                 files.push_back({documents[i], std::move(issued[i].bytes)});
             }
         }
+    } catch (const gum::InputError&) {
+        throw;  // exit code 3: nothing is written
+    } catch (const gum::NoResultError& error) {
+        // There is a result; what could not be made is a file of it.
+        keep();
+        throw gum::StorageError(several ? of_job(error.diagnostics(), job) : error.diagnostics());
     } catch (...) {
-        progress.clear();
-        (void)explained(common, [&] {
-            keep_evaluation(files, inputs, at_start, common);
-            return done;
-        });
+        keep();
         throw;
     }
     progress("writing");
