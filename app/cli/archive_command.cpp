@@ -34,7 +34,7 @@
 #include "encoding/sha2.h"
 #include "signing/ed25519.h"
 #include "signing/verify.h"
-#include "system/cleanup.h"
+#include "system/temporary.h"
 
 namespace gumcert::cli {
 
@@ -549,23 +549,14 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
 /// The copy is looked at before it gets its name, and noted in the log before anybody relies on it.
 ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     const fs::path file = options.output;
-    const fs::path part = file.string() + ".part";
     const auto store = opened(options, archive::Access::read_and_write);
     std::error_code error;
-    for (const fs::path& place : {file, part}) {
-        if (fs::exists(place, error) || error) {
-            refuse_usage(place.string(), "is there already", "a backup is a new file", "choose another name");
-        }
+    if (fs::exists(file, error) || error) {
+        refuse_usage(file.string(), "is there already", "a backup is a new file", "choose another name");
     }
-    struct Removed {
-        fs::path path;
-        ~Removed() {
-            std::error_code ignored;
-            fs::remove(path, ignored);
-            system::forget_file(path);
-        }
-    } const removed{part};
-    system::remember_file(part);
+    // A folder of a command that was killed goes when the next one is made.
+    const system::TemporaryFolder folder(file.has_parent_path() ? file.parent_path() : ".");
+    const fs::path part = folder.path() / file.filename();
     store->copy_to(part);
     ProgressLine progress(!common.quiet);
     archive::Verification verification;

@@ -487,5 +487,21 @@ TEST_F(ArchiveOfALaboratory, CountsWhatItDid) {
     EXPECT_TRUE(tells(archive({"statistics"}), "Certificates by state")) << "for people, too";
 }
 
+/// What a backup that was killed left beside its place goes with the next one.
+TEST_F(ArchiveOfALaboratory, BacksUpAfterABackupThatWasKilled) {
+    begin();
+    const fs::path left = folder() / "gumcert-work-ABCDEF";
+    fs::create_directory(left);
+    chmod(left.c_str(), 0700);
+    write_bytes(left / "copy.archive", "half of an archive");
+    const Ended ended = archive({"backup", "-o", path("copy.archive")}, "K. Keeper");
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_EQ(verified_elsewhere({path("copy.archive")}).code, 0);
+    for (const auto& entry : fs::directory_iterator(folder())) {
+        EXPECT_FALSE(entry.path().filename().string().starts_with("gumcert-work")) << "the copy has moved";
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::cli
