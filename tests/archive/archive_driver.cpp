@@ -5,6 +5,7 @@
 //                                                       "not sound: CODE …"
 //   archive_driver write FILE WHO COUNT                 drafts COUNT certificates, and says of each one when it is kept
 //   archive_driver number FILE WHO COUNT                takes COUNT numbers, and prints them
+//   archive_driver migrate FROM TO                      a new archive with the same log
 //   archive_driver fill FILE COUNT RECORD               a new archive with COUNT drafts, each durable by itself: of RECORD, with
 //                                                       its number in place of "EX-2026-0042"
 #include <fstream>
@@ -17,7 +18,7 @@
 
 #include "archive/archive.h"
 #include "archive/evidence.h"
-#include "archive/store/sqlite_store.h"
+#include "archive/store/open_store.h"
 #include "archive/verification.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/sample_archive.h"
@@ -33,7 +34,7 @@ std::string content_of(const std::string& file) {
 
 int make(const std::vector<std::string>& words) {
     test::ArchiveOfChance chance(std::stoull(words.at(2)));
-    const auto store = create_sqlite_store(words.at(1), chance.first());
+    const auto store = create_store(words.at(1), chance.first());
     Archive archive(*store);
     chance.fill(archive, std::stoi(words.at(3)));
     if (words.size() > 4) {
@@ -46,7 +47,7 @@ std::vector<gumcert::gum::Diagnostic> findings_of(const std::string& file, const
     if (file.ends_with(".json")) {
         return verify_evidence(evidence_from_json(content_of(file), file), heads).findings;
     }
-    const auto store = open_sqlite_store(file, Access::read_only);
+    const auto store = open_store(file, Access::read_only);
     return verify_store(*store, heads).findings;
 }
 
@@ -82,7 +83,7 @@ int judge() {
 }
 
 int write(const std::vector<std::string>& words) {
-    const auto store = open_sqlite_store(words.at(1), Access::read_and_write);
+    const auto store = open_store(words.at(1), Access::read_and_write);
     Archive archive(*store);
     for (int i = 0; i < std::stoi(words.at(3)); ++i) {
         const std::string number = words[2] + "-" + std::to_string(i);
@@ -94,8 +95,14 @@ int write(const std::vector<std::string>& words) {
     return 0;
 }
 
+int migrate(const std::vector<std::string>& words) {
+    const auto from = open_store(words.at(1), Access::read_only);
+    (void)replay_into(*from, words.at(2));
+    return 0;
+}
+
 int number(const std::vector<std::string>& words) {
-    const auto store = open_sqlite_store(words.at(1), Access::read_and_write);
+    const auto store = open_store(words.at(1), Access::read_and_write);
     Archive archive(*store);
     for (int i = 0; i < std::stoi(words.at(3)); ++i) {
         const Written written = archive.take_number({.actor = words[2],
@@ -112,7 +119,7 @@ int fill(const std::vector<std::string>& words) {
     const std::string number = "EX-2026-0042";
     test::Clock clock;
     const Request request{.actor = "A. Author", .at = clock.next(), .request_key = "", .why = ""};
-    const auto store = create_sqlite_store(words.at(1), first_entry({}, "gumcert of the tests", "nonce", request));
+    const auto store = create_store(words.at(1), first_entry({}, "gumcert of the tests", "nonce", request));
     Archive archive(*store);
     for (int i = 0; i < std::stoi(words.at(2)); ++i) {
         Draft draft{.number = "L-" + std::to_string(i), .item = "gauge", .record = record, .documents = {}};
@@ -130,12 +137,13 @@ int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     try {
         const std::string what = words.empty() ? "" : words[0];
-        return what == "make"     ? make(words)
-               : what == "judge"  ? judge()
-               : what == "write"  ? write(words)
-               : what == "number" ? number(words)
-               : what == "fill"   ? fill(words)
-                                  : 2;
+        return what == "make"      ? make(words)
+               : what == "judge"   ? judge()
+               : what == "write"   ? write(words)
+               : what == "number"  ? number(words)
+               : what == "migrate" ? migrate(words)
+               : what == "fill"    ? fill(words)
+                                   : 2;
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 1;

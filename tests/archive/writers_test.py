@@ -2,11 +2,16 @@
 """Several programs take certificate numbers from one archive at the same time: no gap, no number twice.
 
     writers_test.py --driver archive_driver [--writers N] [--numbers N]
+
+First in a file, then on a server of PostgreSQL, where Debian's package is there.
 """
 
 import argparse
+import contextlib
 import importlib.util
+import os
 import pathlib
+import shutil
 import sqlite3
 import subprocess
 import sys
@@ -34,30 +39,75 @@ def archive_with_numbering(driver, folder):
     raise SystemExit("no archive of chance gives numbers")
 
 
+@contextlib.contextmanager
+def server(folder):
+    """Address of an empty database on a server of its own, which listens on a socket in the folder; None without PostgreSQL."""
+    programs = pathlib.Path("/usr/lib/postgresql/15/bin")
+    if not (programs / "postgres").exists():
+        yield None
+        return
+    as_user = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"] if os.geteuid() == 0 else []
+    if as_user:
+        shutil.chown(folder, "postgres")
+
+    def run(program, *words):
+        subprocess.run([*as_user, programs / program, *words], check=True, stdout=subprocess.DEVNULL, cwd=folder)
+
+    run("initdb", "-D", f"{folder}/data", "-U", "keeper", "-A", "trust", "-E", "UTF8", "--locale=C", "--no-sync")
+    run("pg_ctl", "-D", f"{folder}/data", "-w", "-o", f"-k {folder} -c listen_addresses='' -c max_connections=200", "-l",
+        f"{folder}/log", "start")
+    try:
+        run("createdb", "-h", folder, "-U", "keeper", "archive")
+        yield f"postgresql://keeper@/archive?host={folder}"
+    finally:
+        run("pg_ctl", "-D", f"{folder}/data", "-m", "immediate", "stop")
+
+
+def take_numbers(options, store, before):
+    """Faults of writers that take numbers at the same time."""
+    writers = [subprocess.Popen([options.driver, "number", store, f"W{i}", str(options.numbers)], stdout=subprocess.PIPE, text=True)
+               for i in range(options.writers)]
+    taken = [number for writer in writers for number in writer.communicate()[0].split()]
+    faults = [f"writer {i} ended with {w.returncode}" for i, w in enumerate(writers) if w.returncode]
+    total = options.writers * options.numbers
+    expected = [f"EX-2026-{ordinal:04}" for ordinal in range(before + 1, before + total + 1)]
+    if sorted(taken) != expected:
+        faults.append(f"{len(taken)} numbers, {len(set(taken))} different ones, {len(set(expected) - set(taken))} missing")
+    again = subprocess.run([options.driver, "number", store, "W0", "1"], stdout=subprocess.PIPE, text=True, check=True)
+    if again.stdout.split()[0] not in taken:
+        faults.append("a request with a key that is known took a new number")
+    return faults
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
     parser.add_argument("--writers", type=int, default=8)
     parser.add_argument("--numbers", type=int, default=50)
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        store, before = archive_with_numbering(options.driver, pathlib.Path(name))
-        writers = [subprocess.Popen([options.driver, "number", store, f"W{i}", str(options.numbers)], stdout=subprocess.PIPE, text=True)
-                   for i in range(options.writers)]
-        taken = [number for writer in writers for number in writer.communicate()[0].split()]
-        faults = [f"writer {i} ended with {w.returncode}" for i, w in enumerate(writers) if w.returncode]
-        total = options.writers * options.numbers
-        expected = [f"EX-2026-{ordinal:04}" for ordinal in range(before + 1, before + total + 1)]
-        if sorted(taken) != expected:
-            faults.append(f"{len(taken)} numbers, {len(set(taken))} different ones, {len(set(expected) - set(taken))} missing")
-        again = subprocess.run([options.driver, "number", store, "W0", "1"], stdout=subprocess.PIPE, text=True, check=True)
-        if again.stdout.split()[0] not in taken:
-            faults.append("a request with a key that is known took a new number")
-        faults += list(verify_archive.findings(store))
-        for fault in faults:
-            print(fault)
-        print(f"{total} numbers by {options.writers} writers, {len(faults)} faults")
-        return 1 if faults else 0
+    failed = 0
+    with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory(dir="/tmp") as place:
+        folder = pathlib.Path(name)
+        store, before = archive_with_numbering(options.driver, folder)
+        with server(place) as address:
+            if address:
+                subprocess.run([options.driver, "migrate", store, address], check=True)
+            for where in [store, address]:
+                if where is None:
+                    print("postgresql-15 is not installed: no trial on a server")
+                    continue
+                faults = take_numbers(options, where, before)
+                copy = where
+                if where == address:
+                    copy = folder / "copy.archive"
+                    subprocess.run([options.driver, "migrate", address, copy], check=True)
+                faults += list(verify_archive.findings(copy))
+                for fault in faults:
+                    print(fault)
+                print(f"{'on a server' if where == address else 'in a file'}: {options.writers * options.numbers} numbers by "
+                      f"{options.writers} writers, {len(faults)} faults")
+                failed += len(faults)
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
