@@ -1,8 +1,6 @@
 #include "app/archive/affected_certificates.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <map>
@@ -17,6 +15,7 @@
 #include "json/canonical_json.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
+#include "text/numbers.h"
 #include "text/visible_text.h"
 
 namespace gumcert::app {
@@ -333,12 +332,6 @@ std::string filled(std::string text, std::size_t width) {
     return text + "  ";
 }
 
-std::string three_digits(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-    return {text.data(), end.ptr};
-}
-
 std::string draft_folder(const AffectedCertificate& one) {
     return one.draft.empty() ? "" : folder_of_number(one.draft_number);
 }
@@ -427,7 +420,7 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
                 filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
         if (one.recalculated && !one.recalculated->not_evaluated) {
-            text += "  " + three_digits(one.shift) + " U";
+            text += "  " + text::significant(one.shift, 3) + " U";
         }
         text += one.draft.empty() ? "" : "  draft " + draft_folder(one);
         text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +

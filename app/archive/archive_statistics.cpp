@@ -1,16 +1,15 @@
 #include "app/archive/archive_statistics.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
 
+#include "app/archive/record_parts.h"
 #include "gum/distribution_quantile.h"
 #include "json/canonical_json.h"
-#include "text/lists.h"
+#include "text/numbers.h"
 #include "text/visible_text.h"
 
 namespace gumcert::app {
@@ -18,17 +17,6 @@ namespace gumcert::app {
 namespace {
 
 using nlohmann::json;
-
-const json& part_of(const json& object, const char* key) {
-    static const json k_nothing;
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return object.is_object() && found != object.end() ? *found : k_nothing;
-}
-
-std::string word_in(const json& object, const char* key) {
-    const json& value = part_of(object, key);
-    return value.is_string() ? value.get<std::string>() : "";
-}
 
 /// The smallest standard deviation of n readings that one in control exceeds with probability 1 − 0.99865, as beyond
 /// three standard deviations of a normal distribution: σ √(χ²/ν).
@@ -53,17 +41,17 @@ public:
             return;
         }
         const json& data = part_of(part_of(record, "certificate"), "data");
-        const std::string method = word_in(part_of(data, "method"), "identification");
+        const std::string method = text_of(part_of(data, "method"), "identification");
         const json& dates = part_of(data, "dates");
-        count(found_.by_kind, word_in(record, "kind"));
+        count(found_.by_kind, text_of(record, "kind"));
         count(found_.by_method, method);
         if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
-            count(found_.by_month, word_in(dates, "issued").substr(0, 7));
-            count(found_.by_authoriser, word_in(part_of(part_of(data, "persons"), "authorised_by"), "name"));
+            count(found_.by_month, text_of(dates, "issued").substr(0, 7));
+            count(found_.by_authoriser, text_of(part_of(part_of(data, "persons"), "authorised_by"), "name"));
         }
         found_.amendments += part_of(data, "amendment").is_object() ? 1U : 0U;
-        const std::string done = word_in(dates, "performed_to");
-        const std::string day = done.empty() ? word_in(dates, "performed_from") : done;
+        const std::string done = text_of(dates, "performed_to");
+        const std::string day = done.empty() ? text_of(dates, "performed_from") : done;
         take_scores(certificate.number, day, part_of(record, "comparison"));
         take_readings(certificate.number, day, method, part_of(record, "readings"));
     }
@@ -164,9 +152,9 @@ private:
             if (!s.is_number() || !mean.is_number() || !n.is_number_integer() || n.get<std::int64_t>() < 2) {
                 continue;
             }
-            const std::string component = word_in(one, "component");
-            const std::string input = word_in(one, "input") + (component.empty() ? "" : ", " + component);
-            scatters_[{method, input, word_in(one, "unit")}].push_back({.number = number,
+            const std::string component = text_of(one, "component");
+            const std::string input = text_of(one, "input") + (component.empty() ? "" : ", " + component);
+            scatters_[{method, input, text_of(one, "unit")}].push_back({.number = number,
                                                                         .day = day,
                                                                         .mean = mean.get<double>(),
                                                                         .standard_deviation = s.get<double>(),
@@ -176,9 +164,7 @@ private:
 };
 
 std::string digits(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-    return {text.data(), end.ptr};
+    return text::significant(value, 3);
 }
 
 std::string counts_as_text(const char* title, const std::map<std::string, std::size_t>& counts) {

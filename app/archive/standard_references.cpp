@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "app/archive/record_parts.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -13,22 +14,6 @@ namespace gumcert::app {
 namespace {
 
 using ReferenceKind = StandardReference::Kind;
-
-const std::string* text_member(const nlohmann::json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? &found->get_ref<const std::string&>() : nullptr;
-}
-
-std::string text_or_nothing(const nlohmann::json& object, const char* key) {
-    const std::string* const text = object.is_object() ? text_member(object, key) : nullptr;
-    return text != nullptr ? *text : "";
-}
-
-const nlohmann::json& child(const nlohmann::json& object, const char* key) {
-    static const nlohmann::json k_nothing;
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return object.is_object() && found != object.end() ? *found : k_nothing;
-}
 
 class ReferenceCollector {
 public:
@@ -53,19 +38,19 @@ public:
     }
 
     void take_file(const nlohmann::json& file) {
-        const std::string id = standard_of_file(text_or_nothing(file, "name"));
+        const std::string id = standard_of_file(text_of(file, "name"));
         if (id.empty()) {
             return;
         }
         take(ReferenceKind::registered, id);
-        reports::InputFile held{.name = {}, .sha256 = {}, .encoding = text_or_nothing(file, "encoding")};
-        if (const std::string* const content = text_member(file, "content")) {
-            held.content = *content;
+        reports::InputFile held{.name = {}, .sha256 = {}, .encoding = text_of(file, "encoding")};
+        if (const nlohmann::json& content = part_of(file, "content"); content.is_string()) {
+            held.content = content.get<std::string>();
         }
         const nlohmann::json standard = nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false);
-        const nlohmann::json& calibrations = child(standard, "calibrations");
+        const nlohmann::json& calibrations = part_of(standard, "calibrations");
         for (const nlohmann::json& calibration : calibrations.is_array() ? calibrations : nlohmann::json::array()) {
-            take(ReferenceKind::registered, text_or_nothing(calibration, "certificate"));
+            take(ReferenceKind::registered, text_of(calibration, "certificate"));
         }
     }
 
@@ -93,8 +78,8 @@ private:
     void take_rows(const nlohmann::json& rows) {
         for (const nlohmann::json& row : rows.is_array() ? rows : nlohmann::json::array({rows})) {
             if (row.is_object()) {
-                take(ReferenceKind::traceability, text_or_nothing(row, "identification"));
-                take(ReferenceKind::traceability, text_or_nothing(row, "certificate"));
+                take(ReferenceKind::traceability, text_of(row, "identification"));
+                take(ReferenceKind::traceability, text_of(row, "certificate"));
             } else {
                 take_texts(ReferenceKind::traceability, row);
             }
@@ -104,7 +89,7 @@ private:
 
 std::string first_stated(const nlohmann::json& dates, const std::array<const char*, 4>& keys) {
     for (const char* const key : keys) {
-        if (std::string day = text_or_nothing(dates, key); !day.empty()) {
+        if (std::string day = text_of(dates, key); !day.empty()) {
             return day;
         }
     }
@@ -145,12 +130,12 @@ std::optional<RecordReferences> references_of(std::string_view record) {
         return std::nullopt;
     }
     ReferenceCollector collector;
-    const nlohmann::json& files = child(child(value, "job"), "files");
+    const nlohmann::json& files = part_of(part_of(value, "job"), "files");
     for (const nlohmann::json& file : files.is_array() ? files : nlohmann::json::array()) {
         collector.take_file(file);
     }
     collector.walk(value);
-    const nlohmann::json& dates = child(child(child(value, "certificate"), "data"), "dates");
+    const nlohmann::json& dates = part_of(part_of(part_of(value, "certificate"), "data"), "dates");
     return RecordReferences{
         .references = std::move(collector).references(),
         .used_from = first_stated(dates, {"performed_from", "performed_to", "authorised", "issued"}),

@@ -31,6 +31,33 @@ std::string subtree(const std::vector<std::string>& leaves, std::size_t first, s
     return node_hash(subtree(leaves, first, left), subtree(leaves, first + left, count - left));
 }
 
+/// Place of a node on its way from a leaf to the root, beside that of the last one of its row (RFC 9162, 2.1.3.2).
+class WayToTheRoot {
+public:
+    WayToTheRoot(std::size_t node, std::size_t last) : node_(node), last_(last) {}
+
+    [[nodiscard]] bool is_at_the_root() const { return last_ == 0; }
+    [[nodiscard]] bool is_right_node() const { return node_ % 2 == 1; }
+    /// Whether the next node of a proof stands left of it; else right.
+    [[nodiscard]] bool joins_to_the_left() const { return is_right_node() || node_ == last_; }
+    void up() {
+        node_ /= 2;
+        last_ /= 2;
+    }
+    /// To where it is joined with the next node of a proof. The last node of a row rises alone until it is a right one.
+    void up_to_joint() {
+        if (joins_to_the_left()) {
+            while (!is_right_node() && node_ != 0) {
+                up();
+            }
+        }
+        up();
+    }
+
+private:
+    std::size_t node_, last_;
+};
+
 }  // namespace
 
 void MerkleTree::add(const std::string& entry) {
@@ -64,26 +91,16 @@ std::optional<std::string> root_of_proof(const std::string& entry, std::size_t i
     if (index >= size) {
         return std::nullopt;
     }
-    std::size_t node = index;
-    std::size_t last = size - 1;
+    WayToTheRoot way(index, size - 1);
     std::string root = leaf_hash(entry);
     for (const std::string& beside : proof) {
-        if (last == 0) {
+        if (way.is_at_the_root()) {
             return std::nullopt;
         }
-        if (node % 2 == 1 || node == last) {
-            root = node_hash(beside, root);
-            while (node % 2 == 0 && node != 0) {
-                node /= 2;
-                last /= 2;
-            }
-        } else {
-            root = node_hash(root, beside);
-        }
-        node /= 2;
-        last /= 2;
+        root = way.joins_to_the_left() ? node_hash(beside, root) : node_hash(root, beside);
+        way.up_to_joint();
     }
-    return last == 0 ? std::optional(root) : std::nullopt;
+    return way.is_at_the_root() ? std::optional(root) : std::nullopt;
 }
 
 std::vector<std::string> MerkleTree::consistency_proof(std::size_t earlier, std::size_t size) const {
@@ -124,32 +141,25 @@ bool is_extended(std::size_t earlier, const std::string& earlier_root, std::size
     if (path.empty()) {
         return false;
     }
-    std::size_t node = earlier - 1;
-    std::size_t last = size - 1;
-    while (node % 2 == 1) {
-        node /= 2;
-        last /= 2;
+    WayToTheRoot way(earlier - 1, size - 1);
+    while (way.is_right_node()) {
+        way.up();
     }
     std::string found_earlier = path.front();
     std::string found = path.front();
     for (std::size_t i = 1; i < path.size(); ++i) {
-        if (last == 0) {
+        if (way.is_at_the_root()) {
             return false;
         }
-        if (node % 2 == 1 || node == last) {
+        if (way.joins_to_the_left()) {
             found_earlier = node_hash(path[i], found_earlier);
             found = node_hash(path[i], found);
-            while (node % 2 == 0 && node != 0) {
-                node /= 2;
-                last /= 2;
-            }
         } else {
             found = node_hash(found, path[i]);
         }
-        node /= 2;
-        last /= 2;
+        way.up_to_joint();
     }
-    return last == 0 && found_earlier == earlier_root && found == root;
+    return way.is_at_the_root() && found_earlier == earlier_root && found == root;
 }
 
 }  // namespace gumcert::archive
