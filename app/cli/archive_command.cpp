@@ -426,8 +426,9 @@ void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOp
     }
 }
 
-ExitCode verify_bundle(const std::string& file, const ArchiveOptions& options, const CommonOptions& common) {
-    const archive::Evidence evidence = archive::evidence_from_json(app::read_file(file), file);
+ExitCode verify_bundle(const std::string& text, const std::string& file, const ArchiveOptions& options,
+                       const CommonOptions& common) {
+    const archive::Evidence evidence = archive::evidence_from_json(text, file);
     Heads heads(options);
     if (evidence.head.signature) {
         heads.look_at(evidence.head, file + "#/head");
@@ -460,8 +461,9 @@ bool is_head(const std::string& text) {
 }
 
 /// A head without its archive: its signature, and whether it extends earlier ones.
-ExitCode verify_head(const std::string& file, const ArchiveOptions& options, const CommonOptions& common) {
-    const archive::Head head = archive::head_from_json(app::read_file(file), file);
+ExitCode verify_head(const std::string& text, const std::string& file, const ArchiveOptions& options,
+                     const CommonOptions& common) {
+    const archive::Head head = archive::head_from_json(text, file);
     Heads heads(options);
     heads.look_at(head, file);
     std::vector<gum::Diagnostic> findings = heads.findings();
@@ -504,8 +506,9 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
         ExitCode code = done;
         for (const std::string& file : options.named) {
             code = std::max(code, explained(common, [&] {
-                                return is_head(app::read_file(file)) ? verify_head(file, options, common)
-                                                                     : verify_bundle(file, options, common);
+                                const std::string text = app::read_file(file);
+                                return is_head(text) ? verify_head(text, file, options, common)
+                                                     : verify_bundle(text, file, options, common);
                             }));
         }
         return code;
