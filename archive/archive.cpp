@@ -95,6 +95,18 @@ void refuse_unknown(const std::string& certificate, const std::string& archive) 
                    "a certificate is named by its number", "see gumcert archive list");
 }
 
+ListedCertificate listed_as(const std::string& number, const CertificateLife& life) {
+    return {.number = number, .state = life.state, .since = life.since, .item = life.item, .record = life.record};
+}
+
+void list_again(Store& store) {
+    LogRules rules;
+    store.each_entry([&](const LogEntry& entry) { rules.take(entry); });
+    for (const auto& [number, life] : rules.lives()) {
+        store.list(listed_as(number, life));
+    }
+}
+
 LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
                      const Request& request) {
     require_numbering(settings);
@@ -164,6 +176,9 @@ LogEntry Archive::append(LogRules& rules, LogEntry entry) {
     }
     entry.hash = entry_hash(entry);
     store_.append(entry);
+    if (is_of_life(entry.kind)) {
+        store_.list(listed_as(entry.certificate, *rules.life(entry.certificate)));
+    }
     return entry;
 }
 
@@ -377,43 +392,34 @@ std::vector<LogEntry> Archive::history(const std::string& certificate) {
     return entries;
 }
 
-std::vector<ListedCertificate> Archive::listed() {
-    std::vector<ListedCertificate> certificates;
-    std::map<std::string, std::string> items;
-    for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
-        if (const std::optional<json> body = body_of(draft)) {
-            items[draft.certificate] = text_in(*body, "new", "item");
-        }
-    }
-    for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
-        certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
-    }
-    return certificates;
-}
-
 std::vector<ListedCertificate> Archive::list() {
     std::vector<ListedCertificate> certificates;
-    store_.read([&] { certificates = listed(); });
+    store_.read([&] { certificates = store_.listed(); });
     return certificates;
 }
 
-void Archive::each_record(const std::function<void(std::size_t number)>& begin,
+void Archive::each_record(const std::function<void(const std::vector<ListedCertificate>&)>& begin,
                           const std::function<void(const ListedCertificate&, std::string bytes)>& visit) {
     store_.read([&] {
-        std::vector<ListedCertificate> certificates = listed();
-        std::erase_if(certificates, [](const ListedCertificate& one) { return one.record.empty(); });
-        begin(certificates.size());
+        const std::vector<ListedCertificate> certificates = store_.listed();
+        begin(certificates);
         for (const ListedCertificate& one : certificates) {
-            // A record that is missing is for the verifier to tell; here it is one that says nothing.
-            visit(one, store_.content(one.record).value_or(""));
+            if (!one.record.empty()) {
+                // A record that is missing is for the verifier to tell; here it is one that says nothing.
+                visit(one, store_.content(one.record).value_or(""));
+            }
         }
     });
 }
 
-std::string Archive::record_of(const std::string& certificate) {
-    const std::string name = life(certificate).record;
+std::optional<std::string> Archive::content(const std::string& sha256) {
     std::optional<std::string> bytes;
-    store_.read([&] { bytes = store_.content(name); });
+    store_.read([&] { bytes = store_.content(sha256); });
+    return bytes;
+}
+
+std::string Archive::record_of(const std::string& certificate) {
+    std::optional<std::string> bytes = content(life(certificate).record);
     if (!bytes) {
         refuse_request("GC-ARCHIVE-0026", certificate, "has no record in the archive " + store_.name(),
                        "a certificate is named by its number", "see gumcert archive list");

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "archive/archive.h"
 #include "archive/log_rules.h"
 #include "encoding/sha2.h"
 
@@ -35,6 +36,7 @@ public:
                     "an amendment is issued together with the entry of its original",
                     "something was removed: compare with a backup");
             }
+            look_at_list();
             store_.each_content([&](const Content& content) { look_at(content); });
             for (const auto& [sha256, seq] : needed_) {
                 if (!kept_.contains(sha256)) {
@@ -127,11 +129,38 @@ private:
         }
     }
 
+    /// A list says of every certificate what the log says, and of no other one anything.
+    void look_at_list() {
+        std::map<std::string, ListedCertificate> listed;
+        for (ListedCertificate& one : store_.listed()) {
+            listed.emplace(one.number, std::move(one));
+        }
+        const auto tell = [&](const std::string& number, std::string what) {
+            add("GC-ARCHIVE-0052", "list of certificates, " + number, std::move(what),
+                "a list says what the entries of the log say",
+                "the log holds: make a new archive of it with gumcert archive migrate");
+        };
+        for (const auto& [number, life] : rules_.lives()) {
+            const auto found = listed.find(number);
+            if (found == listed.end()) {
+                tell(number, "is not listed");
+            } else {
+                if (found->second != listed_as(number, life)) {
+                    tell(number, "is listed otherwise");
+                }
+                listed.erase(found);
+            }
+        }
+        for (const auto& [number, one] : listed) {
+            tell(number, "is listed, and no entry is about it");
+        }
+    }
+
     void look_at(const Content& content) {
         if (encoding::sha256(content.bytes) != content.sha256) {
             add("GC-ARCHIVE-0044", "content " + content.sha256, "its bytes have another hash",
                 "a content is found by the hash of its bytes", "restore it from a backup");
-        } else if (!needed_.contains(content.sha256)) {
+        } else if (const auto named = needed_.find(content.sha256); named == needed_.end()) {
             add("GC-ARCHIVE-0044", "content " + content.sha256, "no entry of the log names it",
                 "the archive holds what its log names", "find out who put it there");
         }

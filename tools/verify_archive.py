@@ -25,7 +25,7 @@ import urllib.parse
 APPLICATION_ID = 0x67634172
 SCHEMA_VERSION = 1
 # SHA-256 of the lines "type TAB name TAB sql" of sqlite_schema, sorted, with LF between them.
-SCHEMA_SHA256 = "6731650982c8f934c3d33781f4ab2651259bf5ab761c843c54e87fb0d3659e9e"
+SCHEMA_SHA256 = "c4e71ac6a75f6e6e4a3d3734d7c642f1d2639b180b8a2b7d31b6f7b4cc692688"
 TAG = b"gumcert/archive/entry/1"
 FIELDS = ("seq", "at", "actor", "kind", "certificate", "record", "request_key", "body", "prev", "hash")
 TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
@@ -311,9 +311,9 @@ class Rules:
             self.settings = settings if is_settings(settings) else self.settings
         if not number or kind not in KINDS_OF_LIFE:
             return
-        life = self.lives.setdefault(number, {"state": "", "record": "", "documents": [], "authors": set(), "amends": "",
+        life = self.lives.setdefault(number, {"state": "", "since": "", "item": "", "record": "", "documents": [], "authors": set(), "amends": "",
                                               "amendment": "", "later": ""})
-        life["state"] = kind
+        life.update(state=kind, since=entry["at"].decode("utf-8", "replace"))
         self.due = None
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
@@ -321,7 +321,7 @@ class Rules:
                 self.ordinals[series] = max(self.ordinals.get(series, 0), ordinal)
         elif kind == "drafted":
             life["authors"].add(names["actor"])
-            life.update(record=names["record"], documents=documents_in(body), amends=text(body, "amends", "number"),
+            life.update(record=names["record"], item=text(body, "new", "item"), documents=documents_in(body), amends=text(body, "amends", "number"),
                         amendment=text(body, "amends", "kind"))
         elif kind == "issued" and life["amends"]:
             self.due = ("superseded" if life["amendment"] == "replaced" else "amended-by", life["amends"], number)
@@ -491,10 +491,10 @@ def findings_of(database, heads):
         return
     if rules.due:
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
+    yield from faults_of_list(database, rules.lives)
     kept = set()
     for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
-        # A damaged row may hold NULL where text and bytes belong.
-        digest = digest.decode("utf-8", "replace") if isinstance(digest, bytes) else ""
+        digest = as_text(digest)
         if hashlib.sha256(data if isinstance(data, bytes) else b"").hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
@@ -510,6 +510,22 @@ def findings_of(database, heads):
             yield f"head of {head.size} entries: the archive has {len(leaves)}"
         elif root_of(leaves[:head.size]) != head.root or hashes[head.size - 1] != (head.chain, head.at):
             yield f"head of {head.size} entries: the entries of the archive up to there are others"
+
+
+def as_text(value):
+    """A text of the database; a damaged row may hold something else."""
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else ""
+
+
+def faults_of_list(database, lives):
+    """A list says of every certificate what the log says, and of no other one anything."""
+    rows = database.execute("SELECT certificate, state, since, item, record FROM listed")
+    listed = {row[0]: row[1:] for row in ([as_text(value) for value in row] for row in rows)}
+    for number, life in lives.items():
+        if listed.pop(number, None) != [life[key] for key in ("state", "since", "item", "record")]:
+            yield f"certificate {number} is listed otherwise than the log says"
+    for number in listed:
+        yield f"certificate {number} is listed, and no entry is about it"
 
 
 def verify_evidence(value, heads, public_key, tell):

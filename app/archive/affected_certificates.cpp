@@ -36,24 +36,37 @@ public:
     RecordSearch(unsigned threads, const gum::Progress& progress) : threads_(threads), progress_(progress) {}
 
     std::vector<SearchedRecord> read(archive::Archive& archive) {
-        std::size_t number = 0;
-        archive.each_record([&](std::size_t count) { number = count; },
-                            [&](const archive::ListedCertificate& certificate, std::string bytes) {
-                                found_.push_back({certificate, std::nullopt});
-                                waiting_.push_back(std::move(bytes));
-                                if (waiting_.size() == k_records_at_once) {
-                                    look_at_waiting();
-                                    if (progress_) {
-                                        progress_(std::to_string(found_.size()) + " of " + std::to_string(number) +
-                                                  " records searched");
-                                    }
-                                }
-                            });
+        archive.each_record(
+            [&](const std::vector<archive::ListedCertificate>& certificates) {
+                for (const archive::ListedCertificate& one : certificates) {
+                    numbers_.insert(one.number);
+                }
+            },
+            [&](const archive::ListedCertificate& certificate, std::string bytes) {
+                found_.push_back({certificate, std::nullopt});
+                waiting_.push_back(std::move(bytes));
+                if (waiting_.size() == k_records_at_once) {
+                    look_at_waiting();
+                    if (progress_) {
+                        progress_(std::to_string(found_.size()) + " of " + std::to_string(numbers_.size()) +
+                                  " certificates searched");
+                    }
+                }
+            });
         look_at_waiting();
         return std::move(found_);
     }
+    /// Of an amendment, when all records are read.
+    [[nodiscard]] std::string free_number(const std::string& original) const {
+        int ordinal = 1;
+        while (numbers_.contains(original + "/A" + std::to_string(ordinal))) {
+            ++ordinal;
+        }
+        return original + "/A" + std::to_string(ordinal);
+    }
 
 private:
+    std::set<std::string> numbers_;  // of all certificates, with a record or without
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -210,8 +223,8 @@ nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
 
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
-std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const reports::EvaluationRecord& corrected,
-                                          const Correction& correction) {
+std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
+                                          const reports::EvaluationRecord& corrected, const Correction& correction) {
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = folder_of_number(one.draft_number);
@@ -259,7 +272,7 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
     for (const auto& [name, bytes] : files) {
         draft.push_back({folder / places.of(name), bytes});
     }
-    draft.push_back({folder / places.of(record_name), one.record});
+    draft.push_back({folder / places.of(record_name), original});
     draft.push_back({folder / "changes.json",
                      gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
                                                     {"number", one.draft_number},
@@ -270,12 +283,12 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
     return draft;
 }
 
-void recalculate_one(AffectedCertificate& one, const Correction& correction,
-                     const std::function<std::string(const std::string&)>& number_for) {
+/// \param original  bytes of its record
+void recalculate_one(AffectedCertificate& one, const std::string& original, const Correction& correction) {
     const std::string& number = one.certificate.number;
     RerunRecord result{.name = number};
     try {
-        reports::EvaluationRecord record = reports::record_from_json(one.record, number);
+        reports::EvaluationRecord record = reports::record_from_json(original, number);
         result.made_by = record.software;
         result.kind = record.kind;
         if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
@@ -286,16 +299,12 @@ void recalculate_one(AffectedCertificate& one, const Correction& correction,
                                             : "it rests on " + one.through + ", which is to be amended first");
         } else {
             const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
-            tell_changes(one.record, now, result);
-            one.shift = largest_shift(nlohmann::json::parse(one.record),
-                                      nlohmann::json::parse(reports::to_canonical_json(now)));
+            tell_changes(original, now, result);
+            one.shift =
+                largest_shift(nlohmann::json::parse(original), nlohmann::json::parse(reports::to_canonical_json(now)));
             one.recalculated = result;
             if (result.is_negative() && one.certificate.state == "issued") {
-                one.draft_number = number_for(number);
-                one.draft = drafted_amendment(one, record, correction);
-                if (one.draft.empty()) {
-                    one.draft_number.clear();
-                }
+                one.draft = drafted_amendment(one, original, record, correction);
             }
         }
     } catch (const gum::DiagnosedError& error) {
@@ -340,7 +349,8 @@ std::string draft_folder(const AffectedCertificate& one) {
 
 std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
                                                unsigned threads, const gum::Progress& progress) {
-    const std::vector<SearchedRecord> records = RecordSearch(threads, progress).read(archive);
+    RecordSearch search(threads, progress);
+    const std::vector<SearchedRecord> records = search.read(archive);
     const TextsOfRecords texts(records);
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
@@ -356,7 +366,7 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
                                 .used_to = {},
                                 .because = {{StandardReference::Kind::source, "the record cannot be read"}},
                                 .through = {},
-                                .record = {}});
+                                .draft_number = search.free_number(records[i].certificate.number)});
         }
     }
     while (!wanted.empty()) {
@@ -375,12 +385,9 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
                                 .used_to = record.references->used_to,
                                 .because = references_that_name(next.name, *record.references),
                                 .through = next.through,
-                                .record = {}});
+                                .draft_number = search.free_number(record.certificate.number)});
             wanted.push_back({record.certificate.number, record.certificate.number});
         }
-    }
-    for (AffectedCertificate& one : affected) {
-        one.record = archive.record_of(one.certificate.number);  // a content that is missing is refused here
     }
     std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
         return a.certificate.number < b.certificate.number;
@@ -388,23 +395,17 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     return affected;
 }
 
-void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
-                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress) {
-    // The archive is asked by one thread.
-    std::map<std::string, std::string> numbers;
-    for (const AffectedCertificate& one : affected) {
-        int ordinal = 1;
-        while (!is_free(one.certificate.number + "/A" + std::to_string(ordinal))) {
-            ++ordinal;
-        }
-        numbers[one.certificate.number] = one.certificate.number + "/A" + std::to_string(ordinal);
-    }
+void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
+                 unsigned threads, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
     for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
         const std::size_t count = std::min(k_records_at_once, affected.size() - first);
+        std::vector<std::string> originals;  // the archive is asked by one thread
+        for (std::size_t i = first; i < first + count; ++i) {
+            originals.push_back(archive.content(affected[i].certificate.record).value_or(""));
+        }
         workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
-            recalculate_one(affected[first + task], correction,
-                            [&](const std::string& number) { return numbers.at(number); });
+            recalculate_one(affected[first + task], originals[task], correction);
         });
         if (progress) {
             progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");

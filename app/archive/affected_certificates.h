@@ -28,14 +28,13 @@ struct AffectedCertificate {
     archive::ListedCertificate certificate;
     std::string used_from, used_to;          ///< days of the work; "" where the record states none
     std::vector<StandardReference> because;  ///< what its record says
-    std::string through;  ///< number of the affected certificate that it rests on itself; "" where on the standard
-    std::string record;   ///< bytes
+    std::string through;       ///< number of the affected certificate that it rests on itself; "" where on the standard
+    std::string draft_number;  ///< the next free number of an amendment of it
 
     // After recalculate().
     std::optional<RerunRecord> recalculated = {};
     double shift = 0.0;                  ///< largest change of a value or of its U, relative to the U that was issued
     std::vector<OutputFile> draft = {};  ///< of the amendment, below a folder of its own; empty where none is needed
-    std::string draft_number = {};       ///< of the amendment
 };
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
@@ -55,9 +54,9 @@ struct Correction {
 /// Evaluates the jobs of affected records with the corrected standard, on several cores, compares with what was issued,
 /// drafts an amendment of each issued certificate of which a printed digit or a verdict changes, and ranks: verdicts
 /// that changed first, then by shift, those of which nothing can be said (GC-ARCHIVE-0062) before those that stay.
-/// \param is_free  whether a number of a certificate was not used yet
-void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
-                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress = {});
+/// \param archive  in which they were found
+void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
+                 unsigned threads, const gum::Progress& progress = {});
 
 /// For people, for programs (schema gumcert/archive-affected/1), as a table.
 [[nodiscard]] std::string affected_text(const std::vector<AffectedCertificate>& affected);

@@ -210,9 +210,22 @@ ExitCode withdraw_certificate(const ArchiveOptions& options, const CommonOptions
     return advance(options, common, "withdrawn");
 }
 
+/// Letters of ASCII in lower case.
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
 ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /*common*/) {
     const auto store = opened(options, archive::Access::read_only);
-    const std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
+    std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
+    for (const std::string& word : options.named) {
+        std::erase_if(certificates, [wanted = in_lower_case(word)](const archive::ListedCertificate& one) {
+            return in_lower_case(one.number + '\n' + one.state + '\n' + one.since + '\n' + one.item).find(wanted) ==
+                   std::string::npos;
+        });
+    }
     if (as_json(options)) {
         json list = json::array();
         for (const archive::ListedCertificate& one : certificates) {
@@ -587,7 +600,7 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     const archive::Head head = archive::Archive(*from).head();
     ProgressLine progress(!common.quiet);
     progress("copying " + std::to_string(head.size) + " entries");
-    const auto to = archive::replay_into(*from, options.to);
+    const auto to = archive::replay_into(*from, options.to, archive::list_again);
     const archive::Verification verification =
         archive::verify_store(*to, {head}, [&](const std::string& text) { progress("verifying: " + text); });
     progress.clear();
@@ -718,17 +731,13 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     const auto threads = static_cast<unsigned>(common.threads);
     std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell);
     if (!options.register_folder.empty()) {
-        std::set<std::string> used;
-        for (const archive::ListedCertificate& one : archive.list()) {
-            used.insert(one.number);
-        }
         app::recalculate(
-            affected,
+            affected, archive,
             {.standard = options.source,
              .corrected = corrected,
              .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
              .templates = templates_folder(options.share)},
-            threads, [&](const std::string& number) { return !used.contains(number); }, tell);
+            threads, tell);
     }
     progress.clear();
     if (!options.output.empty()) {
@@ -759,7 +768,7 @@ constexpr std::array<Action, 19> k_actions = {{
     {"amend", 1, k_any, "the record of the amendment and its documents", " store by why key format trust ",
      amend_certificate},
     {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
-    {"list", 0, 0, "nothing more", " store format ", list_certificates},
+    {"list", 0, k_any, "words to search for, or nothing for all", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
     {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
     {"head", 0, 0, "nothing more", " store output sign since ", write_head},

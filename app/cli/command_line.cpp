@@ -323,7 +323,7 @@ void add_archive(CLI::App& program, Arguments& a) {
     command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
     command.add_option("NAME", o.named,
                        "Numbers of certificates; of add and amend a record and its documents; of verify "
-                       "evidence");
+                       "evidence; of list words that number, state, time or item contain");
     add_file(command, "--store", o.store,
              "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
              "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");

@@ -21,9 +21,10 @@ std::unique_ptr<Store> open_store(const std::string& address, Access access) {
     return is_postgresql(address) ? open_postgresql_store(address, access) : open_sqlite_store(address, access);
 }
 
-std::unique_ptr<Store> replay_into(Store& from, const std::string& address) {
+std::unique_ptr<Store> replay_into(Store& from, const std::string& address, const Fill& finish) {
     std::unique_ptr<Store> made;
-    replay(from, [&](const LogEntry& first, const Fill& fill) { made = create_store(address, first, fill); });
+    replay(
+        from, [&](const LogEntry& first, const Fill& fill) { made = create_store(address, first, fill); }, finish);
     return made;
 }
 

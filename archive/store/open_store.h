@@ -22,7 +22,8 @@ namespace gumcert::archive {
 
 /// A new archive with the log and the contents of another one: the same entries with the same hashes, so that heads and
 /// evidence hold for both.
+/// \param finish  adds what lists say (archive::list_again)
 /// \throws gum::StorageError  as both of them
-[[nodiscard]] std::unique_ptr<Store> replay_into(Store& from, const std::string& address);
+[[nodiscard]] std::unique_ptr<Store> replay_into(Store& from, const std::string& address, const Fill& finish);
 
 }  // namespace gumcert::archive

@@ -97,7 +97,7 @@ int write(const std::vector<std::string>& words) {
 
 int migrate(const std::vector<std::string>& words) {
     const auto from = open_store(words.at(1), Access::read_only);
-    (void)replay_into(*from, words.at(2));
+    (void)replay_into(*from, words.at(2), list_again);
     return 0;
 }
 

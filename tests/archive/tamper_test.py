@@ -62,7 +62,8 @@ def stored(path):
     database.text_factory = bytes
     try:
         return (database.execute("SELECT * FROM log ORDER BY seq").fetchall(),
-                database.execute("SELECT * FROM content ORDER BY sha256").fetchall())
+                database.execute("SELECT * FROM content ORDER BY sha256").fetchall(),
+                database.execute("SELECT * FROM listed ORDER BY certificate").fetchall())
     except (sqlite3.Error, OverflowError, UnicodeDecodeError):
         return None
     finally:
@@ -140,6 +141,21 @@ def add_content(rng, db):
     db.execute("INSERT INTO content VALUES(?, ?)", [verify_archive.hashlib.sha256(data).hexdigest(), data])
 
 
+def edit_list(rng, db):
+    number = rng.choice(db.execute("SELECT certificate FROM listed ORDER BY certificate").fetchall())[0]
+    column = rng.choice(("state", "since", "item", "record"))
+    db.execute(f"UPDATE listed SET {column} = {column} || 'x' WHERE certificate = ?", [number])
+
+
+def take_from_list(rng, db):
+    number = rng.choice(db.execute("SELECT certificate FROM listed ORDER BY certificate").fetchall())[0]
+    db.execute("DELETE FROM listed WHERE certificate = ?", [number])
+
+
+def add_to_list(rng, db):
+    db.execute("INSERT INTO listed SELECT certificate || 'x', state, since, item, record FROM listed LIMIT 1")
+
+
 def delete_entry(rng, db):
     last = db.execute("SELECT max(seq) FROM log").fetchone()[0]
     db.execute("DELETE FROM log WHERE seq = ?", [rng.randrange(2, last)])
@@ -211,6 +227,7 @@ def truncate(rng, db):
     for (digest,) in db.execute("SELECT sha256 FROM content").fetchall():
         if digest not in needed:
             db.execute("DELETE FROM content WHERE sha256 = ?", [digest])
+    list_again(db)
 
 
 def recompute(rng, db):
@@ -231,7 +248,8 @@ def rewritten_from_the_start(rng, db):
     rewrite(db, log)
 
 
-ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, delete_entry,
+ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, edit_list, take_from_list,
+           add_to_list, delete_entry,
            delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken]
 ATTACKS_ON_THE_END = [truncate, recompute, rewritten_from_the_start]  # without a head nobody can know
 

@@ -87,6 +87,8 @@ TEST_F(ArchiveOfALaboratory, LeadsFromTheRecordToTheIssuedCertificate) {
     ASSERT_EQ(list["certificates"].size(), 1U);
     EXPECT_EQ(list["certificates"][0]["state"], "issued");
     EXPECT_NE(archive({"list"}).out.find("EX-2026-0042              issued"), std::string::npos);
+    EXPECT_EQ(shown({"list", "ex-2026", "ISSUED"})["certificates"].size(), 1U);
+    EXPECT_EQ(shown({"list", "ex-2026", "drafted"})["certificates"].size(), 0U);
     const json one = shown({"show", "EX-2026-0042"});
     EXPECT_EQ(one["documents"].size(), 2U);
     EXPECT_EQ(one["entries"].size(), 4U);
@@ -116,7 +118,7 @@ TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
         {"archive"},
         {"archive", "burn", "--store", store()},
         {"archive", "list"},
-        {"archive", "list", "EX-1", "--store", store()},
+        {"archive", "head", "EX-1", "--store", store()},
         {"archive", "list", "--store", store(), "--by", "R. Lin"},
         {"archive", "issue", "EX-1", "--store", store()},
         {"archive", "add", "--store", store(), "--by", "R. Lin"},

@@ -27,7 +27,7 @@ TEST(OpenStore, CreatesAndReplays) {
     first.prev = std::string(32, '\0');
     first.hash = entry_hash(first);
     const auto store = create_store(folder.file().string(), first);
-    const auto copy = replay_into(*store, folder.file("b").string());
+    const auto copy = replay_into(*store, folder.file("b").string(), [](Store&) {});
     EXPECT_EQ(copy->last_entry(), first);
     EXPECT_EQ(open_store(folder.file("b").string(), Access::read_only)->last_entry(), first);
 }
