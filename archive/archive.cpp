@@ -1,10 +1,11 @@
 #include "archive/archive.h"
 
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/printed_head.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
@@ -275,6 +276,31 @@ Written Archive::take_amendment_number(const std::string& original, const Reques
     });
 }
 
+void Archive::require_heads(const Draft& draft, const std::string& record) {
+    std::int64_t drafted = std::numeric_limits<std::int64_t>::max();
+    for (const LogEntry& entry : store_.entries_of(draft.number)) {
+        if (entry.kind == "drafted" && entry.record == record) {
+            drafted = std::min(drafted, entry.seq);
+        }
+    }
+    std::optional<MerkleTree> tree;  // of all entries, where it is needed
+    for (const Document& document : draft.documents) {
+        for (const PrintedHead& head : printed_heads_in(document.bytes)) {
+            if (!tree) {
+                store_.each_entry([&, &made = tree.emplace()](const LogEntry& entry) { made.add(entry.hash); });
+            }
+            const auto size = static_cast<std::size_t>(head.size);
+            const bool is_of_log = size <= tree->size() && tree->root(size) == head.root;
+            const auto next = static_cast<std::int64_t>(tree->size()) + 1;
+            if (std::string fault = fault_of(head, is_of_log, drafted, next); !fault.empty()) {
+                refuse_request("GC-ARCHIVE-0037", document.name, std::move(fault),
+                               "a document prints a head of its archive that contains a draft of its record",
+                               "add the record first, make the document with a head from after it, and add both");
+            }
+        }
+    }
+}
+
 Written Archive::draft(const Draft& draft, const Request& request) {
     LogEntry entry = entry_for(request, "drafted", draft.number);
     entry.record = encoding::sha256(draft.record);
@@ -311,6 +337,7 @@ Written Archive::draft(const Draft& draft, const Request& request) {
             body["amends"] = {{"number", draft.amends->number}, {"kind", draft.amends->kind}, {"changes", changes}};
         }
         entry.body = gumcert::json::canonical_json(body);
+        require_heads(draft, entry.record);
         for (const Content& content : contents) {
             if (!store_.has(content.sha256)) {
                 store_.put(content);

@@ -81,6 +81,8 @@ public:
     Written take_number(const Request& request);
     /// Takes the next number for an amendment of an issued certificate: "EX-2026-0001/A1", A2 …
     Written take_amendment_number(const std::string& original, const Request& request);
+    /// \throws gum::InputError  GC-ARCHIVE-0037 where a document prints a head that this archive never had, or that does
+    ///                          not contain an earlier draft of the same record
     Written draft(const Draft& draft, const Request& request);
     /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
     ///              amended or superseded, in one transaction.
@@ -115,6 +117,7 @@ private:
     [[nodiscard]] WalkedLog walked();
     LogEntry append(LogRules& rules, LogEntry entry);
     Written write(const LogEntry& wanted, const std::function<LogEntry()>& work);
+    void require_heads(const Draft& draft, const std::string& record);
     void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);
 };
 

@@ -206,11 +206,17 @@ void add_render(CLI::App& program, Arguments& a) {
     add_document_options(command, a.documents);
     add_file(command, "--superseded-by", a.documents.superseded_by,
              "Record of the certificate that amends or replaces this one: every page is marked as superseded");
+    add_file(command, "--head", a.documents.head,
+             "Head of the archive that holds the record, as gumcert archive head writes it: certificates as HTML, PDF\n"
+             "and text print it at their end, with a QR code");
+    command.add_option("--check-at", a.documents.check_at, "Where readers can have that head checked, as an address")
+        ->type_name("TEXT");
     command.footer(
         "Example: gumcert render record.json --format pdf -o certificate.pdf\n"
         "         gumcert render record.json --format report   the internal budget report; no certificate\n"
         "         gumcert render record.json --format label    a label with a QR code\n"
         "         gumcert render record.json --format pdf --language de,en\n"
+        "         gumcert render record.json --format pdf --head head.json   docs/archive.md\n"
         "The job in the record is evaluated again first: a record that says anything else than its job gives, by one\n"
         "digit or one word, is refused. docs/adr/0027-records-are-evaluated-again.md");
 }

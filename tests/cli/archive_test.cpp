@@ -449,6 +449,53 @@ TEST_F(ArchiveOfALaboratory, ProvesEachCertificateWithoutTheArchive) {
     EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "[GC-ARCHIVE-0047]"));
 }
 
+TEST_F(ArchiveOfALaboratory, PrintsItsHeadOnTheCertificate) {
+    begin();
+    evaluate("first");
+    const auto rendered = [&](const std::string& form, const std::string& file) {
+        return gumcert({"render", path("first.json"), "--format", form, "--head", path("head.json"), "--check-at",
+                        "https://lab.example/check", "-o", path(file.c_str()), "--share", GUMCERT_SOURCE_DIR});
+    };
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    ASSERT_EQ(rendered("html", "early.html").code, 0);
+    const Ended early = archive({"add", path("first.json"), path("early.html")}, "R. Lin");
+    EXPECT_EQ(early.code, 3);
+    EXPECT_TRUE(tells(early, "[GC-ARCHIVE-0037]")) << early.err;
+
+    ASSERT_EQ(archive({"add", path("first.json")}, "R. Lin").code, 0);
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    const Ended html = rendered("html", "first.html");
+    ASSERT_EQ(html.code, 0) << html.err;
+    const json head = json::parse(bytes_of(path("head.json")));
+    const std::string mark = "gumcert-head:2:" + head["root"].get<std::string>();
+    EXPECT_NE(bytes_of(path("first.html")).find(mark), std::string::npos);
+    EXPECT_NE(bytes_of(path("first.html")).find("https://lab.example/check"), std::string::npos);
+    std::vector<std::string> files{"add", path("first.json"), path("first.html")};
+    if (why_no_pdf().empty()) {
+        const Ended pdf = rendered("pdf", "first.pdf");
+        ASSERT_EQ(pdf.code, 0) << pdf.err;
+        EXPECT_NE(bytes_of(path("first.pdf")).find(mark), std::string::npos);
+        files.push_back(path("first.pdf"));
+    }
+    const Ended added = archive(files, "R. Lin");
+    ASSERT_EQ(added.code, 0) << added.err;
+    lead_to_issue("EX-2026-0042");
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("evidence.json")}).code, 0);
+    EXPECT_EQ(gumcert({"archive", "verify", path("evidence.json")}).code, 0);
+    EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 0);
+    change_json(path("evidence.json"), [](json& evidence) { evidence.erase("printed_heads"); });
+    EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "[GC-ARCHIVE-0053]"));
+    EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 1);
+}
+
+TEST_F(ArchiveOfALaboratory, PrintsAHeadOnDocumentsForPeopleOnly) {
+    EXPECT_EQ(gumcert({"render", "r.json", "--format", "dcc", "--head", "head.json"}).code, 2);
+    EXPECT_EQ(gumcert({"render", "r.json", "--format", "pdf", "--check-at", "here"}).code, 2);
+}
+
 TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
     if (const std::string why = why_no_pdf(); !why.empty()) {
         GTEST_SKIP() << why;
