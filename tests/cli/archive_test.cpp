@@ -1,5 +1,9 @@
 // The archive as a laboratory uses it: from the record to the issued certificate, its amendment, its evidence.
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+
+#include <csignal>
 
 #include <algorithm>
 
@@ -511,6 +515,55 @@ TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
 }
 
 /// The log that is copied is the same: heads and evidence of the one hold for the other, and both verifiers read it.
+/// A server that takes a connection and says nothing.
+class SilentServer {
+public:
+    SilentServer() {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
+        EXPECT_EQ(listen(socket_, 4), 0);
+        EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+        port_ = ntohs(address.sin_port);
+    }
+    ~SilentServer() { close(socket_); }
+    SilentServer(const SilentServer&) = delete;
+    SilentServer& operator=(const SilentServer&) = delete;
+    [[nodiscard]] int port() const { return port_; }
+    /// Waits for a client.
+    void meet() const {
+        const int client = accept(socket_, nullptr, nullptr);
+        EXPECT_GE(client, 0);
+        // It stays open: the client waits for an answer.
+    }
+
+private:
+    int socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    int port_ = 0;
+};
+
+TEST_F(ArchiveOfALaboratory, ShowsNoPasswordInTheListOfProcesses) {
+    const SilentServer server;
+    const std::string at = "@127.0.0.1:" + std::to_string(server.port()) + "/archive";
+    std::string address = "postgresql://keeper:geheim" + at + "?sslmode=disable&sslpassword=auchgeheim";
+    std::vector<std::string> words = {GUMCERT_PROGRAM, "archive", "list", "--store", address};
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+        argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, GUMCERT_PROGRAM, nullptr, nullptr, argv.data(), environ), 0);
+    server.meet();  // the command line was read, and the password is on its way
+    const std::string shown = bytes_of("/proc/" + std::to_string(child) + "/cmdline");
+    EXPECT_NE(shown.find("postgresql://keeper:xxxxxx" + at), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("geheim"), std::string::npos) << shown;
+    kill(child, SIGKILL);
+    EXPECT_EQ(waitpid(child, nullptr, 0), child);
+}
+
 TEST_F(ArchiveOfALaboratory, MigratesIntoANewArchive) {
     issue_the_example();
     ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);

@@ -18,6 +18,23 @@ TEST(OpenStore, ChoosesByTheAddress) {
               "GC-ARCHIVE-0008");
 }
 
+TEST(OpenStore, HidesPasswords) {
+    const auto hidden = [](std::string word) {
+        hide_passwords(word);
+        return word;
+    };
+    EXPECT_EQ(hidden("postgresql://keeper:geheim@server:5432/archive"),
+              "postgresql://keeper:xxxxxx@server:5432/archive");
+    EXPECT_EQ(hidden("--store=postgres://keeper:a:b%40c@server/archive"),
+              "--store=postgres://keeper:xxxxxxx@server/archive");
+    EXPECT_EQ(hidden("postgresql:///archive?password=geheim&host=/run&sslpassword=auch"),
+              "postgresql:///archive?password=xxxxxx&host=/run&sslpassword=xxxx");
+    for (const char* const plain : {"postgresql://keeper@server:5432/archive", "postgresql://server:5432/archive",
+                                    "lab.archive", "password=a:b@c", "", "postgresql://"}) {
+        EXPECT_EQ(hidden(plain), plain);
+    }
+}
+
 TEST(OpenStore, CreatesAndReplays) {
     const test::StoreFolder folder;
     LogEntry first;
