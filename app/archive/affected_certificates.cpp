@@ -208,10 +208,14 @@ std::string written(const nlohmann::ordered_json& value) {
     return value.dump(2) + "\n";
 }
 
+bool is_shown(const RecordChange& change) {
+    return change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict;
+}
+
 nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
     nlohmann::json list = nlohmann::json::array();
     for (const RecordChange& change : changes) {
-        if (change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict) {
+        if (is_shown(change)) {
             list.push_back({{"kind", word_of(change.kind)},
                             {"place", change.place},
                             {"before", change.before},
@@ -279,55 +283,28 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
                                                     {"amends", one.certificate.number},
                                                     {"reason", correction.reason},
                                                     {"job", places.of(job_name).generic_string()},
-                                                    {"changes", shown_change_list(one.recalculated->changes)}})});
+                                                    {"changes", shown_change_list(one.recalculated->rerun.changes)}})});
     return draft;
-}
-
-/// \param original  bytes of its record
-void recalculate_one(AffectedCertificate& one, const std::string& original, const Correction& correction) {
-    const std::string& number = one.certificate.number;
-    RerunRecord result{.name = number};
-    try {
-        reports::EvaluationRecord record = reports::record_from_json(original, number);
-        result.made_by = record.software;
-        result.kind = record.kind;
-        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
-            result.not_evaluated = cannot_say(number, missing->what);
-        } else if (!correct_files(record, correction)) {
-            result.not_evaluated = cannot_say(
-                number, one.through.empty() ? "its job does not take the standard from the register"
-                                            : "it rests on " + one.through + ", which is to be amended first");
-        } else {
-            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
-            tell_changes(original, now, result);
-            one.shift =
-                largest_shift(nlohmann::json::parse(original), nlohmann::json::parse(reports::to_canonical_json(now)));
-            one.recalculated = result;
-            if (result.is_negative() && one.certificate.state == "issued") {
-                one.draft = drafted_amendment(one, original, record, correction);
-            }
-        }
-    } catch (const gum::DiagnosedError& error) {
-        const gum::Diagnostic& first = error.diagnostics().front();
-        result.not_evaluated = cannot_say(number, first.what);
-    }
-    one.recalculated = std::move(result);
 }
 
 /// Of which a person reads first.
 auto rank_of(const AffectedCertificate& one) {
-    const bool unknown = one.recalculated && one.recalculated->not_evaluated.has_value();
-    const std::size_t verdicts = one.recalculated ? one.recalculated->count(ChangeKind::verdict) : 0;
-    const bool changed = one.recalculated && one.recalculated->is_negative() && !unknown;
-    return std::tuple(verdicts == 0, !changed, !unknown, -one.shift, one.certificate.number);
+    static const RerunRecord k_none;
+    const RerunRecord& rerun = one.recalculated ? one.recalculated->rerun : k_none;
+    const bool unknown = rerun.not_evaluated.has_value();
+    return std::tuple(rerun.count(ChangeKind::verdict) == 0, unknown || !rerun.is_negative(), !unknown,
+                      one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
 std::string outcome_of(const AffectedCertificate& one) {
-    return !one.recalculated                                  ? "not_recalculated"
-           : one.recalculated->not_evaluated                  ? "cannot_say"
-           : one.recalculated->count(ChangeKind::verdict) > 0 ? "verdict"
-           : one.recalculated->count(ChangeKind::printed) > 0 ? "printed"
-                                                              : "same";
+    if (!one.recalculated) {
+        return "not_recalculated";
+    }
+    const RerunRecord& rerun = one.recalculated->rerun;
+    return rerun.not_evaluated                    ? "cannot_say"
+           : rerun.count(ChangeKind::verdict) > 0 ? "verdict"
+           : rerun.count(ChangeKind::printed) > 0 ? "printed"
+                                                  : "same";
 }
 
 std::string period_of(const AffectedCertificate& one) {
@@ -339,10 +316,6 @@ std::string period_of(const AffectedCertificate& one) {
 std::string filled(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
     return text + "  ";
-}
-
-std::string draft_folder(const AffectedCertificate& one) {
-    return one.draft.empty() ? "" : folder_of_number(one.draft_number);
 }
 
 }  // namespace
@@ -395,6 +368,33 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     return affected;
 }
 
+Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
+                               const Correction& correction) {
+    Recalculation result{.rerun = {.name = number}};
+    RerunRecord& rerun = result.rerun;
+    try {
+        reports::EvaluationRecord record = reports::record_from_json(original, number);
+        rerun.made_by = record.software;
+        rerun.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
+            rerun.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            rerun.not_evaluated =
+                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
+                                                   : "it rests on " + through + ", which is to be amended first");
+        } else {
+            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
+            tell_changes(original, now, rerun);
+            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
+            result.shift =
+                largest_shift(nlohmann::json::parse(original), nlohmann::json::parse(reports::to_canonical_json(now)));
+        }
+    } catch (const gum::DiagnosedError& error) {
+        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
+    }
+    return result;
+}
+
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
                  unsigned threads, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
@@ -405,14 +405,39 @@ void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& a
             originals.push_back(archive.content(affected[i].certificate.record).value_or(""));
         }
         workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
-            recalculate_one(affected[first + task], originals[task], correction);
+            AffectedCertificate& one = affected[first + task];
+            one.recalculated = recalculation_of(one.certificate.number, one.through, originals[task], correction);
         });
         if (progress) {
             progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
         }
     }
+    rank(affected);
+}
+
+void rank(std::vector<AffectedCertificate>& affected) {
     std::sort(affected.begin(), affected.end(),
               [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
+}
+
+void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
+                      const Correction& correction, const std::function<void(const std::vector<OutputFile>&)>& write) {
+    for (AffectedCertificate& one : affected) {
+        if (!one.recalculated || one.recalculated->rerun.not_evaluated || !one.recalculated->rerun.is_negative() ||
+            one.certificate.state != "issued") {
+            continue;
+        }
+        const std::string original = archive.content(one.certificate.record).value_or("");
+        reports::EvaluationRecord record = reports::record_from_json(original, one.certificate.number);
+        (void)correct_files(record, correction);
+        if (const std::vector<OutputFile> draft = drafted_amendment(one, original, record, correction);
+            !draft.empty()) {
+            one.draft_folder = folder_of_number(one.draft_number);
+            if (write) {
+                write(draft);
+            }
+        }
+    }
 }
 
 std::string affected_text(const std::vector<AffectedCertificate>& affected) {
@@ -420,14 +445,14 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
     for (const AffectedCertificate& one : affected) {
         text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
                 filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
-        if (one.recalculated && !one.recalculated->not_evaluated) {
-            text += "  " + text::significant(one.shift, 3) + " U";
+        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+            text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
-        text += one.draft.empty() ? "" : "  draft " + draft_folder(one);
+        text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
         text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +
                 word_of(one.because.front().kind) + " \"" + text::visible(one.because.front().text, 120) + "\"\n";
-        if (one.recalculated && one.recalculated->not_evaluated) {
-            text += "    " + text::visible(one.recalculated->not_evaluated->what, 200) + "\n";
+        if (one.recalculated && one.recalculated->rerun.not_evaluated) {
+            text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
     }
     return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
@@ -451,14 +476,15 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
-                             {"draft", draft_folder(one)},
+                             {"draft", one.draft_folder},
                              {"cannot_say", ""}};
         if (one.recalculated) {
-            shown["changes"] = shown_change_list(one.recalculated->changes);
-            if (one.recalculated->not_evaluated) {
-                shown["cannot_say"] = one.recalculated->not_evaluated->what;
+            const RerunRecord& rerun = one.recalculated->rerun;
+            shown["changes"] = shown_change_list(rerun.changes);
+            if (rerun.not_evaluated) {
+                shown["cannot_say"] = rerun.not_evaluated->what;
             } else {
-                shown["shift"] = one.shift;
+                shown["shift"] = one.recalculated->shift;
             }
         }
         list.push_back(std::move(shown));
@@ -473,12 +499,12 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
     std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft\n";
     for (const AffectedCertificate& one : affected) {
-        const bool calculated = one.recalculated && !one.recalculated->not_evaluated;
+        const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
-               "," + (calculated ? nlohmann::json(one.shift).dump() : "") + "," + text::csv_field(draft_folder(one)) +
-               "\n";
+               "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
+               text::csv_field(one.draft_folder) + "\n";
     }
     return all;
 }

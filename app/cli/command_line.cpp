@@ -392,6 +392,10 @@ void add_archive(CLI::App& program, Arguments& a) {
             "For affected: folder of the laboratory with the corrected standard; the certificates are calculated "
             "again")
         ->type_name("DIR");
+    command.add_flag("--shared", o.shared,
+                     "For affected and replay of an archive on a server: all machines that run gumcert archive worker "
+                     "help");
+    command.add_flag("--wait-for-work", o.wait, "For worker: wait for work, and do not end");
     add_share(command, o.share);
     command.footer(
         "Example: gumcert archive init --store lab.archive --by \"A. Keeper\" --numbering EX-YYYY-####\n"
@@ -409,7 +413,8 @@ void add_archive(CLI::App& program, Arguments& a) {
         "verify computes every hash again, backup copies while others write, and verifies the copy; migrate copies "
         "into\n"
         "an archive of either kind, with the same entries, hashes and heads; replay evaluates archived records with\n"
-        "this program, and reports what differs; statistics counts certificates by month, method and person, and "
+        "this program, and reports what differs; worker does on any machine what affected and replay share;\n"
+        "statistics counts certificates by month, method and person, and "
         "charts\n"
         "E_n and repeatability; affected finds the certificates that rest on a standard, calculates\n"
         "them again, and drafts amendments. Exit code 1 where verify, replay or affected finds\n"
