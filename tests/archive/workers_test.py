@@ -27,6 +27,27 @@ def files_below(folder):
     return {file.relative_to(folder): file.read_bytes() for file in sorted(folder.rglob("*")) if file.is_file()}
 
 
+def verified_by_the_second(archive, driver, address, folder):
+    """Faults of the way by which the verifier that has no client of PostgreSQL verifies a server."""
+    verifier = ROOT / "tools" / "verify_archive.py"
+    copy, head, evidence = folder / "copy.archive", folder / "head.json", folder / "evidence.json"
+    subprocess.run(archive("head", "--store", address, "-o", head, "-q"), check=True)
+    subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "-o", copy, "-q"), check=True)
+    subprocess.run(archive("export", "L-7", "--store", address, "-o", evidence, "-q"), check=True)
+    faults = []
+    for words in ([copy, "--head", head], [evidence, "--head", head]):
+        done = subprocess.run([sys.executable, "-B", verifier, *words], stdout=subprocess.PIPE, text=True, check=False)
+        if done.returncode:
+            faults.append(f"the second verifier of {words[0].name}: {done.stdout}")
+    subprocess.run(["/usr/lib/postgresql/15/bin/psql", "-q", "-d", address, "-c", "SET session_replication_role = replica; "
+                    "UPDATE gumcert_archive.log SET actor = 'N. Obody' WHERE seq = 5"], check=True)
+    spoiled = folder / "spoiled.archive"  # `backup` removes a copy that is not sound
+    subprocess.run([driver, "migrate", address, spoiled], check=True)
+    if not subprocess.run([sys.executable, "-B", verifier, spoiled], stdout=subprocess.DEVNULL, check=False).returncode:
+        faults.append("the second verifier does not see what was changed on the server")
+    return faults
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
@@ -103,6 +124,7 @@ def main():
         replayed = subprocess.run(archive("replay", "--store", address, "--shared"), stdout=subprocess.PIPE, text=True, check=False)
         if done.returncode or replayed.returncode or f"{options.certificates} of {options.certificates} records" not in replayed.stdout:
             faults.append(f"replay: {replayed.returncode}, {replayed.stdout[-200:]}")
+        faults += verified_by_the_second(archive, options.driver, address, folder)
         refused = subprocess.run(archive("worker", "--store", store), stderr=subprocess.PIPE, text=True, check=False)
         if refused.returncode != 2:
             faults.append(f"a worker of a file: exit code {refused.returncode}")
