@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,6 +29,7 @@
 #include "app/cli/share_folder.h"
 #include "app/cli/study_commands.h"
 #include "app/cli/terminal.h"
+#include "archive/store/open_store.h"
 
 namespace {
 
@@ -53,7 +56,11 @@ CommonOptions with_walls_of_command(const Arguments& a) {
 
 ExitCode dispatch(int argc, char** argv, Arguments& a) {
     try {
-        if (const std::optional<ExitCode> ended = read_command_line(argc, argv, version_text, a)) {
+        const std::optional<ExitCode> ended = read_command_line(argc, argv, version_text, a);
+        for (char* const word : std::span(argv, static_cast<std::size_t>(argc))) {
+            archive::hide_passwords({word, std::strlen(word)});
+        }
+        if (ended) {
             return *ended;
         }
     } catch (const std::invalid_argument& wrong) {

@@ -148,6 +148,11 @@ public:
         insert.text(content.sha256).bytes(content.bytes).run();
     }
 
+    void list(const ListedCertificate& one) override {
+        Statement insert = statement("INSERT OR REPLACE INTO listed VALUES(?1, ?2, ?3, ?4, ?5)");
+        insert.text(one.number).text(one.state).text(one.since).text(one.item).text(one.record).run();
+    }
+
     [[nodiscard]] bool has(const std::string& sha256) override {
         Statement row = statement("SELECT 1 FROM content WHERE sha256 = ?1");
         return row.text(sha256).next();
@@ -185,23 +190,13 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<LogEntry> newest_entries(const std::vector<std::string>& kinds) override {
-        std::string list;
-        for (std::size_t i = 0; i < kinds.size(); ++i) {
-            list += (i == 0 ? "?" : ", ?") + std::to_string(i + 1);
-        }
-        Statement rows = statement(select_entries(("WHERE seq IN (SELECT max(seq) FROM log WHERE certificate <> '' AND "
-                                                   "kind IN (" +
-                                                   list + ") GROUP BY certificate) ORDER BY certificate")
-                                                      .c_str()));
-        for (const std::string& kind : kinds) {
-            rows.text(kind);
-        }
-        std::vector<LogEntry> entries;
+    [[nodiscard]] std::vector<ListedCertificate> listed() override {
+        std::vector<ListedCertificate> certificates;
+        Statement rows = statement("SELECT certificate, state, since, item, record FROM listed ORDER BY certificate");
         while (rows.next()) {
-            entries.push_back(entry_of(rows));
+            certificates.push_back({rows.column(0), rows.column(1), rows.column(2), rows.column(3), rows.column(4)});
         }
-        return entries;
+        return certificates;
     }
 
     void each_entry(const std::function<void(const LogEntry&)>& visit) override {

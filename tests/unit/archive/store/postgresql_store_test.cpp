@@ -57,6 +57,9 @@ TEST_F(PostgresqlStoreTest, KeepsEntriesAndContents) {
         store->write([&] {
             store->put(content);
             store->append(second);
+            store->list({"EX-2", "numbered", "", "", ""});
+            store->list({"EX-1", "numbered", "2026-11-24T18:52:52Z", "", ""});
+            store->list({"EX-1", "drafted", "2026-11-24T18:52:52Z", "a gauge", content.sha256});
         });
     }
     const auto store = open_postgresql_store(address_, Access::read_only);
@@ -64,7 +67,9 @@ TEST_F(PostgresqlStoreTest, KeepsEntriesAndContents) {
     EXPECT_EQ(store->entry_of_request("key"), second);
     EXPECT_EQ(store->entry_of_request(""), std::nullopt);
     EXPECT_EQ(store->entries_of("EX-1"), std::vector{second});
-    EXPECT_EQ(store->newest_entries({"numbered", "drafted"}), std::vector{second});
+    EXPECT_EQ(store->listed(),
+              (std::vector<ListedCertificate>{{"EX-1", "drafted", "2026-11-24T18:52:52Z", "a gauge", content.sha256},
+                                              {"EX-2", "numbered", "", "", ""}}));
     EXPECT_EQ(store->content(content.sha256), bytes);
     EXPECT_TRUE(store->has(content.sha256));
     EXPECT_FALSE(store->has(std::string(64, '0')));
@@ -204,9 +209,13 @@ TEST_F(PostgresqlStoreTest, LetsWritersQueue) {
 TEST_F(PostgresqlStoreTest, IsCopiedToAFile) {
     const LogEntry first = next_entry(std::nullopt);
     const LogEntry second = next_entry(first);
-    const auto store = create_postgresql_store(address_, first, [&](Store& made) { made.append(second); });
+    const auto store = create_postgresql_store(address_, first, [&](Store& made) {
+        made.append(second);
+        made.list({"EX-1", "numbered", second.at, "", ""});
+    });
     const test::StoreFolder folder;
     store->copy_to(folder.file());
+    EXPECT_EQ(open_sqlite_store(folder.file(), Access::read_only)->listed(), store->listed());
     EXPECT_EQ(open_sqlite_store(folder.file(), Access::read_only)->last_entry(), second);
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.archive-wal")));
 }
