@@ -280,6 +280,9 @@ std::vector<std::string> SqliteStore::own_problems() {
 
 void SqliteStore::copy_to(const fs::path& file) {
     const Database copy = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    // The journal of the copy is gone for good when this returns: one that a power cut brought back would have to be rolled
+    // back first, and whoever reads a backup may not write it.
+    (void)pragma(copy.get(), "synchronous = EXTRA", file.string());
     sqlite3_backup* const backup = sqlite3_backup_init(copy.get(), "main", database_.get(), "main");
     if (backup == nullptr) {
         refuse_sqlite(copy.get(), sqlite3_errcode(copy.get()), file.string());
