@@ -384,5 +384,16 @@ TEST(PowerCuts, LoseNothingBehindASyncThatFailed) {
     EXPECT_EQ(tally.damaged, 0) << tally.first_fault;
 }
 
+/// That the trial finds what it looks for: a store that does not synchronise loses entries and is damaged, one that does
+/// at checkpoints only loses the last ones.
+TEST(PowerCuts, AreNoticedWhereNothingIsSynchronised) {
+    for (const Disk kind : {Disk::without_sync, Disk::that_lies}) {
+        const Tally tally = cut_power(kind, 100);
+        EXPECT_GT(tally.lost, 100);
+        EXPECT_GT(tally.damaged, 10);
+    }
+    EXPECT_GT(cut_power(Disk::with_sync_at_checkpoints, 100).lost, 10);
+}
+
 }  // namespace
 }  // namespace gumcert::archive
