@@ -379,7 +379,7 @@ TEST(PowerCuts, LoseNothingThatWasAcknowledged) {
 
 /// A sync that fails may have lost what it was to bring, whatever the next one says.
 TEST(PowerCuts, LoseNothingBehindASyncThatFailed) {
-    const Tally tally = cut_power(Disk::whose_syncs_fail, number_in("GUMCERT_POWER_CUTS", 2000) / 4);
+    const Tally tally = cut_power(Disk::whose_syncs_fail, number_in("GUMCERT_POWER_CUTS", 2000) / 8);
     EXPECT_EQ(tally.lost, 0);
     EXPECT_EQ(tally.damaged, 0) << tally.first_fault;
 }
