@@ -63,8 +63,10 @@ void refuse_sqlite(sqlite3* database, int result, const std::string& name) {
             fail("GC-ARCHIVE-0034", name, what, "the log and the contents only grow, and their order is kept",
                  "nothing was changed; see docs/archive.md for what can be done instead");
         default:
-            fail("GC-ARCHIVE-0008", name, what, "the store answers without trouble",
-                 "look after disk and file, then try again; the request was not carried out");
+            fail(
+                "GC-ARCHIVE-0008", name, what, "the store answers without trouble",
+                "look after disk and file, then try again; where COMMIT failed, the same request key tells whether the "
+                "request was carried out");
     }
 }
 
