@@ -144,13 +144,14 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     faults = []
-    with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory(dir="/tmp") as place:
-        if options.rounds:
-            faults += Trial(options, pathlib.Path(name)).run(options.rounds)
-        if options.server_rounds:
+    if options.rounds:
+        with tempfile.TemporaryDirectory() as folder:
+            faults += Trial(options, pathlib.Path(folder)).run(options.rounds)
+    if options.server_rounds:
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory(dir="/tmp") as place:
             with postgresql_server.Server(place) as server:
                 if server.runs:
-                    faults += Trial(options, pathlib.Path(name), server).run(options.server_rounds)
+                    faults += Trial(options, pathlib.Path(folder), server).run(options.server_rounds)
                 else:
                     print(postgresql_server.ABSENT)
     for fault in faults[:50]:

@@ -132,7 +132,8 @@ private:
         g_frames_between_checkpoints = k_frames.at(chance(k_frames.size()));
         disk_.record(&calls_);
         open();
-        tell();
+        // What an archive had at the beginning is there while it is opened, too; a new one is told when it is begun.
+        told_.push_back({before_.empty() ? calls_.size() : 0, *store_->last_entry()});
         if (in_flight_) {
             const Written again = ask(in_flight_);
             if (again.repeated != kept_) {
