@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <type_traits>
 
 #include "tests/support/archive_folder.h"
 #include "tests/support/postgresql_server.h"
@@ -36,13 +35,6 @@ private:
 
 /// What holds for an archive holds on both kinds of store, and is stated once.
 using BothStores = testing::Types<InAFile, OnAServer>;
-
-struct NameOfStore {
-    template <class Kind>
-    static std::string GetName(int /*index*/) {  // NOLINT(readability-identifier-naming): as GoogleTest calls it
-        return std::is_same_v<Kind, InAFile> ? "InAFile" : "OnAServer";
-    }
-};
 
 /// Skips where the server is not installed.
 template <class Kind>

@@ -46,7 +46,7 @@ protected:
     std::unique_ptr<Store> store_;
     std::unique_ptr<Archive> archive_;
 };
-TYPED_TEST_SUITE(ArchiveLaws, test::BothStores, test::NameOfStore);
+TYPED_TEST_SUITE(ArchiveLaws, test::BothStores);
 
 TYPED_TEST(ArchiveLaws, LeadsACertificateThroughItsLife) {
     const std::string number = this->issued();

@@ -33,7 +33,7 @@ protected:
     }
     [[nodiscard]] static Content content_of(const std::string& bytes) { return {encoding::sha256(bytes), bytes}; }
 };
-TYPED_TEST_SUITE(StoreLaws, test::BothStores, test::NameOfStore);
+TYPED_TEST_SUITE(StoreLaws, test::BothStores);
 
 TYPED_TEST(StoreLaws, EntriesAndContentsAreKept) {
     const Content content = this->content_of(std::string("a\0b\xFF", 4));
