@@ -575,7 +575,8 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
         refuse_usage(file.string(), "is there already", "a backup is a new file", "choose another name");
     }
     // A folder of a command that was killed goes when the next one is made.
-    const system::TemporaryFolder folder(file.has_parent_path() ? file.parent_path() : ".");
+    const fs::path place = file.has_parent_path() ? file.parent_path() : ".";
+    const system::TemporaryFolder folder(place);
     const fs::path part = folder.path() / file.filename();
     store->copy_to(part);
     ProgressLine progress(!common.quiet);
@@ -595,6 +596,7 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
                                                 .action = "see what gumcert archive verify says of the archive"});
     }
     fs::rename(part, file);
+    app::synchronise_folder(place);
     return told(archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options)),
                 options, common);
 }
