@@ -22,7 +22,7 @@ using workbook::CellAddress;
 using workbook::CellKind;
 using workbook::CellValue;
 
-constexpr std::size_t k_most_tables = 10'000, k_most_rows = 10'000;
+constexpr std::size_t k_most_tables = 10'000, k_most_rows = 2'000;
 
 /// The cells of a sheet row by row, with the values that formulas give.
 class SheetView {
