@@ -962,19 +962,30 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         columns.push_back({.name = field.name, .input = index, .key = *known});
     }
     std::vector<std::string_view> wanted;
-    for (const FileColumn& column : columns) {
+    const auto is_of_standard = [&](const FileColumn& column, std::size_t input) {
+        return column.is_reference && column.input == input;
+    };
+    for (FileColumn& column : columns) {
         wanted.emplace_back(column.name);
-        const bool is_alone = column.is_reference && column.key != "standard" &&
-                              std::none_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
-                                  return other.is_reference && other.input == column.input && other.key == "standard";
-                              });
-        if (is_alone) {
+        if (!column.is_reference || !column.input) {
+            continue;
+        }
+        const bool names_standard = std::any_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
+            return is_of_standard(other, *column.input) && other.key == "standard";
+        });
+        if (names_standard) {
+            column.takes_standard = column.key == "standard";
+        } else if (laboratory_.is_stated_once(stated_[*column.input].name)) {
+            column.takes_standard = std::none_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
+                return is_of_standard(other, *column.input) && other.takes_standard;
+            });
+        } else {
             const std::string standard = column.name.substr(0, column.name.rfind('.')) + ".standard";
             file->problems->refuse(
                 k_unknown_key, name + ":1",
                 "the column " + text::in_quotes(column.name) + " without " + text::in_quotes(standard),
-                "it says how a standard is used, and a row names the standard itself",
-                "add the column " + text::in_quotes(standard));
+                "it says how a standard is used, and the input or the row names the standard itself",
+                "name the standard in the input, or add the column " + text::in_quotes(standard));
             is_known = false;
         }
     }
@@ -1001,10 +1012,10 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             const CsvCell& cell = table->cell(row, c);
-            if (column.is_reference && column.key != "standard") {
+            if (column.is_reference && !column.takes_standard) {
                 continue;  // read with the standard
             }
-            if (cell.text.empty()) {
+            if (cell.text.empty() && (!column.is_reference || column.key == "standard")) {
                 file->problems->refuse(
                     k_empty_cell, table->where(cell),
                     "row " + std::to_string(row + 1) + " has no value in the column " + text::in_quotes(column.name),
