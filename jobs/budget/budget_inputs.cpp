@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "certificate/piece_roles.h"
 #include "gum/expression/name.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
@@ -586,7 +587,8 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
             static constexpr std::array<std::string_view, 4> k_keys{"unit", "heading", "role", "stage"};
             const JsonObject object(document_, at, k_keys, problems_);
             unit = object.optional_string("unit");
-            column.role = object.optional_choice<std::string_view>("role", k_role_words).value_or("");
+            column.role = unit ? object.optional_choice<std::string_view>("role", k_role_words).value_or("")
+                               : object.optional_choice<std::string_view>("role", k_word_roles).value_or("");
             column.stage = object.optional_choice<std::string_view>("stage", k_stage_words).value_or("");
             if (const json* heading = object.find("heading"); heading != nullptr && heading->is_object()) {
                 read_localised(*heading, column.heading, false, {&document_, object.pointer("heading"), &problems_});
@@ -607,11 +609,14 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
             }
             column.printed_unit = gum::unit_for_people(column.unit);
         }
-        const auto role = std::find(certificate::k_quantity_roles.begin(), certificate::k_quantity_roles.end(), name);
-        if (column.role.empty() && role != certificate::k_quantity_roles.end()) {
+        const bool has_words = !unit && !is_limit(name);
+        const auto is_among = [&](const auto& roles) {
+            return std::find(roles.begin(), roles.end(), name) != roles.end();
+        };
+        if (column.role.empty() &&
+            (is_among(certificate::k_quantity_roles) || (has_words && is_among(certificate::k_piece_roles)))) {
             column.role = name;
         }
-        const bool has_words = !unit && !is_limit(name);
         const auto known = std::find_if(job.point_columns.begin(), job.point_columns.end(),
                                         [&](const certificate::PointColumn& c) { return c.name == name; });
         if (known != job.point_columns.end()) {  // of a section before

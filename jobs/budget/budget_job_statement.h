@@ -116,7 +116,7 @@ void describe_results(Archive& a, Struct& r) {
                     "unit": {"$ref": "#/definitions/name"},
                     "heading": {"$ref": "#/definitions/description"},
                     "role": {"enum": ["nominal", "setting", "reference", "indication", "measured_value", "error",
-                                      "deviation", "correction"]},
+                                      "deviation", "correction", "serial_number", "identification"]},
                     "stage": {"enum": ["as_found", "as_left"]}}}]}}}}]})",
         "1 to 100000 objects of numbers and of [budget_override](#budget_override); or an object with the name of "
         "a `file` or such a `list`, and `columns` of points that are no inputs",
