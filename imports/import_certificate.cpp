@@ -258,13 +258,25 @@ public:
         return q.ref_type == "gumcert_effectiveDegreesOfFreedom" && !q.label.empty();
     }
 
-    /// "Angle 20 deg, Point 10_V"; "" for a value outside of a table.
+    /// "Nominal value 0.5 mm, Serial number 40210, Point 10_V": the item, where the certificate has several, and what stands
+    /// in the row of a table; "" where there is neither.
     [[nodiscard]] std::string place_of(const ImportedQuantity& q) const {
         std::string text;
+        std::set<std::string> said;  // an item may be called by what stands in its row
+        const auto append = [&](const std::string& entry) {
+            if (said.insert(entry).second) {
+                text += (text.empty() ? "" : ", ") + entry;
+            }
+        };
+        if (q.about) {
+            append(certificate_.items[*q.about].name);
+            for (const std::string& identification : certificate_.items[*q.about].identifications) {
+                append(identification);
+            }
+        }
         if (q.table == 0 || !q.row) {
             return text;
         }
-        const auto append = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
         for (const reports::ImportedWords& words : certificate_.words) {
             if (words.table == q.table && *q.row < words.words.size()) {
                 append((words.quantity.empty() ? "" : words.quantity + " ") + words.words[*q.row]);

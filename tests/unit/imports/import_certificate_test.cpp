@@ -129,6 +129,37 @@ std::string column(const std::string& name, const std::string& values, const std
            "</si:realListXMLList></dcc:quantity>";
 }
 
+/// A number says what it is about where the certificate has several items, such as the pieces of a set.
+TEST(ImportCertificate, NamesTheItemOfANumber) {
+    const auto item = [](const std::string& id, const std::string& name, const std::string& number) {
+        return "<dcc:item id='" + id + "'><dcc:name><dcc:content>" + name +
+               "</dcc:content></dcc:name><dcc:identifications><dcc:identification><dcc:issuer>manufacturer</dcc:issuer>"
+               "<dcc:value>" +
+               number + "</dcc:value></dcc:identification></dcc:identifications></dcc:item>";
+    };
+    const auto descriptions = [&](const std::string& items, const std::string& refs) {
+        std::string document = with_quantities("<dcc:list refId='" + refs + "'>" +
+                                               column("Length", "0.5 1.0", "\\metre", "0.02") + "</dcc:list>");
+        document.insert(document.find("</dcc:administrativeData>"), "<dcc:items>" + items + "</dcc:items>");
+        const nlohmann::json inputs = nlohmann::json::parse(import_certificate(document, "a.xml").job)["inputs"];
+        std::vector<std::string> all;
+        for (const auto& input : inputs) {
+            all.push_back(input["description"]);
+        }
+        return all;
+    };
+    const std::string block = item("a", "Block", "40210");
+    const std::string other = item("b", "Weight", "7");
+    EXPECT_EQ(descriptions(block + other, "a b"),
+              (std::vector<std::string>{"Length, row 1 (Block, 40210)", "Length, row 2 (Weight, 7)"}));
+    EXPECT_EQ(descriptions(block + other, "b"),
+              (std::vector<std::string>{"Length, row 1 (Weight, 7)", "Length, row 2 (Weight, 7)"}));
+    const std::vector<std::string> nothing{"Length, row 1", "Length, row 2"};
+    EXPECT_EQ(descriptions(block + other, "a b a"), nothing) << "neither one nor one a row";
+    EXPECT_EQ(descriptions(block + other, "a c"), nothing) << "no item of that id";
+    EXPECT_EQ(descriptions(block, "a"), nothing) << "everything is about the one item";
+}
+
 /// A row of a table says where it was measured; degrees of freedom of our own certificates belong to U.
 TEST(ImportCertificate, CarriesTheRowOfATable) {
     ImportedJob imported = import_certificate(
