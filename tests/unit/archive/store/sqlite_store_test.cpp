@@ -138,6 +138,23 @@ TEST(SqliteStore, SaysWhatItIsNot) {
               "GC-ARCHIVE-0006");
 }
 
+/// SQLite quotes what it does not understand in a file.
+TEST(SqliteStore, MessagesHoldNothingThatATerminalActsOn) {
+    const StoreFolder folder;
+    (void)create_sqlite_store(folder.file(), entry_after(nullptr));
+    ASSERT_EQ(run_elsewhere(folder.file(),
+                            "PRAGMA writable_schema = ON; "
+                            "UPDATE sqlite_master SET sql = sql || char(27) WHERE type = 'trigger'"),
+              SQLITE_OK);
+    try {
+        (void)open_sqlite_store(folder.file(), Access::read_only)->last_entry();
+        FAIL();
+    } catch (const gum::StorageError& error) {
+        EXPECT_NE(error.diagnostics().front().what.find("unrecognized token"), std::string::npos);
+        EXPECT_EQ(error.diagnostics().front().what.find('\x1b'), std::string::npos);
+    }
+}
+
 TEST(SqliteStore, WritesNothingWhereItIsOpenedForReading) {
     const StoreFolder folder;
     const LogEntry first = entry_after(nullptr);
