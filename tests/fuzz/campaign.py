@@ -38,6 +38,11 @@ def numbers_of(output):
     return {"executions": int(stated[-1] if stated else last[0]), "edges": int(last[1]), "inputs": int(last[2])}
 
 
+def has_finding(output):
+    """Whether libFuzzer ended by what it found; an input that is only slow does not end it."""
+    return re.search(r"Test unit written to \S*-(?:crash|timeout|oom|leak)-", output) is not None
+
+
 def words_of(schemas):
     """Keys and words of JSON Schemas, for dictionaries."""
     import json
@@ -116,7 +121,7 @@ class Campaign:
             total["executions"] += numbers["executions"]
             for name in ("edges", "inputs"):
                 total[name] = max(total[name], numbers[name])
-            if "Test unit written to" not in output:
+            if not has_finding(output):
                 break
             total["findings"] += 1
         total["seconds"] = round(time.monotonic() - begin)

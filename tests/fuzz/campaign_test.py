@@ -22,6 +22,13 @@ class Numbers(unittest.TestCase):
         self.assertEqual(campaign.numbers_of("no such program"), {"executions": 0, "edges": 0, "inputs": 0})
 
 
+class Finding(unittest.TestCase):
+    def test_is_what_ended_the_search(self):
+        self.assertTrue(campaign.has_finding("Test unit written to a/unit-crash-16\n"))
+        self.assertFalse(campaign.has_finding("Test unit written to a/unit-slow-unit-16\n"))
+        self.assertFalse(campaign.has_finding(OUTPUT))
+
+
 class Targets(unittest.TestCase):
     def test_are_those_of_the_build(self):
         text = "gumcert_fuzz_target(a json MUTATOR json)\ngumcert_fuzz_target(b app SEEDS a)\n# gumcert_fuzz_target(c x)\n"
