@@ -215,14 +215,14 @@ endforeach()
 
 set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
 
-# In a release some files are compiled as one: half of the time goes into headers and templates that they share. Other
+# In a release, and for fuzzing, some files are compiled as one: half of the time goes into shared headers and templates. Other
 # builds compile each file by itself, so that none leans on what its neighbours include.
 #
 # files: of one unit. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
 # two thirds of the time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is
 # the same at every level.
 function(gumcert_compile_as_one target files words)
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    if(CMAKE_BUILD_TYPE STREQUAL "Release" OR GUMCERT_FUZZ)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
         if(words)
             target_compile_options(${target} PRIVATE -O1)

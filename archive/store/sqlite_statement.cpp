@@ -1,5 +1,6 @@
 #include "archive/store/sqlite_statement.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <new>
 #include <utility>
@@ -36,7 +37,10 @@ int class_of(sqlite3* database, int result) {
 }  // namespace
 
 void refuse_sqlite(sqlite3* database, int result, const std::string& name) {
-    const std::string what = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(result);
+    std::string what = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(result);
+    // SQLite quotes what stands in the file, which may come from anywhere.
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
     switch (class_of(database, result)) {
         case SQLITE_NOMEM:
             throw std::bad_alloc();  // says nothing about the store

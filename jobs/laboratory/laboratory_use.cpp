@@ -922,9 +922,10 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         if (record == nullptr) {
             facts_.not_registered.push_back(id);
             if (!entry.contains("name")) {
-                place.below(pointer).refuse(k_laboratory_id, text::in_quotes(id) + " is not in the register",
-                                            "a standard that is named only stands in standards/" + id + ".json",
-                                            "add it to the register, or write the standard out");
+                place.below(pointer).refuse(
+                    k_laboratory_id, text::in_quotes(id) + " is not in the register",
+                    "a standard that is named only stands in standards/" + text::visible(id) + ".json",
+                    "add it to the register, or write the standard out");
                 discard(entry);
             }
             continue;

@@ -76,6 +76,32 @@ TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
               (std::vector<std::string>{"GC-DCC-0034", "GC-DCC-0032"}));  // without Nominal
 }
 
+TEST(ImportCertificate, MakesAJobThatIsReadWhateverTheCertificateIsCalled) {
+    const std::string document = with_quantities(quantity("Length", "1.50", expanded_value("0.020", "2.0")));
+    const std::string identifier = "EX-1 \"a\"";
+    const std::string laboratory = "Example Laboratory";
+    for (const std::string& other :
+         {std::string(), std::string("EX-1\u00A0"), std::string(5000, 'x'), std::string("EX\u202E1 \u3000"),
+          std::string("\U0001F600") + std::string(400, 'y')}) {
+        std::string named = document;
+        named.replace(named.find(identifier), identifier.size(), other);
+        named.replace(named.find(laboratory), laboratory.size(), other);
+        const jobs::MemoryFileSource files({{"job.json", import_certificate(named, "a.xml").job}});
+        EXPECT_NO_THROW((void)jobs::read_budget_job(files, "job.json")) << other;
+    }
+}
+
+TEST(ImportCertificate, LeavesOutWhatABudgetCannotHold) {
+    const ImportedJob imported = import_certificate(
+        with_quantities(quantity("a", "1", standard("1e200")) + quantity("b", "1", expanded_value("1e-139", "1e9")) +
+                        quantity("c", "1", standard("0.1"))),
+        "a.xml");
+    EXPECT_EQ(nlohmann::json::parse(imported.job)["inputs"].size(), 1U);
+    EXPECT_EQ(of_numbers(imported.remarks), (std::vector<std::string>{"GC-DCC-0031", "GC-DCC-0031"}));
+    const jobs::MemoryFileSource files({{"job.json", imported.job}});
+    EXPECT_NO_THROW((void)jobs::read_budget_job(files, "job.json"));
+}
+
 TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     const ImportedJob imported = import_certificate(
         with_quantities(quantity("a", "NaN", expanded_value("0.1", "2")) +

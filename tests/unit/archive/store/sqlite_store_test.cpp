@@ -59,6 +59,23 @@ TEST(SqliteStore, SaysWhatItIsNot) {
     EXPECT_EQ(code_of([&] { (void)create_sqlite_store(folder.file("no/folder"), next_entry()); }), "GC-ARCHIVE-0006");
 }
 
+/// SQLite quotes what it does not understand in a file.
+TEST(SqliteStore, MessagesHoldNothingThatATerminalActsOn) {
+    const StoreFolder folder;
+    (void)create_sqlite_store(folder.file(), next_entry());
+    ASSERT_EQ(run_elsewhere(folder.file(),
+                            "PRAGMA writable_schema = ON; "
+                            "UPDATE sqlite_master SET sql = sql || char(27) WHERE type = 'trigger'"),
+              SQLITE_OK);
+    try {
+        (void)open_sqlite_store(folder.file(), Access::read_only)->last_entry();
+        FAIL();
+    } catch (const gum::StorageError& error) {
+        EXPECT_NE(error.diagnostics().front().what.find("unrecognized token"), std::string::npos);
+        EXPECT_EQ(error.diagnostics().front().what.find('\x1b'), std::string::npos);
+    }
+}
+
 // tools/verify_archive.py has the same digest: a store with another schema is one of another version.
 TEST(SqliteStore, HasTheSchemaOfVersionOne) {
     EXPECT_EQ(schema_digest(), "c4e71ac6a75f6e6e4a3d3734d7c642f1d2639b180b8a2b7d31b6f7b4cc692688");
