@@ -298,7 +298,7 @@ TEST(Undetermined, SensesAtDifferentAngles) {
     std::erase_if(campaign.measurement.lengths, [](const LengthObservation& length) {
         return (length.approach == Approach::negative) == (length.angle >= 6);
     });
-    expect_words(diagnosis(campaign), {"reversal of EXA", "two senses of approach at the same angles"});
+    expect_words(diagnosis(campaign), {"reversal of E", "two senses of approach at the same angles"});
 }
 
 TEST(Undetermined, DeadPathWithoutADistance) {
