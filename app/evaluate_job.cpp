@@ -62,9 +62,10 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
         }
         throw;
     }
+    const reports::ProgramSentences sentences = reports::read_sentences(templates);
     Evaluation evaluation = kind->evaluate(task);
     audit_evaluation(evaluation, job_file);
-    reports::identify_sentences(evaluation.record, templates);
+    reports::identify_sentences(evaluation.record, sentences);
     return evaluation;
 }
 
