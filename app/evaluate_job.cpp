@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const gum::Progress& progress,
                         std::span<const Kind> kinds, const std::filesystem::path& laboratory) {
-    return evaluate_job(jobs::DiskFileSource(job_file.parent_path(), laboratory), job_file.filename().string(),
+    return evaluate_job(jobs::DiskFileSource::of_job(job_file, laboratory), job_file.filename().string(),
                         covariance, threads, templates, progress, kinds);
 }
 

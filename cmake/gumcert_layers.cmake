@@ -123,7 +123,8 @@ set(GUMCERT_EDGES_app_cli                            text encoding system gum/qu
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
 set(GUMCERT_THIRD_PARTY_text)
-set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h openssl sys/stat.h unistd.h)
+set(GUMCERT_THIRD_PARTY_encoding                           fcntl.h linux/openat2.h openssl sys/stat.h sys/syscall.h
+                                                           unistd.h)
 set(GUMCERT_THIRD_PARTY_system                             fcntl.h linux stdlib.h sys/file.h sys/prctl.h sys/resource.h
                                                            sys/stat.h sys/syscall.h sys/types.h unistd.h)
 set(GUMCERT_THIRD_PARTY_gum_quantity                       Eigen)

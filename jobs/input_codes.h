@@ -156,6 +156,7 @@ inline constexpr InputCode k_sections_of_budget{"GC-INPUT-0364",
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
+inline constexpr InputCode k_file_leads_out{"GC-STORAGE-0002", "a symbolic link leads out of the folder of a name"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_extra_column{"GC-WARN-0001", "a column that the program does not use"};
@@ -294,6 +295,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_point_without_limit,
                                           k_sections_of_budget,
                                           k_file_not_readable,
+                                          k_file_leads_out,
                                           k_warn_extra_column,
                                           k_warn_unused_station,
                                           k_warn_unused_reflector,
