@@ -34,6 +34,7 @@ constexpr std::size_t k_most_correlated_results = 2000;
 
 Evaluation evaluate_budget_job(const EvaluationTask& task) {
     const jobs::BudgetJob job = jobs::read_budget_job(task.files, task.job_file);
+    task.begin(job.files);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     gum::BudgetResult result = gum::evaluate_budget(job, task.threads, task.progress);
     const std::size_t results = gum::budget_result_count(result);
@@ -66,6 +67,7 @@ Evaluation evaluate_budget_job(const EvaluationTask& task) {
 
 Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
     jobs::RotaryTableJob job = jobs::read_rotary_table_job(task.files, task.job_file);
+    task.begin(job.files);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     const gum::RotaryTableResult result = gum::evaluate_rotary_table(job, task.threads, task.progress);
     Evaluation evaluation;
@@ -94,6 +96,7 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
 
 Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     const jobs::CircleClosureJob job = jobs::read_circle_closure_job(task.files, task.job_file);
+    task.begin(job.files);
     const std::optional<certificate::Profile> profile = task.profile_of(job.certificate);
     const gum::CircleClosureResult result = gum::evaluate_circle_closure(job, task.threads, task.progress);
     Evaluation evaluation;
@@ -116,6 +119,7 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
 
 Evaluation evaluate_comparison_job(const EvaluationTask& task) {
     const jobs::ComparisonJob job = jobs::read_comparison_job(task.files, task.job_file);
+    task.begin(job.files);
     Evaluation evaluation;
     evaluation.record = reports::evaluate_comparison(job, task.held_files(job.files), task.progress);
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();

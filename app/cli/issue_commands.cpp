@@ -23,10 +23,12 @@
 #include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "app/unprintable_characters.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/gates/printed_languages.h"
 #include "reports/audit/audit_html.h"
 #include "reports/forms/record_sentences.h"
+#include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::cli {
@@ -71,6 +73,16 @@ public:
     void require_ready() {
         (void)options();
         worker_->require_ready();
+    }
+
+    /// The same of a job that was read: a page is set with its characters.
+    /// \return characters that no font has
+    /// \throws gum::StorageError
+    [[nodiscard]] std::vector<gum::Diagnostic> look_at(const app::ReadJob& job) {
+        (void)options();
+        return app::unprintable_characters(job, [this](const std::vector<std::string>& characters) {
+            return reports::characters_without_glyph(characters, options_.assets, *worker_);
+        });
     }
 
 private:
@@ -213,7 +225,12 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     app::Evaluation evaluation = app::evaluate_job(
         job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(options.share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
+        [&](const app::ReadJob& read) {
+            const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
+            progress.clear();
+            print_messages(several ? of_job(warnings, job) : warnings, common);
+        });
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(app::kind_of(record, app::program_kinds()), folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};

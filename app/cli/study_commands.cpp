@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <memory>
 #include <vector>
 
 #include "app/cli/output_places.h"
@@ -10,6 +11,7 @@
 #include "app/plan_job.h"
 #include "app/simulate_job.h"
 #include "app/study_inputs.h"
+#include "app/unprintable_characters.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
 
@@ -25,6 +27,7 @@ struct StudyOutput {
     fs::path file;  ///< empty: text to standard output
     std::string form = ".txt";
     reports::RenderAssets assets = {};
+    std::unique_ptr<reports::PdfWorker> worker = {};  ///< of a PDF
     std::vector<fs::path> inputs = {};
     app::OutputsAtStart at_start = {};
 };
@@ -64,7 +67,14 @@ StudyOutput study_output(const std::string& output, const fs::path& job, const s
         result.assets = render_assets(share, {"en"});
     }
     if (result.form == ".pdf") {
-        reports::PdfWorker(result.assets).require_ready();
+        result.worker = std::make_unique<reports::PdfWorker>(result.assets);
+        result.worker->require_ready();
+        print_messages(app::unprintable_characters(job,
+                                                   [&](const std::vector<std::string>& characters) {
+                                                       return reports::characters_without_glyph(
+                                                           characters, result.assets, *result.worker);
+                                                   }),
+                       common);
     }
     return result;
 }
@@ -79,7 +89,7 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
         [&] {
             bytes = output.form == ".json"   ? study.data_json
                     : output.form == ".html" ? reports::render_html(study, output.assets)
-                    : output.form == ".pdf"  ? reports::render_pdf(study, output.assets)
+                    : output.form == ".pdf"  ? reports::render_pdf(study, output.assets, output.worker.get())
                                              : reports::render_text(study);
         },
         [&] {

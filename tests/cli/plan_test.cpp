@@ -99,6 +99,7 @@ TEST_F(Plan, AStudyIsKeptWhenItsPdfCannotBeMade) {
     const Ended failed = gumcert(command);
     EXPECT_EQ(failed.code, 5) << failed.err;
     EXPECT_LT(failed.err.find("[GC-STORE-0022]"), failed.err.find("[GC-REPORT-0011]")) << failed.err;
+    EXPECT_LT(failed.err.find("[GC-REPORT-0045]"), failed.err.find("[GC-STORE-0022]")) << "told before: " << failed.err;
     EXPECT_FALSE(fs::exists(pdf));
     const fs::path kept = folder() / "out" / "record-kept";
     EXPECT_EQ(json::parse(bytes_of(kept / "plan.json"))["schema"], "gumcert/plan/1");
