@@ -58,6 +58,7 @@ struct Evaluation {
 struct ReadJob {
     const jobs::FileSource& files;
     const std::vector<std::string>& names;  ///< of its files, the job first
+    double memory = 0.0;                    ///< about what its evaluation and record take, [byte]; 0: not known
 };
 /// Looks at a job before its evaluation, which may take long.
 using BeforeEvaluation = std::function<void(const ReadJob&)>;
@@ -75,10 +76,11 @@ struct EvaluationTask {
     inline static const BeforeEvaluation k_nothing = {};
 
     /// To be called by every kind between reading and evaluating.
-    /// \param names  as the reader of the job lists them, the job first
-    void begin(const std::vector<std::string>& names) const {
+    /// \param names   as the reader of the job lists them, the job first
+    /// \param memory  as of ReadJob
+    void begin(const std::vector<std::string>& names, double memory = 0.0) const {
         if (before) {
-            before({files, names});
+            before({files, names, memory});
         }
     }
 

@@ -102,7 +102,7 @@ set(GUMCERT_EDGES_imports                            gum/quantity json gum/expre
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
 set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)
 set(GUMCERT_EDGES_app                                text encoding system gum/quantity json gum/monte_carlo certificate
-                                                     certificate/gates laboratory engine/rotary_table/studies gum/budget gum/circle_closure
+                                                     certificate/gates laboratory engine/rotary_table engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
                                                      jobs/laboratory jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget

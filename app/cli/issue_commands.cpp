@@ -92,6 +92,30 @@ private:
     app::IssueOptions options_;
 };
 
+/// Says of a job that it takes much memory, before it does.
+/// \throws gum::StorageError  GC-STORE-0026 where it is more than the command may take
+void tell_memory(const app::ReadJob& job, const CommonOptions& common) {
+    constexpr double k_told = 1e9;  // [byte]
+    constexpr double k_megabyte = 1e6;
+    const bool is_too_much =
+        common.memory_limit.value_or(0) > 0 && job.memory > static_cast<double>(*common.memory_limit);
+    if (!is_too_much && job.memory < k_told) {
+        return;
+    }
+    const gum::Diagnostic needed{
+        .code = "GC-STORE-0026",
+        .where = job.names.front(),
+        .what = fmt::format("its evaluation takes about {:.0f} MB of memory", job.memory / k_megabyte),
+        .rule = "it grows as the number of results times that of inputs, or as the square of the angles",
+        .action = is_too_much ? "split the job, or give it more by --memory-limit"
+                              : "split the job where the machine has less",
+        .severity = is_too_much ? gum::Severity::error : gum::Severity::note};
+    if (is_too_much) {
+        throw gum::StorageError(needed);
+    }
+    print_messages({&needed, 1}, common);
+}
+
 void print_warnings(const Issuer& issuer, const CommonOptions& common) {
     for (const gum::Diagnostic& warning : issuer.warnings()) {
         print_message(warning, common);
@@ -227,6 +251,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         static_cast<unsigned>(common.threads), templates_folder(options.share),
         [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
         [&](const app::ReadJob& read) {
+            tell_memory(read, common);
             const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
             progress.clear();
             print_messages(several ? of_job(warnings, job) : warnings, common);
@@ -446,7 +471,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
          *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
+        [&](const app::ReadJob& read) { tell_memory(read, common); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     judge_issue(evaluation.record, {}, share);
     progress.clear();
