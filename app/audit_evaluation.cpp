@@ -42,11 +42,15 @@ std::vector<Finding> critical_findings(const audit::AuditReport& report, std::sp
 
 }  // namespace
 
-reports::AuditView audit_view(std::span<const audit::AuditReport> reports, std::vector<std::string> digests,
-                              const reports::TaskRunner& run) {
+reports::AuditView audit_view(std::span<const audit::AuditReport> reports, std::vector<std::string> digests) {
     return reports::make_audit_view(reports, audit::all_rules(),
-                                    {.program = "gumcert " + std::string(k_version), .digests = std::move(digests)},
-                                    run);
+                                    {.program = "gumcert " + std::string(k_version), .digests = std::move(digests)});
+}
+
+reports::AuditView audit_view(std::vector<reports::AuditedFileView> files,
+                              std::vector<reports::UnauditedFile> unaudited) {
+    return reports::make_audit_view(
+        std::move(files), {.program = "gumcert " + std::string(k_version), .unaudited = std::move(unaudited)});
 }
 
 bool is_refuted_by_audit(const Evaluation& evaluation) {

@@ -21,8 +21,10 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file);
 
 /// Audits as documents of this program show them.
 /// \param digests  SHA-256 of the audited files, in the order of the reports; none, or "": it is not printed
-/// \param run      as of reports::make_audit_view()
 [[nodiscard]] reports::AuditView audit_view(std::span<const audit::AuditReport> reports,
-                                            std::vector<std::string> digests = {}, const reports::TaskRunner& run = {});
+                                            std::vector<std::string> digests = {});
+/// \param unaudited  files that were asked for and have no audit
+[[nodiscard]] reports::AuditView audit_view(std::vector<reports::AuditedFileView> files,
+                                            std::vector<reports::UnauditedFile> unaudited);
 
 }  // namespace gumcert::app

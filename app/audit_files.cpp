@@ -160,6 +160,17 @@ void put_jobs_to_records(std::vector<FileToAudit>& files, const fs::path& labora
     std::erase_if(files, [&](const FileToAudit&) { return is_told[position++]; });
 }
 
+bool is_hidden(const fs::path& file) {
+    return file.filename().string().starts_with('.');
+}
+
+/// Whether a file is a PDF beside which the digital certificate lies that is audited in its place.
+bool has_certificate_beside(const fs::path& file) {
+    std::error_code error;
+    return audit::in_small_letters(file.extension().string()) == ".pdf" &&
+           fs::exists(fs::path(file).replace_extension(".xml"), error);
+}
+
 /// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that
 /// does not lie beside it.
 bool is_audited(const fs::path& file) {
@@ -167,27 +178,29 @@ bool is_audited(const fs::path& file) {
     if (ending != ".pdf") {
         return std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end();
     }
-    fs::path beside = file;
-    std::error_code error;
-    return !fs::exists(beside.replace_extension(".xml"), error) &&
-           !certificate_in_pdf(read_file(file), file.string()).empty();
+    return !has_certificate_beside(file) && !certificate_in_pdf(read_file(file), file.string()).empty();
 }
 
 }  // namespace
 
-std::vector<FileToAudit> files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
-    std::vector<FileToAudit> files;
+FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
+    FilesToAudit all;
     for (const fs::path& name : named) {
         std::error_code error;
         if (!fs::is_directory(name, error)) {
-            files.push_back({.file = name});
+            all.files.push_back({.file = name});
             continue;
         }
         std::vector<FileToAudit> found;
         for (const fs::directory_entry& entry :
              fs::recursive_directory_iterator(name, fs::directory_options::skip_permission_denied)) {
-            if (entry.is_regular_file() && is_audited(entry.path())) {
+            if (!entry.is_regular_file()) {
+                continue;
+            }
+            if (is_audited(entry.path())) {
                 found.push_back({.file = entry.path()});
+            } else if (!is_hidden(entry.path()) && !has_certificate_beside(entry.path())) {
+                all.of_other_kinds.push_back(entry.path());
             }
         }
         if (found.empty()) {
@@ -201,9 +214,10 @@ std::vector<FileToAudit> files_to_audit(const std::vector<fs::path>& named, cons
         std::sort(found.begin(), found.end(),
                   [](const FileToAudit& a, const FileToAudit& b) { return a.file < b.file; });
         put_jobs_to_records(found, laboratory);
-        files.insert(files.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+        all.files.insert(all.files.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
     }
-    return files;
+    std::sort(all.of_other_kinds.begin(), all.of_other_kinds.end());
+    return all;
 }
 
 std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
@@ -270,7 +284,6 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
                 .action = "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file"});
     }
     audited.report = audit::audit(std::move(subject), audit::all_rules());
-    audited.report.subject.workbook.reset();  // no form shows it, and thousands of files are kept until all are audited
     audit::accept_findings(audited.report, waivers);
     return audited;
 }
@@ -286,7 +299,9 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            attempts[file].audited = audit_file(files[file].file, threads, templates, told, waivers, laboratory);
+            const AuditedFile audited = audit_file(files[file].file, threads, templates, told, waivers, laboratory);
+            attempts[file].has_critical = audited.report.has_critical();
+            attempts[file].view = reports::make_file_view(audited.report, audit::all_rules(), audited.digest);
         } catch (...) {
             attempts[file].failure = std::current_exception();
         }

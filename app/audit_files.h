@@ -11,6 +11,7 @@
 
 #include "audit/audit.h"
 #include "gum/quantity/progress.h"
+#include "reports/audit/audit_view.h"
 
 namespace gumcert::app {
 
@@ -34,6 +35,12 @@ struct FileToAudit {
     std::vector<std::filesystem::path> jobs = {};
 };
 
+/// What an audit looks at, and what it passes over.
+struct FilesToAudit {
+    std::vector<FileToAudit> files;
+    std::vector<std::filesystem::path> of_other_kinds;  ///< of a folder, sorted: nothing that an audit reads
+};
+
 /// The files that an audit looks at: the named ones, and of a folder all of its files and folders whose endings the audit
 /// knows (.json, .csv, .xlsx, .xlsm, .xml), sorted by name; a PDF where a digital certificate is attached that does not
 /// lie beside it. Of a job of a folder and a record that was made of it, by this program and of the same bytes of all
@@ -41,8 +48,8 @@ struct FileToAudit {
 /// \param laboratory  as of evaluate_job()
 /// \throws gum::InputError    GC-AUDIT-0010 a folder without such a file
 /// \throws gum::StorageError  what cannot be looked at
-[[nodiscard]] std::vector<FileToAudit> files_to_audit(const std::vector<std::filesystem::path>& named,
-                                                      const std::filesystem::path& laboratory = {});
+[[nodiscard]] FilesToAudit files_to_audit(const std::vector<std::filesystem::path>& named,
+                                          const std::filesystem::path& laboratory = {});
 
 /// Audits one file, whatever it is: a job is evaluated first, a record taken as it states itself and held against its own
 /// job, a table (CSV) or workbook (.xlsx) read and its formulas evaluated, a digital certificate read.
@@ -57,12 +64,14 @@ struct FileToAudit {
 
 /// What became of a file.
 struct AuditAttempt {
-    std::optional<AuditedFile> audited;
-    std::exception_ptr failure;  ///< what audit_file() threw, where it is not audited
+    std::optional<reports::AuditedFileView> view;  ///< as documents of this program show it
+    bool has_critical = false;                     ///< a critical finding that nobody accepts
+    std::exception_ptr failure;                    ///< what audit_file() threw, where it is not audited
 };
 
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
-/// the other, which use all threads themselves; results are the same for any number of threads.
+/// the other, which use all threads themselves; results are the same for any number of threads. Of thousands of files only
+/// what is shown of them is kept.
 [[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},

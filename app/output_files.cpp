@@ -51,20 +51,6 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// \throws gum::StorageError  not for a file system that cannot synchronise a folder: it does not lose the file for it
-void synchronise_folder(const fs::path& folder) {
-    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) {
-        refuse(folder, "cannot be opened: " + reason());
-    }
-    const bool failed = fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS;
-    const std::string why = failed ? reason() : "";
-    close(descriptor);
-    if (failed) {
-        refuse(folder, "cannot be brought to the disk: " + why);
-    }
-}
-
 /// What stands at a place now; none where nothing does.
 std::optional<struct stat> status_of(const fs::path& path) {
     struct stat status = {};
@@ -531,6 +517,19 @@ private:
 };
 
 }  // namespace
+
+void synchronise_folder(const fs::path& folder) {
+    const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) {
+        refuse(folder, "cannot be opened: " + reason());
+    }
+    const bool failed = fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS;
+    const std::string why = failed ? reason() : "";
+    close(descriptor);
+    if (failed) {
+        refuse(folder, "cannot be brought to the disk: " + why);
+    }
+}
 
 void require_writable(const fs::path& file) {
     require_replaceable(file);

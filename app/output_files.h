@@ -47,6 +47,11 @@ private:
 /// \throws gum::StorageError  GC-STORE-0013 if a set can be neither completed nor taken back
 std::vector<gum::Diagnostic> restore_outputs(const std::vector<std::filesystem::path>& outputs);
 
+/// Brings to the disk which files a folder has, and by which names: after a file was renamed.
+/// \throws gum::StorageError  GC-STORE-0002; not for a file system that cannot synchronise a folder: it does not lose the
+///                            file for it
+void synchronise_folder(const std::filesystem::path& folder);
+
 /// Writes files of one folder, all or none: each to a new temporary file in the folder, synchronised to the disk, then
 /// put in place. Of several files a journal is kept meanwhile, and a manifest with their digests afterwards
 /// (app/output_set.h, docs/adr/0054-sets-of-outputs.md). A folder that is missing is made. A file that takes the place

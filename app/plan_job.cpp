@@ -6,19 +6,22 @@
 
 #include "gum/monte_carlo/worker_threads.h"
 #include "gum/rotary_table/studies/plan_study.h"
-#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/studies/plan_document.h"
 
 namespace gumcert::app {
 
 reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads, const gum::Progress& progress) {
+    return plan_job(jobs::read_rotary_table_job(job, jobs::JobUse::plan), job.filename().string(), threads, progress);
+}
+
+reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::string& job_name, unsigned threads,
+                                const gum::Progress& progress) {
     const auto report = [&](const char* text) {
         if (progress) {
             progress(text);
         }
     };
-    const jobs::RotaryTableJob read = jobs::read_rotary_table_job(job, jobs::JobUse::plan);
-    gum::plan::Setting setting = gum::plan::setting_of(read, read.plan.value_or(gum::PlanRequest{}), progress);
+    gum::plan::Setting setting = gum::plan::setting_of(job, job.plan.value_or(gum::PlanRequest{}), progress);
     gum::WorkerThreads workers(threads);
     report("expected uncertainties");
     const gum::plan::Expected now = gum::plan::expect(setting, setting.layout);
@@ -27,10 +30,10 @@ reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threa
     report("one thing changed at a time");
     const std::vector<gum::plan::Variant> variants = gum::plan::variants_of(setting, workers);
     const std::optional<gum::plan::Proposal> proposal = gum::plan::propose(setting, now, workers, progress);
-    return reports::plan::document_of({.name = job.filename().string(),
-                                       .title = read.title,
-                                       .coverage_probability = read.coverage_probability,
-                                       .warnings = read.warnings},
+    return reports::plan::document_of({.name = job_name,
+                                       .title = job.title,
+                                       .coverage_probability = job.coverage_probability,
+                                       .warnings = job.warnings},
                                       std::move(setting), now, shares, variants, proposal);
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "app/evaluate_job.h"
 #include "gum/quantity/progress.h"
+#include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/forms/study_document.h"
 
 namespace gumcert::app {
@@ -19,5 +21,10 @@ namespace gumcert::app {
 /// \throws gum::InputError, gum::NoResultError, gum::StorageError
 [[nodiscard]] reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads,
                                               const gum::Progress& progress = {});
+
+/// The same for a job that is read already.
+/// \param job_name  for the document
+[[nodiscard]] reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::string& job_name,
+                                              unsigned threads, const gum::Progress& progress = {});
 
 }  // namespace gumcert::app

@@ -1,10 +1,11 @@
 #include "archive/archive.h"
 
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/printed_head.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
@@ -95,6 +96,18 @@ void refuse_unknown(const std::string& certificate, const std::string& archive) 
                    "a certificate is named by its number", "see gumcert archive list");
 }
 
+ListedCertificate listed_as(const std::string& number, const CertificateLife& life) {
+    return {.number = number, .state = life.state, .since = life.since, .item = life.item, .record = life.record};
+}
+
+void list_again(Store& store) {
+    LogRules rules;
+    store.each_entry([&](const LogEntry& entry) { rules.take(entry); });
+    for (const auto& [number, life] : rules.lives()) {
+        store.list(listed_as(number, life));
+    }
+}
+
 LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
                      const Request& request) {
     require_numbering(settings);
@@ -164,6 +177,9 @@ LogEntry Archive::append(LogRules& rules, LogEntry entry) {
     }
     entry.hash = entry_hash(entry);
     store_.append(entry);
+    if (is_of_life(entry.kind)) {
+        store_.list(listed_as(entry.certificate, *rules.life(entry.certificate)));
+    }
     return entry;
 }
 
@@ -260,6 +276,31 @@ Written Archive::take_amendment_number(const std::string& original, const Reques
     });
 }
 
+void Archive::require_heads(const Draft& draft, const std::string& record) {
+    std::int64_t drafted = std::numeric_limits<std::int64_t>::max();
+    for (const LogEntry& entry : store_.entries_of(draft.number)) {
+        if (entry.kind == "drafted" && entry.record == record) {
+            drafted = std::min(drafted, entry.seq);
+        }
+    }
+    std::optional<MerkleTree> tree;  // of all entries, where it is needed
+    for (const Document& document : draft.documents) {
+        for (const PrintedHead& head : printed_heads_in(document.bytes)) {
+            if (!tree) {
+                store_.each_entry([&, &made = tree.emplace()](const LogEntry& entry) { made.add(entry.hash); });
+            }
+            const auto size = static_cast<std::size_t>(head.size);
+            const bool is_of_log = size <= tree->size() && tree->root(size) == head.root;
+            const auto next = static_cast<std::int64_t>(tree->size()) + 1;
+            if (std::string fault = fault_of(head, is_of_log, drafted, next); !fault.empty()) {
+                refuse_request("GC-ARCHIVE-0037", document.name, std::move(fault),
+                               "a document prints a head of its archive that contains a draft of its record",
+                               "add the record first, make the document with a head from after it, and add both");
+            }
+        }
+    }
+}
+
 Written Archive::draft(const Draft& draft, const Request& request) {
     LogEntry entry = entry_for(request, "drafted", draft.number);
     entry.record = encoding::sha256(draft.record);
@@ -296,6 +337,7 @@ Written Archive::draft(const Draft& draft, const Request& request) {
             body["amends"] = {{"number", draft.amends->number}, {"kind", draft.amends->kind}, {"changes", changes}};
         }
         entry.body = gumcert::json::canonical_json(body);
+        require_heads(draft, entry.record);
         for (const Content& content : contents) {
             if (!store_.has(content.sha256)) {
                 store_.put(content);
@@ -377,43 +419,34 @@ std::vector<LogEntry> Archive::history(const std::string& certificate) {
     return entries;
 }
 
-std::vector<ListedCertificate> Archive::listed() {
-    std::vector<ListedCertificate> certificates;
-    std::map<std::string, std::string> items;
-    for (const LogEntry& draft : store_.newest_entries({"drafted"})) {
-        if (const std::optional<json> body = body_of(draft)) {
-            items[draft.certificate] = text_in(*body, "new", "item");
-        }
-    }
-    for (const LogEntry& entry : store_.newest_entries(kinds_of_life())) {
-        certificates.push_back({entry.certificate, entry.kind, entry.at, items[entry.certificate], entry.record});
-    }
-    return certificates;
-}
-
 std::vector<ListedCertificate> Archive::list() {
     std::vector<ListedCertificate> certificates;
-    store_.read([&] { certificates = listed(); });
+    store_.read([&] { certificates = store_.listed(); });
     return certificates;
 }
 
-void Archive::each_record(const std::function<void(std::size_t number)>& begin,
+void Archive::each_record(const std::function<void(const std::vector<ListedCertificate>&)>& begin,
                           const std::function<void(const ListedCertificate&, std::string bytes)>& visit) {
     store_.read([&] {
-        std::vector<ListedCertificate> certificates = listed();
-        std::erase_if(certificates, [](const ListedCertificate& one) { return one.record.empty(); });
-        begin(certificates.size());
+        const std::vector<ListedCertificate> certificates = store_.listed();
+        begin(certificates);
         for (const ListedCertificate& one : certificates) {
-            // A record that is missing is for the verifier to tell; here it is one that says nothing.
-            visit(one, store_.content(one.record).value_or(""));
+            if (!one.record.empty()) {
+                // A record that is missing is for the verifier to tell; here it is one that says nothing.
+                visit(one, store_.content(one.record).value_or(""));
+            }
         }
     });
 }
 
-std::string Archive::record_of(const std::string& certificate) {
-    const std::string name = life(certificate).record;
+std::optional<std::string> Archive::content(const std::string& sha256) {
     std::optional<std::string> bytes;
-    store_.read([&] { bytes = store_.content(name); });
+    store_.read([&] { bytes = store_.content(sha256); });
+    return bytes;
+}
+
+std::string Archive::record_of(const std::string& certificate) {
+    std::optional<std::string> bytes = content(life(certificate).record);
     if (!bytes) {
         refuse_request("GC-ARCHIVE-0026", certificate, "has no record in the archive " + store_.name(),
                        "a certificate is named by its number", "see gumcert archive list");

@@ -51,10 +51,10 @@ struct Written {
     bool repeated = false;  ///< the entry was there already, asked for with the same key
 };
 
-/// A certificate in a list.
-struct ListedCertificate {
-    std::string number, state, since, item, record;
-};
+/// What lists say of a certificate with such a life.
+[[nodiscard]] ListedCertificate listed_as(const std::string& number, const CertificateLife& life);
+/// Makes what lists say of every certificate from the log alone; inside of write() of the store.
+void list_again(Store& store);
 
 /// First entry of an archive.
 /// \param software  that makes it, with its version
@@ -81,6 +81,8 @@ public:
     Written take_number(const Request& request);
     /// Takes the next number for an amendment of an issued certificate: "EX-2026-0001/A1", A2 …
     Written take_amendment_number(const std::string& original, const Request& request);
+    /// \throws gum::InputError  GC-ARCHIVE-0037 where a document prints a head that this archive never had, or that does
+    ///                          not contain an earlier draft of the same record
     Written draft(const Draft& draft, const Request& request);
     /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
     ///              amended or superseded, in one transaction.
@@ -96,9 +98,11 @@ public:
     [[nodiscard]] std::vector<LogEntry> history(const std::string& certificate);
     [[nodiscard]] std::vector<ListedCertificate> list();
     /// The certificates of list() that have a record, with its bytes, all of one state of the archive.
-    /// \param number  of certificates, before the first one
-    void each_record(const std::function<void(std::size_t number)>& begin,
+    /// \param begin  is given that list, before the first record
+    void each_record(const std::function<void(const std::vector<ListedCertificate>&)>& begin,
                      const std::function<void(const ListedCertificate&, std::string bytes)>& visit);
+    /// Bytes of a record or document.
+    [[nodiscard]] std::optional<std::string> content(const std::string& sha256);
     /// Bytes of the record that holds.
     [[nodiscard]] std::string record_of(const std::string& certificate);
     [[nodiscard]] Head head();
@@ -109,11 +113,11 @@ public:
 private:
     Store& store_;
 
-    [[nodiscard]] std::vector<ListedCertificate> listed();
     [[nodiscard]] LogRules rules_for(const std::vector<std::string>& certificates, const std::string& series);
     [[nodiscard]] WalkedLog walked();
     LogEntry append(LogRules& rules, LogEntry entry);
     Written write(const LogEntry& wanted, const std::function<LogEntry()>& work);
+    void require_heads(const Draft& draft, const std::string& record);
     void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);
 };
 

@@ -8,6 +8,7 @@
 
 #include "archive/archive.h"
 #include "archive/log_rules.h"
+#include "archive/printed_head.h"
 #include "archive/store/merkle.h"
 #include "encoding/base64.h"
 #include "encoding/sha2.h"
@@ -92,17 +93,26 @@ public:
                       .body = text(object, at, "body"),
                       .prev = hash(text(object, at, "prev"), at + "/prev"),
                       .hash = hash(text(object, at, "hash"), at + "/hash")};
-        for (const json& step : list(object, at, "proof")) {
-            if (!step.is_string()) {
-                refuse(at + "/proof");
-            }
-            read.proof.push_back(hash(step.get<std::string>(), at + "/proof"));
-        }
+        read.proof = proof(object, at);
         return read;
+    }
+    [[nodiscard]] Head::Extension extension(const json& object, const std::string& at) const {
+        return {integer(object, at, "size"), hash(text(object, at, "root"), at + "/root"), proof(object, at)};
     }
 
 private:
     std::string name_;
+
+    [[nodiscard]] std::vector<std::string> proof(const json& object, const std::string& at) const {
+        std::vector<std::string> nodes;
+        for (const json& node : list(object, at, "proof")) {
+            if (!node.is_string()) {
+                refuse(at + "/proof");
+            }
+            nodes.push_back(hash(node.get<std::string>(), at + "/proof"));
+        }
+        return nodes;
+    }
 };
 
 class EvidenceVerifier {
@@ -139,7 +149,8 @@ private:
     const Evidence& evidence_;
     EvidenceVerdict verdict_;
     LogRules rules_;
-    std::map<std::string, std::string> needed_;  // content → entry
+    std::map<std::string, const LogEntry*> needed_;  // content → entry that names it first
+    std::map<std::string, std::int64_t> drafts_;     // record → its first draft
 
     void add(const char* code, std::string where, std::string what, std::string rule) {
         verdict_.findings.push_back({.code = code,
@@ -175,9 +186,27 @@ private:
             rules_.take(entry);
         }
         if (entry.kind == "drafted" && entry.certificate == evidence_.certificate) {
-            needed_.emplace(entry.record, where);
+            drafts_.emplace(entry.record, entry.seq);
+            needed_.emplace(entry.record, &entry);
             for (const std::string& sha256 : documents_in(body_of(entry).value_or(json::object()))) {
-                needed_.emplace(sha256, where);
+                needed_.emplace(sha256, &entry);
+            }
+        }
+    }
+
+    /// A head that a document prints is one that the head of the evidence extends.
+    void look_at_printed_heads(const Content& content, const LogEntry& naming) {
+        for (const PrintedHead& printed : printed_heads_in(content.bytes)) {
+            const bool is_of_log = std::any_of(
+                evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const Head::Extension& one) {
+                    return one.size == printed.size && one.root == printed.root &&
+                           is_extended(static_cast<std::size_t>(one.size), one.root,
+                                       static_cast<std::size_t>(evidence_.head.size), evidence_.head.root, one.proof);
+                });
+            if (std::string fault = fault_of(printed, is_of_log, drafts_.at(naming.record), naming.seq);
+                !fault.empty()) {
+                add("GC-ARCHIVE-0053", "content " + content.sha256, std::move(fault),
+                    "a document prints a head of its archive that contains a draft of its record");
             }
         }
     }
@@ -188,20 +217,36 @@ private:
             if (encoding::sha256(content.bytes) != content.sha256) {
                 add("GC-ARCHIVE-0044", "content " + content.sha256, "its bytes have another hash",
                     "a content is found by the hash of its bytes");
-            } else if (!needed_.contains(content.sha256)) {
+            } else if (const auto named = needed_.find(content.sha256); named == needed_.end()) {
                 add("GC-ARCHIVE-0044", "content " + content.sha256, "no entry names it",
                     "evidence holds what its entries name");
+            } else {
+                look_at_printed_heads(content, *named->second);
             }
             kept.insert(content.sha256);
         }
-        for (const auto& [sha256, where] : needed_) {
+        for (const auto& [sha256, entry] : needed_) {
             if (!kept.contains(sha256)) {
-                add("GC-ARCHIVE-0044", where, "the content " + sha256 + " is not there",
+                add("GC-ARCHIVE-0044", "entry " + std::to_string(entry->seq), "the content " + sha256 + " is not there",
                     "records and documents that the log names are kept");
             }
         }
     }
 };
+
+/// A head that the log never had has no proof: who verifies the evidence says so.
+void prove_printed_heads(Evidence& evidence, const std::string& document, const MerkleTree& tree) {
+    for (const PrintedHead& printed : printed_heads_in(document)) {
+        const auto size = static_cast<std::size_t>(printed.size);
+        if (size <= tree.size() && tree.root(size) == printed.root) {
+            Head::Extension proven{printed.size, printed.root, tree.consistency_proof(size, tree.size())};
+            if (std::find(evidence.printed_heads.begin(), evidence.printed_heads.end(), proven) ==
+                evidence.printed_heads.end()) {
+                evidence.printed_heads.push_back(std::move(proven));
+            }
+        }
+    }
+}
 
 }  // namespace
 
@@ -247,6 +292,7 @@ Evidence evidence_of(Store& store, const std::string& certificate) {
             for (const std::string& sha256 : contents) {
                 std::optional<std::string> bytes = store.content(sha256);
                 if (bytes && named.insert(sha256).second) {
+                    prove_printed_heads(evidence, *bytes, tree);
                     evidence.contents.push_back({sha256, std::move(*bytes)});
                 }
             }
@@ -274,11 +320,16 @@ std::string to_json(const Evidence& evidence) {
     for (const Content& content : evidence.contents) {
         contents.push_back({{"sha256", content.sha256}, {"base64", encoding::base64(content.bytes)}});
     }
-    return gumcert::json::canonical_json({{"schema", k_evidence_schema},
-                                          {"certificate", evidence.certificate},
-                                          {"head", json::parse(to_json(evidence.head))},
-                                          {"entries", entries},
-                                          {"contents", contents}});
+    json object{{"schema", k_evidence_schema},
+                {"certificate", evidence.certificate},
+                {"head", json::parse(to_json(evidence.head))},
+                {"entries", entries},
+                {"contents", contents}};
+    for (const Head::Extension& one : evidence.printed_heads) {
+        object["printed_heads"].push_back(
+            {{"size", one.size}, {"root", encoding::hexadecimal(one.root)}, {"proof", hexadecimal_list(one.proof)}});
+    }
+    return gumcert::json::canonical_json(object);
 }
 
 Evidence evidence_from_json(std::string_view text, const std::string& name) {
@@ -302,6 +353,10 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
             reader.refuse(at + "/base64");
         }
         evidence.contents.push_back({reader.text(content, at, "sha256"), std::move(*bytes)});
+    }
+    index = 0;
+    for (const json& head : object->value("printed_heads", json::array())) {
+        evidence.printed_heads.push_back(reader.extension(head, "/printed_heads/" + std::to_string(index++)));
     }
     return evidence;
 }

@@ -24,6 +24,8 @@ struct Evidence {
     std::vector<ProvenEntry> entries;  ///< the first one, every change of settings, those of the certificate, and those
                                        ///< of certificates that it amends or that amend it
     std::vector<Content> contents;     ///< records and documents that its entries name
+    std::vector<Head::Extension> printed_heads = {};  ///< those that its documents print, with the proof that the head
+                                                      ///< extends them
 };
 
 /// \param certificate  number
@@ -43,8 +45,8 @@ struct EvidenceVerdict {
     std::vector<gum::Diagnostic> findings;
 };
 
-/// Hashes of entries and contents, inclusion in the tree of the head, the life of the certificate. GC-ARCHIVE-0040,
-/// -0043, -0044, -0048; against heads from elsewhere -0045.
+/// Hashes of entries and contents, inclusion in the tree of the head, the life of the certificate, heads that its documents
+/// print. GC-ARCHIVE-0040, -0043, -0044, -0048, -0053; against heads from elsewhere -0045.
 /// \param heads  from elsewhere: one of the same size must be the same
 [[nodiscard]] EvidenceVerdict verify_evidence(const Evidence& evidence, const std::vector<Head>& heads = {});
 

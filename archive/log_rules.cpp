@@ -369,6 +369,7 @@ void LogRules::apply(const LogEntry& entry, const json& body) {
     } else if (entry.kind == "drafted") {
         life.authors.insert(entry.actor);
         life.record = entry.record;
+        life.item = text_of(member(body, "new"), "item");
         life.documents = documents_in(body);
         life.amends = text_of(member(body, "amends"), "number");
         life.amendment_kind = text_of(member(body, "amends"), "kind");

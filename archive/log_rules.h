@@ -18,6 +18,7 @@ struct CertificateLife {
     std::string state;                   ///< kind of the newest entry that changed it: "issued"; "" before the first
     std::string since;                   ///< time of that entry
     std::string record;                  ///< SHA-256 of the record that holds; "" before one is there
+    std::string item;                    ///< what was calibrated
     std::vector<std::string> documents;  ///< SHA-256 of those that hold
     std::set<std::string> authors;       ///< of all its drafts
     std::string amends;                  ///< number of the certificate that it amends or replaces; "" else

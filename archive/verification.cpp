@@ -5,7 +5,9 @@
 #include <set>
 #include <utility>
 
+#include "archive/archive.h"
 #include "archive/log_rules.h"
+#include "archive/printed_head.h"
 #include "encoding/sha2.h"
 
 namespace gumcert::archive {
@@ -35,10 +37,11 @@ public:
                     "an amendment is issued together with the entry of its original",
                     "something was removed: compare with a backup");
             }
+            look_at_list();
             store_.each_content([&](const Content& content) { look_at(content); });
-            for (const auto& [sha256, seq] : needed_) {
+            for (const auto& [sha256, naming] : needed_) {
                 if (!kept_.contains(sha256)) {
-                    add("GC-ARCHIVE-0044", entry_name(seq), "the content " + sha256 + " is not there",
+                    add("GC-ARCHIVE-0044", entry_name(naming.seq), "the content " + sha256 + " is not there",
                         "records and documents that the log names are kept",
                         "restore it from a backup, or from whoever received it");
                 }
@@ -75,7 +78,12 @@ private:
     WalkedLog log_;
     std::vector<std::pair<std::string, std::string>> chains_;  // hash and time of every entry
     std::set<std::string> keys_;
-    std::map<std::string, std::int64_t> needed_;  // content → entry that names it
+    struct Naming {
+        std::int64_t seq = 0;      // of the entry that names a content first
+        std::int64_t drafted = 0;  // of the one that drafted its record first
+    };
+    std::map<std::string, Naming> needed_;                                // by content
+    std::map<std::pair<std::string, std::string>, std::int64_t> drafts_;  // certificate and record → its first draft
     std::set<std::string> kept_;
 
     void add(const char* code, std::string where, std::string what, std::string rule, std::string action) {
@@ -115,9 +123,11 @@ private:
                 "a key belongs to one request", "find out who wrote this entry, and with which program");
         }
         if (entry.kind == "drafted") {
-            needed_.emplace(entry.record, entry.seq);
+            const std::int64_t drafted =
+                drafts_.emplace(std::pair(entry.certificate, entry.record), entry.seq).first->second;
+            needed_.emplace(entry.record, Naming{entry.seq, drafted});
             for (const std::string& sha256 : documents_in(body_of(entry).value_or(nlohmann::json::object()))) {
-                needed_.emplace(sha256, entry.seq);
+                needed_.emplace(sha256, Naming{entry.seq, drafted});
             }
         }
         log_.add(entry);
@@ -127,17 +137,58 @@ private:
         }
     }
 
+    /// A list says of every certificate what the log says, and of no other one anything.
+    void look_at_list() {
+        std::map<std::string, ListedCertificate> listed;
+        for (ListedCertificate& one : store_.listed()) {
+            listed.emplace(one.number, std::move(one));
+        }
+        const auto tell = [&](const std::string& number, std::string what) {
+            add("GC-ARCHIVE-0052", "list of certificates, " + number, std::move(what),
+                "a list says what the entries of the log say",
+                "the log holds: make a new archive of it with gumcert archive migrate");
+        };
+        for (const auto& [number, life] : rules_.lives()) {
+            const auto found = listed.find(number);
+            if (found == listed.end()) {
+                tell(number, "is not listed");
+            } else {
+                if (found->second != listed_as(number, life)) {
+                    tell(number, "is listed otherwise");
+                }
+                listed.erase(found);
+            }
+        }
+        for (const auto& [number, one] : listed) {
+            tell(number, "is listed, and no entry is about it");
+        }
+    }
+
     void look_at(const Content& content) {
         if (encoding::sha256(content.bytes) != content.sha256) {
             add("GC-ARCHIVE-0044", "content " + content.sha256, "its bytes have another hash",
                 "a content is found by the hash of its bytes", "restore it from a backup");
-        } else if (!needed_.contains(content.sha256)) {
+        } else if (const auto named = needed_.find(content.sha256); named == needed_.end()) {
             add("GC-ARCHIVE-0044", "content " + content.sha256, "no entry of the log names it",
                 "the archive holds what its log names", "find out who put it there");
+        } else {
+            look_at_printed_heads(content, named->second);
         }
         kept_.insert(content.sha256);
         if (progress_ && kept_.size() % k_between_reports == 0) {
             progress_(std::to_string(kept_.size()) + " contents");
+        }
+    }
+
+    void look_at_printed_heads(const Content& content, const Naming& naming) {
+        for (const PrintedHead& head : printed_heads_in(content.bytes)) {
+            const auto size = static_cast<std::size_t>(head.size);
+            const bool is_of_log = size <= log_.tree().size() && log_.tree().root(size) == head.root;
+            if (std::string fault = fault_of(head, is_of_log, naming.drafted, naming.seq); !fault.empty()) {
+                add("GC-ARCHIVE-0053", "content " + content.sha256, std::move(fault),
+                    "a document prints a head of its archive that contains a draft of its record",
+                    "the log was rewritten after the document was made: compare with a backup");
+            }
         }
     }
 

@@ -24,8 +24,8 @@ struct Verification {
 };
 
 /// Computes every hash of a store again: contents, entries, the chain, the Merkle root; holds every entry against the
-/// rules of the log (archive/log_rules.h), contents against the log and the other way round, the store against its own
-/// checks. GC-ARCHIVE-0040 to -0046.
+/// rules of the log (archive/log_rules.h), lists and contents against the log and the other way round, the store against its own
+/// checks. GC-ARCHIVE-0040 to -0046, -0052, -0053.
 /// \param heads     published earlier: the log must begin with what they are heads of, GC-ARCHIVE-0045. Their signatures
 ///                  are not looked at here.
 /// \param progress  called now and then with what is being done

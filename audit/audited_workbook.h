@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,6 @@ namespace gumcert::audit {
 /// A formula of a workbook, read into a tree.
 struct SheetFormula {
     workbook::CellPlace cell;
-    std::string place;  ///< "Budget!D5"
     workbook::Formula formula;
 };
 
@@ -29,9 +30,17 @@ struct AuditedWorkbook {
     workbook::Workbook workbook;
     workbook::Evaluation evaluation;
     workbook::CellGraph graph;
-    std::vector<SheetFormula> formulas;                ///< those that are understood, sheet by sheet, row by row
-    std::map<std::string, workbook::CellPlace> cells;  ///< that hold anything, by their places
-    std::map<std::string, std::size_t> formula_at;     ///< positions in `formulas`, by their places
+    std::vector<SheetFormula> formulas;  ///< those that are understood, sheet by sheet, row by row
+
+    /// "Budget!D5".
+    [[nodiscard]] std::string place(const workbook::CellPlace& cell) const;
+    /// The cell of such a place, where it holds anything.
+    [[nodiscard]] std::optional<workbook::CellPlace> cell_at(const std::string& place) const;
+    /// The formula of a cell; nullptr where it has none that is understood.
+    [[nodiscard]] const SheetFormula* formula_at(const workbook::CellPlace& cell) const;
+
+private:
+    std::map<std::string, std::size_t, std::less<>> sheets_;  ///< by their names as formulas write them
 };
 
 }  // namespace gumcert::audit

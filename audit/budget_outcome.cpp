@@ -52,8 +52,27 @@ double truncated(double nu) {
     return std::isfinite(nu) ? std::max(1.0, std::floor(nu * (1.0 + 1e-12))) : nu;
 }
 
+/// What a slow function gives for a key. Many rules evaluate the budget that others evaluated before them: each thread
+/// remembers the last values of the function, which depend on the key alone, so that nothing else changes by it.
+template <typename Key, typename Function>
+double remembered(std::map<Key, double>& known, Key key, const Function& function) {
+    constexpr std::size_t k_most = 4096;
+    if (const auto found = known.find(key); found != known.end()) {
+        return found->second;
+    }
+    const double value = function();
+    if (known.size() == k_most) {
+        known.clear();
+    }
+    known.emplace(std::move(key), value);
+    return value;
+}
+
 double student_factor(const CoverageRule& rule, double nu) {
-    return gum::coverage_factor(rule.probability, rule.truncate ? truncated(nu) : nu);
+    static thread_local std::map<std::pair<double, double>, double> known;
+    const double used = rule.truncate ? truncated(nu) : nu;
+    return remembered(known, std::pair(rule.probability, used),
+                      [&] { return gum::coverage_factor(rule.probability, used); });
 }
 
 /// The distribution that a row has in the sum of all, about 0.
@@ -82,42 +101,31 @@ gum::Distribution distribution_of(const AuditedRow& row) {
     return distribution;
 }
 
-/// Half-width of the coverage interval by convolution, [unit of y]. Many rules evaluate the budget that others evaluated
-/// before them, and a convolution takes a thousand times as long as the rest of it: each thread remembers its last ones.
-/// A result depends on the terms alone, so that nothing else changes by it.
+/// Half-width of the coverage interval by convolution, [unit of y], which takes a thousand times as long as the rest.
 double remembered_half_width(const std::vector<gum::ConvolutionTerm>& terms, double probability) {
-    constexpr std::size_t k_most = 4096;
     static thread_local std::map<std::vector<double>, double> known;
     std::vector<double> key{probability};
     for (const gum::ConvolutionTerm& term : terms) {
         const gum::Distribution& d = term.distribution;  // each of those that distribution_of() makes
         key.insert(key.end(), {term.sensitivity, static_cast<double>(d.kind), d.scale, d.shape});
     }
-    if (const auto found = known.find(key); found != known.end()) {
-        return found->second;
-    }
-    const double half_width = gum::convolution_half_width(terms, probability);
-    if (known.size() == k_most) {
-        known.clear();
-    }
-    known.emplace(std::move(key), half_width);
-    return half_width;
+    return remembered(known, std::move(key), [&] { return gum::convolution_half_width(terms, probability); });
 }
 
-double coverage_factor_of(const AuditedBudget& budget, double u_c, double nu) {
-    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
-        return budget.coverage.k;
+double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
+    if (coverage.kind == CoverageRule::Kind::fixed) {
+        return coverage.k;
     }
-    if (budget.coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
+    if (coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
         std::vector<gum::ConvolutionTerm> terms;
         for (const AuditedRow& row : budget.rows) {
             if (contribution(row) > 0.0) {
                 terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
             }
         }
-        return remembered_half_width(terms, budget.coverage.probability) / u_c;
+        return remembered_half_width(terms, coverage.probability) / u_c;
     }
-    return student_factor(budget.coverage, nu);
+    return student_factor(coverage, nu);
 }
 
 bool has_limits(const gum::ToleranceLimits& limits) {
@@ -138,6 +146,10 @@ std::string verdict_of(const AuditedBudget& budget, const BudgetOutcome& outcome
 }  // namespace
 
 BudgetOutcome evaluate(const AuditedBudget& budget) {
+    return evaluate(budget, budget.coverage);
+}
+
+BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage) {
     BudgetOutcome outcome;
     outcome.value = budget.value;
     const double variance = combined_variance(budget) + budget.correlation_variance;
@@ -151,7 +163,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget) {
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
     outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
-    outcome.k = coverage_factor_of(budget, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
+    outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
         outcome.U = *budget.capability;
@@ -178,6 +190,10 @@ Interval student_factors(const CoverageRule& rule, const Interval& nu_eff) {
 }
 
 OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
+    return outcome_intervals(budget, budget.coverage);
+}
+
+OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRule& coverage) {
     // What a part of the sum may be at least and at most.
     const auto part = [](const AuditedRow& row) {
         if (!row.in_sum) {
@@ -222,13 +238,13 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget) {
     const double infinite = std::numeric_limits<double>::infinity();
     intervals.nu_eff = {most > 0.0 ? std::pow(intervals.u_c.low, 4) / most : infinite,
                         least > 0.0 ? std::pow(intervals.u_c.high, 4) / least : infinite};
-    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
-        intervals.k = {budget.coverage.k, budget.coverage.k};
-    } else if (budget.coverage.kind == CoverageRule::Kind::convolution) {
-        const BudgetOutcome outcome = evaluate(budget);
+    if (coverage.kind == CoverageRule::Kind::fixed) {
+        intervals.k = {coverage.k, coverage.k};
+    } else if (coverage.kind == CoverageRule::Kind::convolution) {
+        const BudgetOutcome outcome = evaluate(budget, coverage);
         intervals.k = {outcome.k, outcome.k};
     } else {
-        intervals.k = student_factors(budget.coverage, intervals.nu_eff);
+        intervals.k = student_factors(coverage, intervals.nu_eff);
     }
     intervals.U = {intervals.k.low * intervals.u_c.low, intervals.k.high * intervals.u_c.high};
     if (budget.floor_applied && budget.capability) {

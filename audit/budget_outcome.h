@@ -28,6 +28,8 @@ struct BudgetOutcome {
 /// verdict by gum/conformity, E_n by gum/comparison, printed digits by gum/rounding.
 /// \throws NoResultError  GC-AUDIT-0001 where rows and correlations give no positive u_c
 [[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget);
+/// The same with another rule of coverage.
+[[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage);
 
 /// What the printed digits of the rows allow of u_c, ν_eff and U: the claimed numbers are reproducible where they lie
 /// within.
@@ -37,6 +39,7 @@ struct OutcomeIntervals {
 /// Interval arithmetic over |c| u of all rows; ν_eff and k follow from their worst cases, so that no budget is accused
 /// of its rounding. Correlated rows: every sign of the products is bounded.
 [[nodiscard]] OutcomeIntervals outcome_intervals(const AuditedBudget& budget);
+[[nodiscard]] OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRule& coverage);
 
 /// k of t_p(ν_eff) where ν_eff lies in an interval: from its largest to its smallest, no less than 0.5.
 [[nodiscard]] Interval student_factors(const CoverageRule& rule, const Interval& nu_eff);

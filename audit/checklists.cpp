@@ -254,14 +254,14 @@ std::string method_in_title(std::string_view title) {
     return "";
 }
 
+bool NamedRow::stands_for(const RequiredContributor& required) const {
+    return std::find(required.by.begin(), required.by.end(), contributor_) != required.by.end() ||
+           std::any_of(words_.begin(), words_.end(),
+                       [&required](const WordLine& words) { return words.has_any(required.words); });
+}
+
 bool stands_for(const AuditedRow& row, const RequiredContributor& required) {
-    if (std::find(required.by.begin(), required.by.end(), row.contributor) != required.by.end()) {
-        return true;
-    }
-    const auto names_it = [&required](const std::string& text) {
-        return !text.empty() && WordLine(text).has_any(required.words);
-    };
-    return names_it(row.quantity) || names_it(row.comment) || names_it(row.source);
+    return NamedRow(row).stands_for(required);
 }
 
 }  // namespace gumcert::audit

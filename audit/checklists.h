@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "audit/audited_budget.h"
+#include "audit/word_line.h"
 
 namespace gumcert::audit {
 
@@ -38,7 +40,18 @@ struct MethodChecklist {
 /// Id of the method that a title names, in English or German: "Calibration of micrometers"; "" where it names none.
 [[nodiscard]] std::string method_in_title(std::string_view title);
 
-/// Whether a row stands for a required contributor, whatever number it has.
+/// What a row is called, to hold it against one required contributor after the other.
+class NamedRow {
+public:
+    explicit NamedRow(const AuditedRow& row)
+        : contributor_(row.contributor), words_{WordLine(row.quantity), WordLine(row.comment), WordLine(row.source)} {}
+    /// Whether the row stands for a required contributor, whatever number it has.
+    [[nodiscard]] bool stands_for(const RequiredContributor& required) const;
+
+private:
+    Contributor contributor_;
+    std::array<WordLine, 3> words_;
+};
 [[nodiscard]] bool stands_for(const AuditedRow& row, const RequiredContributor& required);
 
 }  // namespace gumcert::audit

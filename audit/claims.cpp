@@ -87,9 +87,7 @@ Interval allowed_k(const AuditedBudget& budget, const CoverageRule& rule, const 
         const bool claimed = budget.claims.k && budget.claims.k->value == rule.k;
         return claimed ? hull(budget.claims.k->interval(), {rule.k, rule.k}) : Interval{rule.k, rule.k};
     }
-    AuditedBudget by_rule = budget;
-    by_rule.coverage = rule;
-    return outcome_intervals(by_rule).k;
+    return outcome_intervals(budget, rule).k;
 }
 
 /// What a printed ν_eff may have been: rounded, or cut to a whole number.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -15,11 +17,35 @@ namespace {
 /// A set of corrections as a list of yes and no.
 using Chosen = std::vector<bool>;
 
+/// A budget without the texts of its rows: corrections change numbers, and it is copied for every set of them.
+AuditedBudget without_texts(AuditedBudget budget) {
+    for (AuditedRow& row : budget.rows) {
+        for (std::string* text : {&row.quantity, &row.unit, &row.place, &row.source, &row.comment, &row.shape_text,
+                                  &row.sensitivity_unit}) {
+            *text = std::string();
+        }
+        for (std::optional<StatedNumber>* number :
+             {&row.estimate, &row.stated, &row.divisor, &row.u, &row.sensitivity, &row.contribution, &row.nu}) {
+            if (*number) {
+                (*number)->text = (*number)->place = std::string();
+            }
+        }
+    }
+    return budget;
+}
+
 /// Outcomes of sets of corrections, each evaluated once.
 class Outcomes {
 public:
     Outcomes(const AuditedBudget& budget, const std::vector<const Correction*>& corrections)
-        : budget_(budget), corrections_(corrections) {}
+        : budget_(without_texts(budget)), corrections_(corrections) {}
+
+    /// Random orders of which the shares are the mean: fewer for a table of hundreds of rows that are all corrected.
+    [[nodiscard]] std::size_t sampled_orders() const {
+        constexpr std::size_t k_most_rows_copied = 20'000'000;
+        const std::size_t an_order = corrections_.size() * std::max<std::size_t>(budget_.rows.size(), 1);
+        return std::clamp<std::size_t>(k_most_rows_copied / an_order, 1, k_sampled_orders);
+    }
 
     /// A set whose correction leaves nothing to evaluate changes nothing: the outcome of the budget itself.
     const BudgetOutcome& of(const Chosen& chosen) {
@@ -43,7 +69,7 @@ public:
     }
 
 private:
-    const AuditedBudget& budget_;
+    const AuditedBudget budget_;
     const std::vector<const Correction*>& corrections_;
     std::map<Chosen, BudgetOutcome> known_;
 };
@@ -92,7 +118,8 @@ std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n) {
     std::vector<double> shares(n, 0.0);
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), 0U);
-    for (std::size_t round = 0; round < k_sampled_orders; ++round) {
+    const std::size_t orders = outcomes.sampled_orders();
+    for (std::size_t round = 0; round < orders; ++round) {
         for (std::size_t i = n - 1; i > 0; --i) {
             std::swap(order[i], order[next(i + 1)]);
         }
@@ -101,7 +128,7 @@ std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n) {
         for (const std::size_t i : order) {
             chosen[i] = true;
             const double after = std::log(outcomes.of(chosen).U);
-            shares[i] += (after - before) / static_cast<double>(k_sampled_orders);
+            shares[i] += (after - before) / static_cast<double>(orders);
             before = after;
         }
     }
@@ -155,7 +182,7 @@ std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
     } catch (const gum::DiagnosedError&) {
         return std::nullopt;
     }
-    AuditedBudget more = budget;
+    AuditedBudget more = without_texts(budget);
     more.rows.emplace_back();
     const auto with = [&more](double u) {
         more.rows.back().used_u = u;

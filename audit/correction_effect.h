@@ -13,7 +13,7 @@ namespace gumcert::audit {
 /// Effects of corrections do not add up: a smaller row lowers ν_eff, and k rises. So each set of corrections is
 /// evaluated whole. The share of a correction is its Shapley value of ln U (L. S. Shapley, A value for n-person games,
 /// 1953): exact for up to k_exact_shares corrections, over k_sampled_orders orders of a fixed sequence of random numbers
-/// beyond.
+/// beyond; over fewer, at least one, where corrections times rows are more than 100 000.
 /// \param corrections  applied in this order, those of a set after each other
 /// \return one an entry of `corrections`; empty where the budget itself has no outcome
 [[nodiscard]] std::vector<Effect> effects_of(const AuditedBudget& budget,

@@ -86,14 +86,21 @@ void FindingCollector::add(AuditFinding finding, FindingSeverity severity) {
     if (finding.question.empty()) {
         finding.question = rule_.question;
     }
-    const auto same = std::find_if(findings_.begin(), findings_.end(), [&finding](const AuditFinding& other) {
-        return (!finding.kind.empty() && other.kind == finding.kind) ||
-               (other.where == finding.where && other.what == finding.what);
-    });
+    const std::string text = finding.where + '\0' + finding.what;
+    const auto of_kind = finding.kind.empty() ? by_kind_.end() : by_kind_.find(finding.kind);
+    const auto of_text = by_place_and_text_.find(text);
+    const std::size_t none = findings_.size();
+    const std::size_t found = std::min(of_kind == by_kind_.end() ? none : of_kind->second,
+                                       of_text == by_place_and_text_.end() ? none : of_text->second);
+    AuditFinding* const same = found == none ? nullptr : &findings_[found];
     const bool elsewhere =
-        same != findings_.end() && !finding.budgets.empty() &&
+        same != nullptr && !finding.budgets.empty() &&
         std::find(same->budgets.begin(), same->budgets.end(), finding.budgets.front()) == same->budgets.end();
-    if (same == findings_.end() || (!elsewhere && !finding.budgets.empty())) {
+    if (same == nullptr || (!elsewhere && !finding.budgets.empty())) {
+        by_place_and_text_.try_emplace(text, findings_.size());
+        if (!finding.kind.empty()) {
+            by_kind_.try_emplace(finding.kind, findings_.size());
+        }
         findings_.push_back(std::move(finding));
         return;
     }
@@ -115,6 +122,8 @@ std::vector<AuditFinding> FindingCollector::take() {
             finding.evidence.push_back("the same at " + text::listed(finding.other_places, k_most_places));
         }
     }
+    by_kind_.clear();
+    by_place_and_text_.clear();
     return std::exchange(findings_, {});
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,7 @@ public:
 private:
     const Rule& rule_;
     std::vector<AuditFinding> findings_;
+    std::unordered_map<std::string, std::size_t> by_kind_, by_place_and_text_;  ///< the first of each
     std::vector<std::string> notes_, unchecked_;
 };
 

@@ -14,6 +14,8 @@ foreach(layer IN LISTS layers)
     gumcert_public_headers(${layer} headers)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gumcert/${layer} COMPONENT development)
 endforeach()
+install(TARGETS elementary_functions EXPORT gumcertTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 install(EXPORT gumcertTargets NAMESPACE gumcert:: DESTINATION ${gumcert_package_dir} COMPONENT development)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/gumcert-config.cmake.in

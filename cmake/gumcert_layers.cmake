@@ -112,7 +112,7 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      imports workbook audit audit/rules audit/sources)
 set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/monte_carlo certificate/gates jobs
                                                      reports/record reports/record/make/certificate reports signing
-                                                     imports app archive)
+                                                     imports app archive/store archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
 set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates reports/record
@@ -176,7 +176,7 @@ set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
-set(GUMCERT_THIRD_PARTY_archive_store                      libpq-fe.h sqlite3.h sys/vfs.h)
+set(GUMCERT_THIRD_PARTY_archive_store                      fcntl.h libpq-fe.h sqlite3.h sys/vfs.h unistd.h)
 set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)
@@ -216,14 +216,14 @@ endforeach()
 
 set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
 
-# In a release some files are compiled as one: half of the time goes into headers and templates that they share. Other
+# In a release, and for fuzzing, some files are compiled as one: half of the time goes into shared headers and templates. Other
 # builds compile each file by itself, so that none leans on what its neighbours include.
 #
 # files: of one unit. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
 # two thirds of the time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is
 # the same at every level.
 function(gumcert_compile_as_one target files words)
-    if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    if(CMAKE_BUILD_TYPE STREQUAL "Release" OR GUMCERT_FUZZ)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
         if(words)
             target_compile_options(${target} PRIVATE -O1)

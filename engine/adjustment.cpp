@@ -790,10 +790,11 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
     // Every tolerance is set: the general solver only brings the parameters into the reach of refine().
     ceres::Solver::Options solver;
     solver.linear_solver_ordering.reset(ordering);
-    // The border is dense and small. Eigen, unlike a BLAS that is chosen at run time, rounds the same on every machine.
+    // The border is dense and small. Eigen, unlike SuiteSparse with a BLAS that is chosen at run time, rounds the same on
+    // every machine.
     solver.linear_solver_type = any_eliminated ? ceres::DENSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
     solver.dense_linear_algebra_library_type = ceres::EIGEN;
-    solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
     solver.initial_trust_region_radius = 1e12;
     solver.max_trust_region_radius = 1e20;

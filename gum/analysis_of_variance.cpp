@@ -17,9 +17,11 @@ namespace {
 // 64 bits of mantissa on x86-64. Differences of observations about a common centre are exact in it.
 using Real = long double;
 
-// An overflow is reported as our own failure, not as an exception of the library.
+// An overflow is reported as our own failure, not as an exception of the library. In double throughout: elementary
+// functions of long double differ between makers of processors (ADR 0058).
 using FPolicy =
-    boost::math::policies::policy<boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
+    boost::math::policies::policy<boost::math::policies::promote_double<false>,
+                                  boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 using FDistribution = boost::math::fisher_f_distribution<double, FPolicy>;
 
 /// Observations that belong together, about a centre that all groups share.

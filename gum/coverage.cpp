@@ -44,6 +44,8 @@ double coverage_factor(double coverage_probability, double degrees_of_freedom) {
         k = boost::math::quantile(boost::math::complement(StudentDistribution(degrees_of_freedom), tail));
     } catch (const std::runtime_error&) {
         // The iteration of the library did not end: the same refusal as for an overflow.
+    } catch (const std::domain_error&) {
+        // Half of the smallest double is 0, and the library takes no 0 for degrees of freedom.
     }
     if (!std::isfinite(k)) {
         throw NoResultError(Diagnostic{.code = "GC-GUM-0010",

@@ -82,6 +82,7 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd& x, const std::vector<Pro
     constexpr std::uint64_t k_other_numbers = 0x5CA7;  // than the probes have
     constexpr double k_least_number = -1.0 + 0x1p-50;  // a normal quantity has no limit
     Eigen::MatrixXd points = x.transpose().replicate(2 * k_end_pairs, 1);
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
     for (Eigen::Index pair = 0; pair < k_end_pairs; ++pair) {
         const std::uint64_t number = k_other_numbers + static_cast<std::uint64_t>(pair);
         for (const ProbedGroup& group : groups) {
@@ -93,7 +94,7 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd& x, const std::vector<Pro
                 const bool is_bounded = group.root.isDiagonal() && static_cast<std::size_t>(i) < group.limits.size() &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].low) &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].high);
-                s(i) = is_bounded ? std::numbers::sqrt3 * r : std::numbers::sqrt2 * boost::math::erf_inv(r);
+                s(i) = is_bounded ? std::numbers::sqrt3 * r : std::numbers::sqrt2 * boost::math::erf_inv(r, InDouble());
             }
             const Eigen::RowVectorXd off = (group.root * s).transpose();
             points.row(2 * pair).segment(group.first, size) += off;

@@ -71,7 +71,8 @@ OutlyingReading test_farthest(const std::vector<double>& readings, double least_
         ((n - 2.0) * others.standard_deviation * others.standard_deviation + deviation * deviation * (n - 1.0) / n) /
         (n - 1.0));
     tested.G = deviation * (n - 1.0) / n / all;
-    const boost::math::students_t_distribution<double> distribution(n - 2.0);
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::students_t_distribution<double, InDouble> distribution(n - 2.0);
     const double tail = std::isfinite(t) ? boost::math::cdf(boost::math::complement(distribution, t)) : 0.0;
     tested.p_value = std::min(1.0, 2.0 * n * tail);
     return tested;

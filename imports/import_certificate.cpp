@@ -1,16 +1,19 @@
 #include "imports/import_certificate.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
 #include "gum/expression/syntax_tree.h"
+#include "gum/quantity/unit.h"
 #include "json/strict_parser.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
@@ -80,6 +83,26 @@ struct Input {
         return std::any_of(members.begin(), members.end(), [](const auto& m) { return m.first == "constant"; });
     }
 };
+
+/// Whether the reader of jobs takes the numbers of an input, in coherent SI units.
+bool fits_a_budget(const std::string& unit_text, const Input& input) {
+    const gum::Unit unit = gum::Unit::parse(unit_text);
+    double u = 1.0, divisor = 1.0;
+    for (const auto& [key, number] : input.members) {
+        if (key == "value" && !std::isfinite(unit.to_si(value_of(number)))) {
+            return false;
+        }
+        if (key == "u" || key == "U") {
+            u = unit.difference_to_si(value_of(number));
+        }
+        if (key == "k" || key == "p") {
+            divisor = value_of(number);  // k is about p where both are small
+        }
+    }
+    constexpr double k_least = 1e-139, k_largest = 1e139;
+    const auto is_inside = [](double number) { return number > k_least && number < k_largest; };
+    return input.is_constant() || (is_inside(u) && is_inside(u / divisor));
+}
 
 class Importer {
 public:
@@ -231,6 +254,11 @@ std::optional<Input> Importer::input_of(const ImportedQuantity& q) {
     } else if (!add_uncertainty(q, input.members)) {
         return std::nullopt;
     }
+    if (!fits_a_budget(q.unit, input)) {
+        remark(q, "the value " + q.value + " or its uncertainty is too large or too small",
+               "a budget takes uncertainties from 1e-140 to 1e140 in coherent SI units", "ask the laboratory");
+        return std::nullopt;
+    }
     input.name = name_for(q);
     return input;
 }
@@ -258,13 +286,25 @@ public:
         return q.ref_type == "gumcert_effectiveDegreesOfFreedom" && !q.label.empty();
     }
 
-    /// "Angle 20 deg, Point 10_V"; "" for a value outside of a table.
+    /// "Nominal value 0.5 mm, Serial number 40210, Point 10_V": the item, where the certificate has several, and what stands
+    /// in the row of a table; "" where there is neither.
     [[nodiscard]] std::string place_of(const ImportedQuantity& q) const {
         std::string text;
+        std::set<std::string> said;  // an item may be called by what stands in its row
+        const auto append = [&](const std::string& entry) {
+            if (said.insert(entry).second) {
+                text += (text.empty() ? "" : ", ") + entry;
+            }
+        };
+        if (q.about) {
+            append(certificate_.items[*q.about].name);
+            for (const std::string& identification : certificate_.items[*q.about].identifications) {
+                append(identification);
+            }
+        }
         if (q.table == 0 || !q.row) {
             return text;
         }
-        const auto append = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
         for (const reports::ImportedWords& words : certificate_.words) {
             if (words.table == q.table && *q.row < words.words.size()) {
                 append((words.quantity.empty() ? "" : words.quantity + " ") + words.words[*q.row]);
@@ -328,9 +368,40 @@ void note_distribution(const ImportedQuantity& q, Members& members) {
     }
 }
 
+/// The beginning of a text that has no more bytes than a line of a job may have.
+std::string beginning_of(const std::string& text, std::size_t most_bytes) {
+    const std::string shown = reports::printable(text);
+    std::size_t characters = most_bytes;
+    std::string beginning = reports::shortened(shown, characters);
+    while (beginning.size() > most_bytes) {
+        beginning = reports::shortened(shown, --characters);
+    }
+    return beginning;
+}
+
+/// Without blanks of any script at its end, which the reader of jobs refuses.
+std::string without_last_blanks(std::string line) {
+    static constexpr std::array<std::string_view, 15> k_blanks{" ",      "\u00A0", "\u3000", "\u202F", "\u2000",
+                                                               "\u2001", "\u2002", "\u2003", "\u2004", "\u2005",
+                                                               "\u2006", "\u2007", "\u2008", "\u2009", "\u200A"};
+    for (bool shorter = true; shorter;) {
+        shorter = false;
+        for (const std::string_view blank : k_blanks) {
+            if (line.ends_with(blank)) {
+                line.resize(line.size() - blank.size());
+                shorter = true;
+            }
+        }
+    }
+    return line;
+}
+
+constexpr std::size_t k_longest_title = 900;  // [byte] of an identifier, with the words before it at most 1000
+constexpr std::size_t k_longest_name = 75;    // [byte] of an identifier or a laboratory, both in a line of 256
+
 std::string source_of(const ImportedCertificate& c) {
-    return (c.state.empty() ? "" : c.state + " of ") + "certificate " + c.identifier +
-           (c.laboratory.empty() ? "" : ", " + c.laboratory) + ", SHA-256 " + c.sha256;
+    return (c.state.empty() ? "" : c.state + " of ") + "certificate " + beginning_of(c.identifier, k_longest_name) +
+           (c.laboratory.empty() ? "" : ", " + beginning_of(c.laboratory, k_longest_name)) + ", SHA-256 " + c.sha256;
 }
 
 std::string description_of(const ImportedQuantity& q, const std::string& place) {
@@ -379,7 +450,9 @@ std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inp
         result += '_';
     }
     std::string text = "{\n \"schema\": \"gumcert/job/1\",\n \"kind\": \"budget\",\n";
-    text += " \"title\": " + json_text("Inputs from certificate " + c.identifier) + ",\n";
+    text += " \"title\": " +
+            json_text(without_last_blanks("Inputs from certificate " + beginning_of(c.identifier, k_longest_title))) +
+            ",\n";
     text += " \"notes\": " +
             json_text("Imported from a digital certificate" + (c.item.empty() ? "" : " of: " + c.item) +
                       (c.issued.empty() ? "" : ", issued " + c.issued) + ". The model is an example: write your own.") +

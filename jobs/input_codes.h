@@ -153,6 +153,8 @@ inline constexpr InputCode k_table_incomplete{"GC-INPUT-0362",
 inline constexpr InputCode k_point_without_limit{"GC-INPUT-0363", "a point without the limits of its specification"};
 inline constexpr InputCode k_sections_of_budget{"GC-INPUT-0364",
                                                 "a budget with sections where one with one set of results is expected"};
+inline constexpr InputCode k_sections_of_other_kind{"GC-INPUT-0365", "sections of another kind than budgets"};
+inline constexpr InputCode k_shared_equation{"GC-INPUT-0366", "an equation that the sections of a job cannot share"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -294,6 +296,8 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_table_incomplete,
                                           k_point_without_limit,
                                           k_sections_of_budget,
+                                          k_sections_of_other_kind,
+                                          k_shared_equation,
                                           k_file_not_readable,
                                           k_file_leads_out,
                                           k_warn_extra_column,

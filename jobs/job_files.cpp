@@ -37,13 +37,16 @@ std::string JobFiles::name_in_source(const std::string& name_in_job) const {
                                                                                     : folder_ + name_in_job;
 }
 
-std::optional<JobFiles::File> JobFiles::open_if_there(const std::string& name_in_job) {
+std::optional<std::string> JobFiles::peek(const std::string& name_in_job) const {
     try {
-        (void)source_.read(name_in_source(name_in_job));
+        return source_.read(name_in_source(name_in_job));
     } catch (const gum::StorageError&) {
         return std::nullopt;
     }
-    return open(name_in_job);
+}
+
+std::optional<JobFiles::File> JobFiles::open_if_there(const std::string& name_in_job) {
+    return peek(name_in_job) ? open(name_in_job) : std::nullopt;
 }
 
 std::optional<std::string> JobFiles::laboratory() const {

@@ -34,6 +34,8 @@ public:
     [[nodiscard]] std::optional<File> open(const std::string& name);
     /// The same of a file that need not be there: nothing is noted then.
     [[nodiscard]] std::optional<File> open_if_there(const std::string& name);
+    /// The bytes of a file that is opened later, for what has to be known before; nothing is noted.
+    [[nodiscard]] std::optional<std::string> peek(const std::string& name) const;
     /// What stands before the names of files of the laboratory, where the caller named its folder; else nothing.
     [[nodiscard]] std::optional<std::string> laboratory() const;
 

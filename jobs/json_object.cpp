@@ -127,6 +127,13 @@ JsonObject::JsonObject(const JsonDocument& document, std::string pointer, std::s
         if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) {
             continue;
         }
+        if (key == "sections" && pointer_.empty() && object_->contains("kind")) {
+            refuse(
+                k_sections_of_other_kind, key, "sections in a job of kind " + described(object_->at("kind")),
+                "sections are parts of a budget; the results of this kind are a certificate of their own",
+                "issue a certificate for each job, and refer to the other one in the remarks of the certificate data");
+            continue;
+        }
         // A key that is there already is not what a misspelt one was meant to be.
         std::vector<std::string_view> absent;
         std::copy_if(keys_.begin(), keys_.end(), std::back_inserter(absent),

@@ -111,13 +111,38 @@ private:
         if (!declaration) {
             return;
         }
-        const std::size_t encoding = declaration->find("encoding");
-        if (encoding != std::string_view::npos) {
-            const std::string_view after = declaration->substr(encoding);
-            if (after.find("UTF-8") == std::string_view::npos && after.find("utf-8") == std::string_view::npos) {
-                object("that is not in UTF-8");
-            }
+        // XML 1.0, production 23: version, encoding and standalone in this order, and nothing else.
+        std::string_view rest = declaration->substr(5);
+        const auto version = taken_value(rest, "version");
+        const auto encoding = taken_value(rest, "encoding");
+        (void)taken_value(rest, "standalone");
+        if (!version || !std::all_of(rest.begin(), rest.end(), is_svg_space)) {
+            object("with a malformed XML declaration");
+        } else if (encoding && *encoding != "UTF-8" && *encoding != "utf-8") {
+            object("that is not in UTF-8");
         }
+    }
+    /// The value of ` name="value"` at the beginning of a text, which is taken away with it; nothing where it is not there.
+    static std::optional<std::string_view> taken_value(std::string_view& text, std::string_view name) {
+        std::string_view rest = text;
+        const auto skip = [&rest] { rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size())); };
+        const auto take = [&](std::string_view mark) {
+            skip();
+            const bool is_there = rest.starts_with(mark);
+            rest.remove_prefix(is_there ? mark.size() : 0);
+            return is_there;
+        };
+        if (rest.empty() || !is_svg_space(rest.front()) || !take(name) || !take("=")) {
+            return std::nullopt;
+        }
+        const std::string_view quote = take("'") ? "'" : take("\"") ? "\"" : "";
+        const std::size_t end = quote.empty() ? std::string_view::npos : rest.find(quote);
+        const std::string_view value = rest.substr(0, end);
+        if (end == std::string_view::npos || !std::all_of(value.begin(), value.end(), is_svg_name)) {
+            return std::nullopt;
+        }
+        text = rest.substr(end + 1);
+        return value;
     }
 
     void read_markup() {

@@ -23,6 +23,7 @@
 #include "signing/signing_files.h"
 #include "signing/time_texts.h"
 #include "text/place.h"
+#include "text/visible_text.h"
 
 namespace gumcert::signing {
 
@@ -201,14 +202,18 @@ void warn_of_access(const fs::path& file, std::vector<gum::Diagnostic>& warnings
 void read_description_key(Description& description, const std::string& file, const std::string& name,
                           const nlohmann::json& value) {
     const auto refuse_value = [&](const char* what) {
-        refuse("GC-SIGN-0013", file + "#/" + name, what, k_description_rule, "correct the value (docs/signing.md)");
+        refuse("GC-SIGN-0013", file + "#/" + text::visible(name), what, k_description_rule,
+               "correct the value (docs/signing.md)");
     };
     std::string* text = name == "certificates"      ? &description.certificates
                         : name == "key"             ? &description.key
                         : name == "passphrase_file" ? &description.passphrase_file
                                                     : nullptr;
     if (text != nullptr) {
-        if (!value.is_string() || value.get_ref<const std::string&>().empty()) {
+        // Names stand in messages: what a terminal would act on is no name.
+        const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; };
+        if (!value.is_string() || value.get_ref<const std::string&>().empty() ||
+            std::ranges::any_of(value.get_ref<const std::string&>(), is_control)) {
             refuse_value("not the name of a file");
         }
         *text = value.get<std::string>();
@@ -231,7 +236,7 @@ void read_description_key(Description& description, const std::string& file, con
 Description read_description(const fs::path& file) {
     const auto refuse_text = [&](const gumcert::json::ParsingProblem& problem) {
         if (problem.fault == gumcert::json::Fault::duplicate_key) {
-            refuse("GC-SIGN-0013", file.string() + "#" + problem.pointer, "the key stands there twice",
+            refuse("GC-SIGN-0013", file.string() + "#" + text::visible(problem.pointer), "the key stands there twice",
                    k_description_rule, "keep one of them: nobody can know which one is meant");
         }
         refuse("GC-SIGN-0013", file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what,
@@ -313,7 +318,7 @@ std::unique_ptr<Signer> signer_from_files(const fs::path& key, const fs::path& c
 std::unique_ptr<Signer> signer_from_command(const std::vector<std::string>& command, const fs::path& certificates,
                                             std::chrono::seconds time_limit) {
     if (command.empty() || command[0].find('/') == std::string::npos) {
-        refuse("GC-SIGN-0016", command.empty() ? "command" : command[0], "not the path of a program",
+        refuse("GC-SIGN-0016", command.empty() ? "command" : text::visible(command[0]), "not the path of a program",
                "the signing program is started without a shell and without looking it up", "state its path");
     }
     return std::make_unique<CommandSigner>(chain_from(certificates), command, time_limit);

@@ -25,7 +25,7 @@ import urllib.parse
 APPLICATION_ID = 0x67634172
 SCHEMA_VERSION = 1
 # SHA-256 of the lines "type TAB name TAB sql" of sqlite_schema, sorted, with LF between them.
-SCHEMA_SHA256 = "6731650982c8f934c3d33781f4ab2651259bf5ab761c843c54e87fb0d3659e9e"
+SCHEMA_SHA256 = "c4e71ac6a75f6e6e4a3d3734d7c642f1d2639b180b8a2b7d31b6f7b4cc692688"
 TAG = b"gumcert/archive/entry/1"
 FIELDS = ("seq", "at", "actor", "kind", "certificate", "record", "request_key", "body", "prev", "hash")
 TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
@@ -63,14 +63,25 @@ def leaf(entry):
     return sha256(b"\x00" + entry)
 
 
-def root_of(leaves):
-    """Merkle tree hash of RFC 6962, 2.1, of hashes of leaves."""
-    if not leaves:
-        return sha256(b"")
-    if len(leaves) == 1:
-        return leaves[0]
-    left = 1 << (len(leaves) - 1).bit_length() - 1
-    return sha256(b"\x01" + root_of(leaves[:left]) + root_of(leaves[left:]))
+class Roots:
+    """Merkle tree hashes (RFC 6962, 2.1) of the first leaves of a list; those of complete parts are computed once."""
+
+    def __init__(self, leaves):
+        self.leaves, self.complete = leaves, {}
+
+    def first(self, size):
+        return self.part(0, size) if 0 < size <= len(self.leaves) else None
+
+    def part(self, first, count):
+        if count == 1:
+            return self.leaves[first]
+        root = self.complete.get((first, count))
+        if root is None:
+            left = 1 << (count - 1).bit_length() - 1
+            root = sha256(b"\x01" + self.part(first, left) + self.part(first + left, count - left))
+            if not count & count - 1:
+                self.complete[first, count] = root
+        return root
 
 
 def root_of_proof(entry, index, size, proof):
@@ -311,9 +322,9 @@ class Rules:
             self.settings = settings if is_settings(settings) else self.settings
         if not number or kind not in KINDS_OF_LIFE:
             return
-        life = self.lives.setdefault(number, {"state": "", "record": "", "documents": [], "authors": set(), "amends": "",
+        life = self.lives.setdefault(number, {"state": "", "since": "", "item": "", "record": "", "documents": [], "authors": set(), "amends": "",
                                               "amendment": "", "later": ""})
-        life["state"] = kind
+        life.update(state=kind, since=entry["at"].decode("utf-8", "replace"))
         self.due = None
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
@@ -321,7 +332,7 @@ class Rules:
                 self.ordinals[series] = max(self.ordinals.get(series, 0), ordinal)
         elif kind == "drafted":
             life["authors"].add(names["actor"])
-            life.update(record=names["record"], documents=documents_in(body), amends=text(body, "amends", "number"),
+            life.update(record=names["record"], item=text(body, "new", "item"), documents=documents_in(body), amends=text(body, "amends", "number"),
                         amendment=text(body, "amends", "kind"))
         elif kind == "issued" and life["amends"]:
             self.due = ("superseded" if life["amendment"] == "replaced" else "amended-by", life["amends"], number)
@@ -332,6 +343,18 @@ class Rules:
 def documents_in(body):
     documents = part(body, "new", "documents")
     return [text(one, "sha256") for one in documents] if isinstance(documents, list) else []
+
+
+PRINTED_HEAD = re.compile(rb"gumcert-head:([1-9][0-9]{0,18}):([0-9a-f]{64})")
+
+
+def faults_of_printed_heads(data, is_of_log, drafted, archived):
+    """A head that a document prints is one of the log, from before the document, with a draft of its record."""
+    for size, root in {(int(size), bytes.fromhex(root.decode())) for size, root in PRINTED_HEAD.findall(data)}:
+        if size >= archived or not is_of_log(size, root):
+            yield f"prints a head of {size} entries, which the log did not have before the document"
+        elif drafted > size:
+            yield f"prints a head of {size} entries, which does not contain the draft of its record"
 
 
 def contents_named_by(entry):
@@ -467,7 +490,7 @@ def findings_of(database, heads):
     if hashlib.sha256(b"\n".join(lines)).hexdigest() != SCHEMA_SHA256:
         yield "tables, indices or triggers are not those of an archive"
 
-    rules, leaves, hashes, needed = Rules(), [], [], {}
+    rules, leaves, hashes, needed, drafts = Rules(), [], [], {}, {}
     prev = bytes(32)
     for row in database.execute(f"SELECT {', '.join(FIELDS)} FROM log NOT INDEXED ORDER BY seq"):
         entry = {name: value if name == "seq" else bytes(value or b"") for name, value in zip(FIELDS, row)}
@@ -481,8 +504,10 @@ def findings_of(database, heads):
         wrong = rules.accept(entry)
         if wrong:
             yield f"{name}: {wrong}"
+        if entry["kind"] == b"drafted":
+            drafts.setdefault((entry["certificate"], entry["record"]), entry["seq"])
         for digest in contents_named_by(entry):
-            needed.setdefault(digest, name)
+            needed.setdefault(digest, (entry["seq"], drafts[entry["certificate"], entry["record"]]))
         prev = entry["hash"]
         leaves.append(leaf(prev))
         hashes.append((prev, entry["at"]))
@@ -491,32 +516,54 @@ def findings_of(database, heads):
         return
     if rules.due:
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
+    yield from faults_of_list(database, rules.lives)
+    roots = Roots(leaves)
     kept = set()
     for digest, data in database.execute("SELECT sha256, bytes FROM content NOT INDEXED"):
-        # A damaged row may hold NULL where text and bytes belong.
-        digest = digest.decode("utf-8", "replace") if isinstance(digest, bytes) else ""
+        digest = as_text(digest)
         if hashlib.sha256(data if isinstance(data, bytes) else b"").hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
             yield f"content {digest}: no entry of the log names it"
+        else:
+            archived, drafted = needed[digest]
+            for fault in faults_of_printed_heads(data, lambda size, root: roots.first(size) == root, drafted, archived):
+                yield f"content {digest}: {fault}"
         kept.add(digest)
-    for digest, name in needed.items():
+    for digest, (seq, _) in needed.items():
         if digest not in kept:
-            yield f"{name}: the content {digest} is not there"
+            yield f"entry {seq}: the content {digest} is not there"
     for head in heads:
         if head.archive != hashes[0][0]:
             yield f"head of {head.size} entries: one of another archive"
         elif head.size > len(leaves):
             yield f"head of {head.size} entries: the archive has {len(leaves)}"
-        elif root_of(leaves[:head.size]) != head.root or hashes[head.size - 1] != (head.chain, head.at):
+        elif roots.first(head.size) != head.root or hashes[head.size - 1] != (head.chain, head.at):
             yield f"head of {head.size} entries: the entries of the archive up to there are others"
+
+
+def as_text(value):
+    """A text of the database; a damaged row may hold something else."""
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else ""
+
+
+def faults_of_list(database, lives):
+    """A list says of every certificate what the log says, and of no other one anything."""
+    rows = database.execute("SELECT certificate, state, since, item, record FROM listed")
+    listed = {row[0]: row[1:] for row in ([as_text(value) for value in row] for row in rows)}
+    for number, life in lives.items():
+        if listed.pop(number, None) != [life[key] for key in ("state", "since", "item", "record")]:
+            yield f"certificate {number} is listed otherwise than the log says"
+    for number in listed:
+        yield f"certificate {number} is listed, and no entry is about it"
 
 
 def verify_evidence(value, heads, public_key, tell):
     """Findings of the evidence of one certificate; its state is told."""
     head = Head(value.get("head"))
     yield from head.faults("the head of the evidence", public_key if head.signature else "")
-    rules, needed, last = Rules(judges_numbers=False), {}, 0
+    rules, needed, drafts, last = Rules(judges_numbers=False), {}, {}, 0
+    printed = {(one["size"], unhex(one["root"])): [unhex(node) for node in one["proof"]] for one in value.get("printed_heads", [])}
     number = value["certificate"]
     for written in value["entries"]:
         entry = {name: written[name] if name == "seq" else
@@ -535,19 +582,29 @@ def verify_evidence(value, heads, public_key, tell):
         if wrong:
             yield f"{name}: {wrong}"
         if entry["certificate"] == number.encode():
+            if entry["kind"] == b"drafted":
+                drafts.setdefault(entry["record"], seq)
             for digest in contents_named_by(entry):
-                needed.setdefault(digest, name)
+                needed.setdefault(digest, (seq, drafts[entry["record"]]))
     kept = set()
     for content in value["contents"]:
-        digest = content["sha256"]
-        if hashlib.sha256(base64.b64decode(content["base64"], validate=True)).hexdigest() != digest:
+        digest, data = content["sha256"], base64.b64decode(content["base64"], validate=True)
+        if hashlib.sha256(data).hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
             yield f"content {digest}: no entry names it"
+        else:
+            archived, drafted = needed[digest]
+
+            def is_of_log(size, root):
+                return (size, root) in printed and is_extended(size, root, head.size, head.root, printed[size, root])
+
+            for fault in faults_of_printed_heads(data, is_of_log, drafted, archived):
+                yield f"content {digest}: {fault}"
         kept.add(digest)
-    for digest, name in needed.items():
+    for digest, (seq, _) in needed.items():
         if digest not in kept:
-            yield f"{name}: the content {digest} is not there"
+            yield f"entry {seq}: the content {digest} is not there"
     life = rules.lives.get(number)
     if life is None or not life["record"]:
         yield "no entry with a record is about this certificate"

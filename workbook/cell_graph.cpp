@@ -16,16 +16,12 @@ bool holds_cell(const CellRange& range, const CellAddress& address) {
 
 }  // namespace
 
-/// Which cells were met. Those of a column that were met are skipped the next time, so that ranges over the same cells
-/// cost no more than the cells.
+/// Which cells were met.
 class CellGraph::Marks {
 public:
     explicit Marks(const std::vector<SheetIndex>& indexes) : indexes_(indexes) {
         for (const SheetIndex& index : indexes) {
-            std::vector<std::uint32_t>& next = next_.emplace_back(index.places().size() + 1);
-            for (std::uint32_t i = 0; i < next.size(); ++i) {
-                next[i] = i;
-            }
+            unmet_.emplace_back(index.places().size());
             is_marked_.emplace_back(index.places().size(), false);
         }
     }
@@ -34,37 +30,46 @@ public:
     template <typename Tell>
     void mark(const Area& area, const Tell& tell) {
         const SheetIndex& index = indexes_[area.sheet];
+        UntakenPlaces& unmet = unmet_[area.sheet];
         const auto columns = index.columns();
         for (std::size_t i = index.column_from(area.range.first.column);
              i < columns.size() && columns[i].column <= area.range.last.column; ++i) {
-            std::uint32_t at = unmarked_from(area.sheet, index.place_from(columns[i], area.range.first.row));
+            std::uint32_t at = unmet.first_from(index.place_from(columns[i], area.range.first.row));
             while (at < columns[i].end) {
                 const std::uint32_t place = index.places()[at];
                 if (index.sheet().cells[place].address.row > area.range.last.row) {
                     break;
                 }
-                next_[area.sheet][at] = at + 1;
+                unmet.take(at);
                 is_marked_[area.sheet][place] = true;
+                met_.emplace_back(area.sheet, at);
                 tell(place);
-                at = unmarked_from(area.sheet, at + 1);
+                at = unmet.first_from(at + 1);
             }
         }
     }
 
     [[nodiscard]] bool is_marked(std::size_t sheet, std::size_t place) const { return is_marked_[sheet][place]; }
 
-private:
-    std::uint32_t unmarked_from(std::size_t sheet, std::uint32_t at) {
-        std::vector<std::uint32_t>& next = next_[sheet];
-        while (next[at] != at) {
-            next[at] = next[next[at]];
-            at = next[at];
+    /// All marked cells, in order; none is marked any more.
+    [[nodiscard]] std::vector<CellPlace> take_all() {
+        std::vector<CellPlace> cells;
+        cells.reserve(met_.size());
+        for (const auto& [sheet, at] : met_) {
+            const std::uint32_t place = indexes_[sheet].places()[at];
+            cells.push_back({sheet, indexes_[sheet].sheet().cells[place].address});
+            is_marked_[sheet][place] = false;
+            unmet_[sheet].give_back(at);
         }
-        return at;
+        met_.clear();
+        std::sort(cells.begin(), cells.end());
+        return cells;
     }
 
+private:
     const std::vector<SheetIndex>& indexes_;
-    std::vector<std::vector<std::uint32_t>> next_;  ///< of each place of an index: one behind which nothing is skipped
+    std::vector<UntakenPlaces> unmet_;
+    std::vector<std::pair<std::size_t, std::uint32_t>> met_;  ///< sheet, and place in its index
     std::vector<std::vector<bool>> is_marked_;
 };
 
@@ -213,12 +218,12 @@ std::vector<CellPlace> CellGraph::dependents(const CellPlace& cell) const {
     return dependents;
 }
 
-std::vector<CellPlace> CellGraph::marked(const Marks& marks, bool wanted, bool formulas_only) const {
+std::vector<CellPlace> CellGraph::unmarked(const Marks& marks, bool formulas_only) const {
     std::vector<CellPlace> found;
     for (std::size_t sheet = 0; sheet < workbook_.sheets.size(); ++sheet) {
         const std::vector<Cell>& cells = workbook_.sheets[sheet].cells;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (marks.is_marked(sheet, i) == wanted && (!formulas_only || !cells[i].formula.empty())) {
+            if (!marks.is_marked(sheet, i) && (!formulas_only || !cells[i].formula.empty())) {
                 found.push_back({sheet, cells[i].address});
             }
         }
@@ -228,42 +233,59 @@ std::vector<CellPlace> CellGraph::marked(const Marks& marks, bool wanted, bool f
 
 std::vector<CellPlace> CellGraph::closure(std::span<const CellPlace> results) const {
     Marks marks(indexes_);
-    mark_closure(results, marks);
-    return marked(marks, true, false);
+    mark_closure(results, {}, marks);
+    return marks.take_all();
+}
+
+void CellGraph::each_closure(std::span<const CellPlace> results,
+                             const std::function<void(std::size_t, const std::vector<CellPlace>&)>& tell) const {
+    Marks marks(indexes_);
+    std::vector<std::uint32_t> ends;
+    for (const CellPlace& result : results) {
+        if (const std::optional<std::uint32_t> node = node_of(result)) {
+            ends.push_back(*node);
+        }
+    }
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        mark_closure(results.subspan(i, 1), ends, marks);
+        tell(i, marks.take_all());
+    }
 }
 
 std::vector<CellPlace> CellGraph::dead_cells(std::span<const CellPlace> results) const {
     Marks marks(indexes_);
-    mark_closure(results, marks);
-    return marked(marks, false, true);
+    mark_closure(results, {}, marks);
+    return unmarked(marks, true);
 }
 
-void CellGraph::mark_closure(std::span<const CellPlace> results, Marks& marks) const {
+void CellGraph::mark_closure(std::span<const CellPlace> results, std::span<const std::uint32_t> ends,
+                             Marks& marks) const {
     std::vector<std::uint32_t> open;
-    std::vector<bool> name_is_met(nodes_.size(), false);
-    const auto meet = [&](const Area& area) {
+    std::set<std::uint32_t> names_met;
+    const auto meet = [&](const Area& area, bool is_result) {
         marks.mark(area, [&](std::uint32_t place) {
-            if (const std::optional<std::uint32_t> node =
-                    node_of({area.sheet, workbook_.sheets[area.sheet].cells[place].address})) {
+            const std::optional<std::uint32_t> node =
+                node_of({area.sheet, workbook_.sheets[area.sheet].cells[place].address});
+            if (node && (is_result || !std::binary_search(ends.begin(), ends.end(), *node))) {
                 open.push_back(*node);
             }
         });
     };
     for (const CellPlace& result : results) {
         if (result.sheet < indexes_.size()) {
-            meet({result.sheet, {result.address, result.address}});
+            meet({result.sheet, {result.address, result.address}}, true);
         }
     }
     while (!open.empty()) {
         const Node node = nodes_[open.back()];
         open.pop_back();
         for (std::size_t i = 0; i < node.areas; ++i) {
-            meet(areas_[node.first_area + i]);
+            meet(areas_[node.first_area + i], false);
         }
         for (std::size_t i = 0; i < node.names; ++i) {
             const std::uint32_t name = names_read_[node.first_name + i];
-            if (!name_is_met[name]) {
-                name_is_met[name] = true;
+            if (names_met.insert(name).second) {
                 open.push_back(name);
             }
         }
@@ -276,7 +298,7 @@ std::vector<CellPlace> CellGraph::unread_cells() const {
         marks.mark(area, [](std::uint32_t) {});
     }
     std::vector<CellPlace> unread;
-    for (const CellPlace& cell : marked(marks, false, false)) {
+    for (const CellPlace& cell : unmarked(marks, false)) {
         const Cell& held = *find_cell(workbook_.sheets[cell.sheet], cell.address);
         if (!held.formula.empty() || held.value.kind == CellKind::number) {
             unread.push_back(cell);

@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -35,6 +36,9 @@ public:
     /// Whether every formula was understood, and no reference left out.
     [[nodiscard]] bool is_complete() const { return is_complete_; }
 
+    /// The cells of each sheet, column by column.
+    [[nodiscard]] const std::vector<SheetIndex>& indexes() const { return indexes_; }
+
     /// The cells that the formula of a cell reads, as areas in the order of the formula, those of names behind them. Empty
     /// for a cell without a formula. An area may hold any number of cells, blank ones too.
     [[nodiscard]] std::vector<Area> areas_read(const CellPlace& cell) const;
@@ -49,6 +53,11 @@ public:
     /// The cells that hold anything and on which results stand: what their formulas read, what these read, and so on, the
     /// results with them; in order. Time is linear in the workbook.
     [[nodiscard]] std::vector<CellPlace> closure(std::span<const CellPlace> results) const;
+
+    /// The cells on which each of several results stands, as closure() of it, up to the others: what they read in turn is
+    /// told with them alone. So it takes no more time than what is told, however many results stand on each other.
+    void each_closure(std::span<const CellPlace> results,
+                      const std::function<void(std::size_t, const std::vector<CellPlace>&)>& tell) const;
 
     /// Cells with formulas that are not among closure(): computed, and no part of the results.
     [[nodiscard]] std::vector<CellPlace> dead_cells(std::span<const CellPlace> results) const;
@@ -67,8 +76,9 @@ private:
     [[nodiscard]] std::optional<std::uint32_t> node_of(const CellPlace& cell) const;
     /// A node with the names that it reads, directly or through other names.
     [[nodiscard]] std::vector<std::uint32_t> with_names(std::uint32_t node) const;
-    void mark_closure(std::span<const CellPlace> results, Marks& marks) const;
-    [[nodiscard]] std::vector<CellPlace> marked(const Marks& marks, bool wanted, bool formulas_only) const;
+    /// \param ends  nodes in order, which are marked and not followed, but for the results themselves
+    void mark_closure(std::span<const CellPlace> results, std::span<const std::uint32_t> ends, Marks& marks) const;
+    [[nodiscard]] std::vector<CellPlace> unmarked(const Marks& marks, bool formulas_only) const;
 
     const Workbook& workbook_;
     std::vector<SheetIndex> indexes_;

@@ -84,6 +84,16 @@ public:
                     result_.cells.push_back({.sheet = sheet, .cell = cell});
                 }
             }
+            UntakenPlaces& unfinished = unfinished_.emplace_back(one.cells.size());
+            positions_.resize(result_.cells.size());
+            for (std::uint32_t at = 0; at < one.cells.size(); ++at) {
+                const std::uint32_t node = nodes[indexes_[sheet].places()[at]];
+                if (node == k_no_place) {
+                    unfinished.take(at);
+                } else {
+                    positions_[node] = at;
+                }
+            }
             std::vector<CellAddress>& arrays = array_cells_.emplace_back();
             for (const CellRange& range : one.array_ranges) {
                 arrays.push_back(range.first);
@@ -259,8 +269,15 @@ private:
         }
     }
 
+    void finish(std::uint32_t node) {
+        states_[node] = NodeState::done;
+        if (!is_name(node)) {
+            unfinished_[result_.cells[node].sheet].take(positions_[node]);
+        }
+    }
+
     void abandon(const Waiting& one) {
-        states_[one.node] = NodeState::done;
+        finish(one.node);
         if (!abandoned_) {
             abandoned_ = reason("more work than a workbook is given", one.asked_by);
         }
@@ -324,12 +341,9 @@ private:
             if (!waiting.cursor) {
                 waiting.cursor.emplace(indexes_[on], area(reference));
             }
-            for (std::uint32_t place = waiting.cursor->next(); place != k_no_place; place = waiting.cursor->next()) {
+            if (const std::uint32_t place = waiting.cursor->next(unfinished_[on]); place != k_no_place) {
                 spend(waiting.cursor->take_steps());
-                const std::uint32_t other = nodes_[on][place];
-                if (other != k_no_place && states_[other] != NodeState::done) {
-                    return other;
-                }
+                return nodes_[on][place];
             }
             spend(waiting.cursor->take_steps() + 1);
             waiting.cursor.reset();
@@ -349,7 +363,7 @@ private:
         Waiting& waiting = stack_.back();
         const std::size_t place = stack_.size() - 1;
         compute(waiting);
-        states_[waiting.node] = NodeState::done;
+        finish(waiting.node);
         const std::size_t lowest = waiting.lowest;
         stack_.pop_back();
         if (lowest < place) {
@@ -877,6 +891,8 @@ private:
     std::vector<SheetIndex> indexes_;
     std::vector<std::vector<std::uint32_t>> nodes_;      ///< of each cell of each sheet; k_no_place for a constant
     std::vector<std::vector<CellAddress>> array_cells_;  ///< of each sheet: that fill several cells, in order
+    std::vector<UntakenPlaces> unfinished_;              ///< of the index of each sheet: formulas that are not done
+    std::vector<std::uint32_t> positions_;               ///< of each cell with a formula in the index of its sheet
     Evaluation result_;
     // Cells with formulas first, defined names behind them.
     std::vector<NodeState> states_;

@@ -16,13 +16,20 @@ namespace {
 
 using Given = std::span<const Operand>;
 
+// In double throughout: elementary functions of long double differ between makers of processors (ADR 0058).
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using StudentT = boost::math::students_t_distribution<double, InDouble>;
+using Normal = boost::math::normal_distribution<double, InDouble>;
+using ChiSquare = boost::math::chi_squared_distribution<double, InDouble>;
+using FisherF = boost::math::fisher_f_distribution<double, InDouble>;
+
 /// Degrees of freedom as spreadsheets take them: the whole number below.
 double whole_freedom(double nu) {
     return std::floor(nu);
 }
 
-boost::math::students_t student(double nu) {
-    return boost::math::students_t(whole_freedom(nu));
+StudentT student(double nu) {
+    return StudentT(whole_freedom(nu));
 }
 
 bool is_probability(double p) {
@@ -106,26 +113,24 @@ Operand t_right_tail(Given arguments, CellReader& reader) {
 
 Operand normal_inverse(Given arguments, CellReader& reader) {
     return of_parameters<1>(arguments, reader, [](const std::array<double, 1>& x) {
-        return is_probability(x[0]) ? Operand::of(quantile(boost::math::normal(), x[0])) : not_defined();
+        return is_probability(x[0]) ? Operand::of(quantile(Normal(), x[0])) : not_defined();
     });
 }
 
 Operand normal_inverse_of(Given arguments, CellReader& reader) {
     return of_parameters<3>(arguments, reader, [](const std::array<double, 3>& x) {
-        return is_probability(x[0]) && x[2] > 0.0 ? Operand::of(quantile(boost::math::normal(x[1], x[2]), x[0]))
-                                                  : not_defined();
+        return is_probability(x[0]) && x[2] > 0.0 ? Operand::of(quantile(Normal(x[1], x[2]), x[0])) : not_defined();
     });
 }
 
 Operand normal_below(Given arguments, CellReader& reader) {
-    return of_parameters<1>(arguments, reader, [](const std::array<double, 1>& x) {
-        return Operand::of(cdf(boost::math::normal(), x[0]));
-    });
+    return of_parameters<1>(arguments, reader,
+                            [](const std::array<double, 1>& x) { return Operand::of(cdf(Normal(), x[0])); });
 }
 
 Operand standard_normal(Given arguments, CellReader& reader) {
     return of_parameters<2>(arguments, reader, [](const std::array<double, 2>& x) {
-        return Operand::of(x[1] != 0.0 ? cdf(boost::math::normal(), x[0]) : pdf(boost::math::normal(), x[0]));
+        return Operand::of(x[1] != 0.0 ? cdf(Normal(), x[0]) : pdf(Normal(), x[0]));
     });
 }
 
@@ -134,7 +139,7 @@ Operand normal_of(Given arguments, CellReader& reader) {
         if (x[2] <= 0.0) {
             return not_defined();
         }
-        const boost::math::normal normal(x[1], x[2]);
+        const Normal normal(x[1], x[2]);
         return Operand::of(x[3] != 0.0 ? cdf(normal, x[0]) : pdf(normal, x[0]));
     });
 }
@@ -144,16 +149,14 @@ Operand chi_square_inverse_right(Given arguments, CellReader& reader) {
         if (!(x[0] > 0.0 && x[0] <= 1.0) || x[1] < 1.0) {
             return not_defined();
         }
-        return Operand::of(x[0] == 1.0 ? 0.0
-                                       : quantile(complement(boost::math::chi_squared(whole_freedom(x[1])), x[0])));
+        return Operand::of(x[0] == 1.0 ? 0.0 : quantile(complement(ChiSquare(whole_freedom(x[1])), x[0])));
     });
 }
 
 Operand chi_square_inverse(Given arguments, CellReader& reader) {
     return of_parameters<2>(arguments, reader, [](const std::array<double, 2>& x) {
-        return x[0] >= 0.0 && x[0] < 1.0 && x[1] >= 1.0
-                   ? Operand::of(quantile(boost::math::chi_squared(whole_freedom(x[1])), x[0]))
-                   : not_defined();
+        return x[0] >= 0.0 && x[0] < 1.0 && x[1] >= 1.0 ? Operand::of(quantile(ChiSquare(whole_freedom(x[1])), x[0]))
+                                                        : not_defined();
     });
 }
 
@@ -162,9 +165,8 @@ Operand f_inverse_right(Given arguments, CellReader& reader) {
         if (!(x[0] > 0.0 && x[0] <= 1.0) || x[1] < 1.0 || x[2] < 1.0) {
             return not_defined();
         }
-        return Operand::of(
-            x[0] == 1.0 ? 0.0
-                        : quantile(complement(boost::math::fisher_f(whole_freedom(x[1]), whole_freedom(x[2])), x[0])));
+        return Operand::of(x[0] == 1.0 ? 0.0
+                                       : quantile(complement(FisherF(whole_freedom(x[1]), whole_freedom(x[2])), x[0])));
     });
 }
 

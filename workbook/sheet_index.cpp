@@ -1,6 +1,7 @@
 #include "workbook/sheet_index.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "workbook/letters.h"
@@ -57,6 +58,14 @@ AreaCursor::AreaCursor(const SheetIndex& index, const CellRange& range)
     : index_(&index), range_(range), column_(index.column_from(range.first.column)) {}
 
 std::uint32_t AreaCursor::next() {
+    return next_of(nullptr);
+}
+
+std::uint32_t AreaCursor::next(UntakenPlaces& untaken) {
+    return next_of(&untaken);
+}
+
+std::uint32_t AreaCursor::next_of(UntakenPlaces* untaken) {
     while (index_ != nullptr && column_ < index_->columns().size()) {
         const SheetIndex::Column& column = index_->columns()[column_];
         if (column.column > range_.last.column) {
@@ -67,6 +76,7 @@ std::uint32_t AreaCursor::next() {
             at_ = index_->place_from(column, range_.first.row);
             is_in_column_ = true;
         }
+        at_ = untaken == nullptr ? at_ : untaken->first_from(at_);
         if (at_ < column.end) {
             const std::uint32_t place = index_->places()[at_];
             if (index_->sheet().cells[place].address.row <= range_.last.row) {
@@ -82,6 +92,18 @@ std::uint32_t AreaCursor::next() {
 
 std::size_t AreaCursor::take_steps() {
     return std::exchange(steps_, 0);
+}
+
+UntakenPlaces::UntakenPlaces(std::size_t count) : next_(count + 1) {
+    std::iota(next_.begin(), next_.end(), 0U);
+}
+
+std::uint32_t UntakenPlaces::first_from(std::uint32_t at) {
+    while (next_[at] != at) {
+        next_[at] = next_[next_[at]];
+        at = next_[at];
+    }
+    return at;
 }
 
 WorkbookNames::WorkbookNames(const Workbook& workbook) : everywhere_(workbook.sheets.size()) {

@@ -49,6 +49,22 @@ private:
     CellAddress last_used_;
 };
 
+/// Which places of an index nobody took yet. Those that were taken are skipped, so that ranges over the same cells cost
+/// no more than the cells.
+class UntakenPlaces {
+public:
+    explicit UntakenPlaces(std::size_t count);
+    /// The first place from `at` on that was not taken; `count` where there is none.
+    /// \param at  up to `count`
+    [[nodiscard]] std::uint32_t first_from(std::uint32_t at);
+    void take(std::uint32_t place) { next_[place] = place + 1; }
+    /// Gives back a place that was taken. Between the first and the last of those that are given back nothing is asked.
+    void give_back(std::uint32_t place) { next_[place] = place; }
+
+private:
+    std::vector<std::uint32_t> next_;  ///< of each place: one behind which nothing is skipped
+};
+
 /// Walks over the cells of a rectangle that hold anything, column by column.
 class AreaCursor {
 public:
@@ -56,10 +72,14 @@ public:
     AreaCursor(const SheetIndex& index, const CellRange& range);
     /// The place of the next cell in Sheet::cells; k_no_place behind the last one.
     [[nodiscard]] std::uint32_t next();
+    /// The same without those that were taken.
+    [[nodiscard]] std::uint32_t next(UntakenPlaces& untaken);
     /// How many columns and cells were looked at since it was last asked.
     [[nodiscard]] std::size_t take_steps();
 
 private:
+    [[nodiscard]] std::uint32_t next_of(UntakenPlaces* untaken);
+
     const SheetIndex* index_ = nullptr;
     std::size_t steps_ = 0;
     CellRange range_;

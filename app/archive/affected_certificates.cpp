@@ -36,24 +36,37 @@ public:
     RecordSearch(unsigned threads, const gum::Progress& progress) : threads_(threads), progress_(progress) {}
 
     std::vector<SearchedRecord> read(archive::Archive& archive) {
-        std::size_t number = 0;
-        archive.each_record([&](std::size_t count) { number = count; },
-                            [&](const archive::ListedCertificate& certificate, std::string bytes) {
-                                found_.push_back({certificate, std::nullopt});
-                                waiting_.push_back(std::move(bytes));
-                                if (waiting_.size() == k_records_at_once) {
-                                    look_at_waiting();
-                                    if (progress_) {
-                                        progress_(std::to_string(found_.size()) + " of " + std::to_string(number) +
-                                                  " records searched");
-                                    }
-                                }
-                            });
+        archive.each_record(
+            [&](const std::vector<archive::ListedCertificate>& certificates) {
+                for (const archive::ListedCertificate& one : certificates) {
+                    numbers_.insert(one.number);
+                }
+            },
+            [&](const archive::ListedCertificate& certificate, std::string bytes) {
+                found_.push_back({certificate, std::nullopt});
+                waiting_.push_back(std::move(bytes));
+                if (waiting_.size() == k_records_at_once) {
+                    look_at_waiting();
+                    if (progress_) {
+                        progress_(std::to_string(found_.size()) + " of " + std::to_string(numbers_.size()) +
+                                  " certificates searched");
+                    }
+                }
+            });
         look_at_waiting();
         return std::move(found_);
     }
+    /// Of an amendment, when all records are read.
+    [[nodiscard]] std::string free_number(const std::string& original) const {
+        int ordinal = 1;
+        while (numbers_.contains(original + "/A" + std::to_string(ordinal))) {
+            ++ordinal;
+        }
+        return original + "/A" + std::to_string(ordinal);
+    }
 
 private:
+    std::set<std::string> numbers_;  // of all certificates, with a record or without
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
@@ -195,10 +208,14 @@ std::string written(const nlohmann::ordered_json& value) {
     return value.dump(2) + "\n";
 }
 
+bool is_shown(const RecordChange& change) {
+    return change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict;
+}
+
 nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
     nlohmann::json list = nlohmann::json::array();
     for (const RecordChange& change : changes) {
-        if (change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict) {
+        if (is_shown(change)) {
             list.push_back({{"kind", word_of(change.kind)},
                             {"place", change.place},
                             {"before", change.before},
@@ -210,8 +227,8 @@ nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
 
 /// Job, certificate data and all files of an amendment.
 /// \return none where the job cannot be written beside each other again
-std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const reports::EvaluationRecord& corrected,
-                                          const Correction& correction) {
+std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
+                                          const reports::EvaluationRecord& corrected, const Correction& correction) {
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
     const std::filesystem::path folder = folder_of_number(one.draft_number);
@@ -259,66 +276,35 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
     for (const auto& [name, bytes] : files) {
         draft.push_back({folder / places.of(name), bytes});
     }
-    draft.push_back({folder / places.of(record_name), one.record});
+    draft.push_back({folder / places.of(record_name), original});
     draft.push_back({folder / "changes.json",
                      gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
                                                     {"number", one.draft_number},
                                                     {"amends", one.certificate.number},
                                                     {"reason", correction.reason},
                                                     {"job", places.of(job_name).generic_string()},
-                                                    {"changes", shown_change_list(one.recalculated->changes)}})});
+                                                    {"changes", shown_change_list(one.recalculated->rerun.changes)}})});
     return draft;
-}
-
-void recalculate_one(AffectedCertificate& one, const Correction& correction,
-                     const std::function<std::string(const std::string&)>& number_for) {
-    const std::string& number = one.certificate.number;
-    RerunRecord result{.name = number};
-    try {
-        reports::EvaluationRecord record = reports::record_from_json(one.record, number);
-        result.made_by = record.software;
-        result.kind = record.kind;
-        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
-            result.not_evaluated = cannot_say(number, missing->what);
-        } else if (!correct_files(record, correction)) {
-            result.not_evaluated = cannot_say(
-                number, one.through.empty() ? "its job does not take the standard from the register"
-                                            : "it rests on " + one.through + ", which is to be amended first");
-        } else {
-            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
-            tell_changes(one.record, now, result);
-            one.shift = largest_shift(nlohmann::json::parse(one.record),
-                                      nlohmann::json::parse(reports::to_canonical_json(now)));
-            one.recalculated = result;
-            if (result.is_negative() && one.certificate.state == "issued") {
-                one.draft_number = number_for(number);
-                one.draft = drafted_amendment(one, record, correction);
-                if (one.draft.empty()) {
-                    one.draft_number.clear();
-                }
-            }
-        }
-    } catch (const gum::DiagnosedError& error) {
-        const gum::Diagnostic& first = error.diagnostics().front();
-        result.not_evaluated = cannot_say(number, first.what);
-    }
-    one.recalculated = std::move(result);
 }
 
 /// Of which a person reads first.
 auto rank_of(const AffectedCertificate& one) {
-    const bool unknown = one.recalculated && one.recalculated->not_evaluated.has_value();
-    const std::size_t verdicts = one.recalculated ? one.recalculated->count(ChangeKind::verdict) : 0;
-    const bool changed = one.recalculated && one.recalculated->is_negative() && !unknown;
-    return std::tuple(verdicts == 0, !changed, !unknown, -one.shift, one.certificate.number);
+    static const RerunRecord k_none;
+    const RerunRecord& rerun = one.recalculated ? one.recalculated->rerun : k_none;
+    const bool unknown = rerun.not_evaluated.has_value();
+    return std::tuple(rerun.count(ChangeKind::verdict) == 0, unknown || !rerun.is_negative(), !unknown,
+                      one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
 std::string outcome_of(const AffectedCertificate& one) {
-    return !one.recalculated                                  ? "not_recalculated"
-           : one.recalculated->not_evaluated                  ? "cannot_say"
-           : one.recalculated->count(ChangeKind::verdict) > 0 ? "verdict"
-           : one.recalculated->count(ChangeKind::printed) > 0 ? "printed"
-                                                              : "same";
+    if (!one.recalculated) {
+        return "not_recalculated";
+    }
+    const RerunRecord& rerun = one.recalculated->rerun;
+    return rerun.not_evaluated                    ? "cannot_say"
+           : rerun.count(ChangeKind::verdict) > 0 ? "verdict"
+           : rerun.count(ChangeKind::printed) > 0 ? "printed"
+                                                  : "same";
 }
 
 std::string period_of(const AffectedCertificate& one) {
@@ -332,15 +318,12 @@ std::string filled(std::string text, std::size_t width) {
     return text + "  ";
 }
 
-std::string draft_folder(const AffectedCertificate& one) {
-    return one.draft.empty() ? "" : folder_of_number(one.draft_number);
-}
-
 }  // namespace
 
 std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
                                                unsigned threads, const gum::Progress& progress) {
-    const std::vector<SearchedRecord> records = RecordSearch(threads, progress).read(archive);
+    RecordSearch search(threads, progress);
+    const std::vector<SearchedRecord> records = search.read(archive);
     const TextsOfRecords texts(records);
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
@@ -356,7 +339,7 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
                                 .used_to = {},
                                 .because = {{StandardReference::Kind::source, "the record cannot be read"}},
                                 .through = {},
-                                .record = {}});
+                                .draft_number = search.free_number(records[i].certificate.number)});
         }
     }
     while (!wanted.empty()) {
@@ -375,12 +358,9 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
                                 .used_to = record.references->used_to,
                                 .because = references_that_name(next.name, *record.references),
                                 .through = next.through,
-                                .record = {}});
+                                .draft_number = search.free_number(record.certificate.number)});
             wanted.push_back({record.certificate.number, record.certificate.number});
         }
-    }
-    for (AffectedCertificate& one : affected) {
-        one.record = archive.record_of(one.certificate.number);  // a content that is missing is refused here
     }
     std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
         return a.certificate.number < b.certificate.number;
@@ -388,30 +368,76 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     return affected;
 }
 
-void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
-                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress) {
-    // The archive is asked by one thread.
-    std::map<std::string, std::string> numbers;
-    for (const AffectedCertificate& one : affected) {
-        int ordinal = 1;
-        while (!is_free(one.certificate.number + "/A" + std::to_string(ordinal))) {
-            ++ordinal;
+Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
+                               const Correction& correction) {
+    Recalculation result{.rerun = {.name = number}};
+    RerunRecord& rerun = result.rerun;
+    try {
+        reports::EvaluationRecord record = reports::record_from_json(original, number);
+        rerun.made_by = record.software;
+        rerun.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
+            rerun.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            rerun.not_evaluated =
+                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
+                                                   : "it rests on " + through + ", which is to be amended first");
+        } else {
+            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
+            tell_changes(original, now, rerun);
+            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
+            result.shift =
+                largest_shift(nlohmann::json::parse(original), nlohmann::json::parse(reports::to_canonical_json(now)));
         }
-        numbers[one.certificate.number] = one.certificate.number + "/A" + std::to_string(ordinal);
+    } catch (const gum::DiagnosedError& error) {
+        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
     }
+    return result;
+}
+
+void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
+                 unsigned threads, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
     for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
         const std::size_t count = std::min(k_records_at_once, affected.size() - first);
+        std::vector<std::string> originals;  // the archive is asked by one thread
+        for (std::size_t i = first; i < first + count; ++i) {
+            originals.push_back(archive.content(affected[i].certificate.record).value_or(""));
+        }
         workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
-            recalculate_one(affected[first + task], correction,
-                            [&](const std::string& number) { return numbers.at(number); });
+            AffectedCertificate& one = affected[first + task];
+            one.recalculated = recalculation_of(one.certificate.number, one.through, originals[task], correction);
         });
         if (progress) {
             progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
         }
     }
+    rank(affected);
+}
+
+void rank(std::vector<AffectedCertificate>& affected) {
     std::sort(affected.begin(), affected.end(),
               [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
+}
+
+void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
+                      const Correction& correction, const std::function<void(const std::vector<OutputFile>&)>& write) {
+    for (AffectedCertificate& one : affected) {
+        if (!one.recalculated || one.recalculated->rerun.not_evaluated || !one.recalculated->rerun.is_negative() ||
+            one.certificate.state != "issued") {
+            continue;
+        }
+        const std::string original = archive.content(one.certificate.record).value_or("");
+        reports::EvaluationRecord record = reports::record_from_json(original, one.certificate.number);
+        (void)correct_files(record, correction);
+        if (const std::vector<OutputFile> draft = drafted_amendment(one, original, record, correction);
+            !draft.empty()) {
+            one.draft_folder = folder_of_number(one.draft_number);
+            if (write) {
+                write(draft);
+            }
+        }
+    }
 }
 
 std::string affected_text(const std::vector<AffectedCertificate>& affected) {
@@ -419,14 +445,14 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
     for (const AffectedCertificate& one : affected) {
         text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
                 filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
-        if (one.recalculated && !one.recalculated->not_evaluated) {
-            text += "  " + text::significant(one.shift, 3) + " U";
+        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+            text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
-        text += one.draft.empty() ? "" : "  draft " + draft_folder(one);
+        text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
         text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +
                 word_of(one.because.front().kind) + " \"" + text::visible(one.because.front().text, 120) + "\"\n";
-        if (one.recalculated && one.recalculated->not_evaluated) {
-            text += "    " + text::visible(one.recalculated->not_evaluated->what, 200) + "\n";
+        if (one.recalculated && one.recalculated->rerun.not_evaluated) {
+            text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
     }
     return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
@@ -450,14 +476,15 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
-                             {"draft", draft_folder(one)},
+                             {"draft", one.draft_folder},
                              {"cannot_say", ""}};
         if (one.recalculated) {
-            shown["changes"] = shown_change_list(one.recalculated->changes);
-            if (one.recalculated->not_evaluated) {
-                shown["cannot_say"] = one.recalculated->not_evaluated->what;
+            const RerunRecord& rerun = one.recalculated->rerun;
+            shown["changes"] = shown_change_list(rerun.changes);
+            if (rerun.not_evaluated) {
+                shown["cannot_say"] = rerun.not_evaluated->what;
             } else {
-                shown["shift"] = one.shift;
+                shown["shift"] = one.recalculated->shift;
             }
         }
         list.push_back(std::move(shown));
@@ -472,12 +499,12 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
     std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft\n";
     for (const AffectedCertificate& one : affected) {
-        const bool calculated = one.recalculated && !one.recalculated->not_evaluated;
+        const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
-               "," + (calculated ? nlohmann::json(one.shift).dump() : "") + "," + text::csv_field(draft_folder(one)) +
-               "\n";
+               "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
+               text::csv_field(one.draft_folder) + "\n";
     }
     return all;
 }

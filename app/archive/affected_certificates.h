@@ -23,19 +23,23 @@ struct WrongStandard {
     std::string until;  ///< last one; "" without
 };
 
+/// What a certificate becomes with the corrected standard.
+struct Recalculation {
+    RerunRecord rerun;   ///< not_evaluated where nothing can be said, GC-ARCHIVE-0062; of the changes it lists those of
+                         ///< printed digits and verdicts
+    double shift = 0.0;  ///< largest change of a value or of its U, relative to the U that was issued
+};
+
 /// A certificate that rests on it.
 struct AffectedCertificate {
     archive::ListedCertificate certificate;
     std::string used_from, used_to;          ///< days of the work; "" where the record states none
     std::vector<StandardReference> because;  ///< what its record says
-    std::string through;  ///< number of the affected certificate that it rests on itself; "" where on the standard
-    std::string record;   ///< bytes
+    std::string through;       ///< number of the affected certificate that it rests on itself; "" where on the standard
+    std::string draft_number;  ///< the next free number of an amendment of it
 
-    // After recalculate().
-    std::optional<RerunRecord> recalculated = {};
-    double shift = 0.0;                  ///< largest change of a value or of its U, relative to the U that was issued
-    std::vector<OutputFile> draft = {};  ///< of the amendment, below a folder of its own; empty where none is needed
-    std::string draft_number = {};       ///< of the amendment
+    std::optional<Recalculation> recalculated = {};
+    std::string draft_folder = {};  ///< of the amendment, after draft_amendments(); "" where none is needed
 };
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
@@ -52,12 +56,26 @@ struct Correction {
     std::filesystem::path templates;
 };
 
-/// Evaluates the jobs of affected records with the corrected standard, on several cores, compares with what was issued,
-/// drafts an amendment of each issued certificate of which a printed digit or a verdict changes, and ranks: verdicts
-/// that changed first, then by shift, those of which nothing can be said (GC-ARCHIVE-0062) before those that stay.
-/// \param is_free  whether a number of a certificate was not used yet
-void recalculate(std::vector<AffectedCertificate>& affected, const Correction& correction, unsigned threads,
-                 const std::function<bool(const std::string& number)>& is_free, const gum::Progress& progress = {});
+/// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
+/// \param original  bytes of the record
+/// \param through   as of the certificate
+[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& through,
+                                             const std::string& original, const Correction& correction);
+
+/// The same of all certificates, on several cores.
+/// \param archive  in which they were found
+void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
+                 unsigned threads, const gum::Progress& progress = {});
+
+/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then those of which
+/// nothing can be said, before those that stay.
+void rank(std::vector<AffectedCertificate>& affected);
+
+/// Drafts an amendment of each issued certificate of which a printed digit or a verdict changes, one after the other.
+/// \param write  gets the files of a draft, below a folder of its own
+void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
+                      const Correction& correction,
+                      const std::function<void(const std::vector<OutputFile>&)>& write = {});
 
 /// For people, for programs (schema gumcert/archive-affected/1), as a table.
 [[nodiscard]] std::string affected_text(const std::vector<AffectedCertificate>& affected);

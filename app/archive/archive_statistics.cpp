@@ -187,11 +187,15 @@ std::string place_of(const RepeatabilityChart& chart) {
 
 ArchiveStatistics statistics_of(archive::Archive& archive) {
     StatisticsOfRecords all;
-    for (const archive::ListedCertificate& one : archive.list()) {
-        all.count_state(one.state);
-    }
-    archive.each_record([](std::size_t) {}, [&](const archive::ListedCertificate& certificate,
-                                                const std::string& bytes) { all.look_at(certificate, bytes); });
+    archive.each_record(
+        [&](const std::vector<archive::ListedCertificate>& certificates) {
+            for (const archive::ListedCertificate& one : certificates) {
+                all.count_state(one.state);
+            }
+        },
+        [&](const archive::ListedCertificate& certificate, const std::string& bytes) {
+            all.look_at(certificate, bytes);
+        });
     return std::move(all).finish();
 }
 

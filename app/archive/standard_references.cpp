@@ -161,8 +161,9 @@ std::string standard_of_file(std::string_view name) {
     if (at == std::string_view::npos || (at > 0 && name[at - 1] != '/') || !name.ends_with(ending)) {
         return "";
     }
-    const std::string_view id = name.substr(at + folder.size());
-    return std::string(id.substr(0, id.size() - ending.size()));
+    const std::string_view file = name.substr(at + folder.size());
+    const std::string_view id = file.substr(0, file.size() - ending.size());
+    return id.find('/') == std::string_view::npos ? std::string(id) : "";  // a file of a folder below is none
 }
 
 }  // namespace gumcert::app

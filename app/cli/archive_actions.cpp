@@ -4,8 +4,9 @@
 namespace gumcert::cli {
 
 std::vector<std::string> archive_actions() {
-    return {"init", "settings", "number", "add",    "review", "authorise", "issue",  "amend",      "withdraw", "list",
-            "show", "export",   "head",   "verify", "backup", "migrate",   "replay", "statistics", "affected"};
+    return {"init",   "settings", "number", "add",    "review",     "authorise", "issue",
+            "amend",  "withdraw", "list",   "show",   "export",     "head",      "verify",
+            "backup", "migrate",  "replay", "worker", "statistics", "affected"};
 }
 
 }  // namespace gumcert::cli

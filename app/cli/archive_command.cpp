@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -15,12 +16,14 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "app/archive/affected_certificates.h"
 #include "app/archive/archive_draft.h"
 #include "app/archive/archive_replay.h"
 #include "app/archive/archive_statistics.h"
+#include "app/archive/shared_work.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
@@ -30,6 +33,7 @@
 #include "archive/archive.h"
 #include "archive/evidence.h"
 #include "archive/store/open_store.h"
+#include "archive/store/work_table.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
 #include "signing/ed25519.h"
@@ -210,9 +214,22 @@ ExitCode withdraw_certificate(const ArchiveOptions& options, const CommonOptions
     return advance(options, common, "withdrawn");
 }
 
+/// Letters of ASCII in lower case.
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
 ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /*common*/) {
     const auto store = opened(options, archive::Access::read_only);
-    const std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
+    std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
+    for (const std::string& word : options.named) {
+        std::erase_if(certificates, [wanted = in_lower_case(word)](const archive::ListedCertificate& one) {
+            return in_lower_case(one.number + '\n' + one.state + '\n' + one.since + '\n' + one.item).find(wanted) ==
+                   std::string::npos;
+        });
+    }
     if (as_json(options)) {
         json list = json::array();
         for (const archive::ListedCertificate& one : certificates) {
@@ -558,7 +575,8 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
         refuse_usage(file.string(), "is there already", "a backup is a new file", "choose another name");
     }
     // A folder of a command that was killed goes when the next one is made.
-    const system::TemporaryFolder folder(file.has_parent_path() ? file.parent_path() : ".");
+    const fs::path place = file.has_parent_path() ? file.parent_path() : ".";
+    const system::TemporaryFolder folder(place);
     const fs::path part = folder.path() / file.filename();
     store->copy_to(part);
     ProgressLine progress(!common.quiet);
@@ -578,6 +596,7 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
                                                 .action = "see what gumcert archive verify says of the archive"});
     }
     fs::rename(part, file);
+    app::synchronise_folder(place);
     return told(archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options)),
                 options, common);
 }
@@ -587,7 +606,7 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     const archive::Head head = archive::Archive(*from).head();
     ProgressLine progress(!common.quiet);
     progress("copying " + std::to_string(head.size) + " entries");
-    const auto to = archive::replay_into(*from, options.to);
+    const auto to = archive::replay_into(*from, options.to, archive::list_again);
     const archive::Verification verification =
         archive::verify_store(*to, {head}, [&](const std::string& text) { progress("verifying: " + text); });
     progress.clear();
@@ -615,26 +634,78 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     return done;
 }
 
-ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
+std::string program_name() {
+    return fmt::format("{} (commit {})", k_version, k_commit);
+}
+
+/// The table of work that the machines of an archive share.
+std::unique_ptr<archive::WorkTable> opened_work(const ArchiveOptions& options) {
+    if (!archive::is_postgresql(options.store)) {
+        refuse_usage(
+            "archive " + options.action, "an archive in a file has no workers",
+            "machines share work through the server that has the archive; of a file one command uses all cores",
+            "leave out --shared, or migrate the archive to a server");
+    }
+    return archive::open_work_table(options.store);
+}
+
+void wait_for_others() {
+    constexpr auto k_pause = std::chrono::milliseconds(200);
+    std::this_thread::sleep_for(k_pause);
+}
+
+/// Does what others share, until there is nothing more; with --wait-for-work it goes on waiting.
+ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto table = opened_work(options);
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
-    std::vector<std::string> numbers = options.named;
-    if (numbers.empty()) {
+    app::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads), templates_folder(options.share));
+    ProgressLine progress(!common.quiet);
+    std::size_t done_tasks = 0;
+    for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;
+         work = table->next(program_name())) {
+        const std::size_t some = work ? worker.do_some(*work) : 0;
+        done_tasks += some;
+        progress(fmt::format("{} tasks done", done_tasks));
+        if (some == 0) {
+            wait_for_others();
+        }
+    }
+    progress.clear();
+    if (!common.quiet) {
+        fmt::print("{} tasks done\n", done_tasks);
+    }
+    return done;
+}
+
+/// Numbers of certificates and SHA-256 of their records: those that are named, or all.
+std::vector<std::pair<std::string, std::string>> records_to_replay(archive::Archive& archive,
+                                                                   const ArchiveOptions& options) {
+    std::vector<std::pair<std::string, std::string>> records;
+    for (const std::string& number : options.named) {
+        records.emplace_back(number, archive.life(number).record);
+    }
+    if (options.named.empty()) {
         for (const archive::ListedCertificate& one : archive.list()) {
             if (!one.record.empty()) {
-                numbers.push_back(one.number);
+                records.emplace_back(one.number, one.record);
             }
         }
     }
+    return records;
+}
+
+ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
+    const std::unique_ptr<archive::WorkTable> table = options.shared ? opened_work(options) : nullptr;
+    const auto store = opened(options, archive::Access::read_only);
+    archive::Archive archive(*store);
+    const std::vector<std::pair<std::string, std::string>> records = records_to_replay(archive, options);
     const fs::path templates = templates_folder(options.share);
+    const auto threads = static_cast<unsigned>(common.threads);
     ProgressLine progress(!common.quiet);
     json list = json::array();
     std::size_t same = 0;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::string& number = numbers[i];
-        progress(fmt::format("{} of {}: {}", i + 1, numbers.size(), number));
-        const app::Replay one =
-            app::replay_record(archive.record_of(number), number, static_cast<unsigned>(common.threads), templates);
+    const auto take = [&](const std::string& number, const app::Replay& one) {
         progress.clear();
         print_findings(one.differences, common);
         same += one.differences.empty() ? std::size_t{1} : 0;
@@ -643,11 +714,26 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                         {"evaluated", one.evaluated},
                         {"same", one.differences.empty()},
                         {"differences", shown_findings(one.differences)}});
+    };
+    if (table) {
+        const app::WorkToShare shared = app::work_of_replay(records, program_name());
+        app::ArchiveWorker(archive, *table, threads, templates)
+            .finish(shared, wait_for_others, [&](const std::string& text) { progress(text); });
+        for (const auto& [number, one] : app::replays_in(*table, shared)) {
+            take(number, one);
+        }
+        table->remove(shared.work.id);
+    } else {
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            const auto& [number, record] = records[i];
+            progress(fmt::format("{} of {}: {}", i + 1, records.size(), number));
+            take(number, app::replay_record(archive.content(record).value_or(""), number, threads, templates));
+        }
     }
     if (as_json(options)) {
         print_json({{"schema", "gumcert/archive-replay/1"},
-                    {"program", fmt::format("{} (commit {})", k_version, k_commit)},
-                    {"records", numbers.size()},
+                    {"program", program_name()},
+                    {"records", records.size()},
                     {"same", same},
                     {"certificates", list}});
     } else if (!common.quiet) {
@@ -658,27 +744,24 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                                                       : "NOT DONE ",
                        one["made_by"].get<std::string>());
         }
-        fmt::print("{} of {} records give the same with gumcert {} (commit {})\n", same, numbers.size(), k_version,
-                   k_commit);
+        fmt::print("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
     }
-    return same == numbers.size() ? done : negative_answer;
+    return same == records.size() ? done : negative_answer;
 }
 
-/// Drafts of amendments, each in a folder of its own that is not there yet.
-void write_drafts(const std::vector<app::AffectedCertificate>& affected, const ArchiveOptions& options) {
+/// Writes drafts of amendments, each into a folder of its own that is not there yet.
+void write_draft(const std::vector<app::OutputFile>& draft, const ArchiveOptions& options) {
     const fs::path output = options.output;
+    const fs::path own = output / *draft.front().path.begin();
+    std::error_code error;
+    if (fs::exists(own, error) || error) {
+        refuse_usage(own.string(), "is there already", "a draft is written into a new folder",
+                     "choose another folder with -o");
+    }
     std::map<fs::path, std::vector<app::OutputFile>> by_folder;
-    for (const app::AffectedCertificate& one : affected) {
-        for (const app::OutputFile& file : one.draft) {
-            const fs::path folder = output / *file.path.begin();
-            std::error_code error;
-            if (fs::exists(folder, error) || error) {
-                refuse_usage(folder.string(), "is there already", "a draft is written into a new folder",
-                             "choose another folder with -o");
-            }
-            const fs::path place = output / file.path;
-            by_folder[place.parent_path()].push_back({place, file.bytes});
-        }
+    for (const app::OutputFile& file : draft) {
+        const fs::path place = output / file.path;
+        by_folder[place.parent_path()].push_back({place, file.bytes});
     }
     for (const auto& [folder, files] : by_folder) {
         app::write_files(files, {options.store}, {}, false);
@@ -697,8 +780,8 @@ void require_query(const ArchiveOptions& options) {
             refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
         }
     }
-    if (!options.output.empty() && options.register_folder.empty()) {
-        refuse_usage("archive affected", "-o without --register",
+    if ((!options.output.empty() || options.shared) && options.register_folder.empty()) {
+        refuse_usage("archive affected", options.shared ? "--shared without --register" : "-o without --register",
                      "amendments are drafted of certificates that are calculated again",
                      "name the folder of the laboratory with the corrected standard");
     }
@@ -710,6 +793,7 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     if (!options.register_folder.empty()) {
         corrected = app::read_file(fs::path(options.register_folder) / "standards" / (options.source + ".json"));
     }
+    const std::unique_ptr<archive::WorkTable> table = options.shared ? opened_work(options) : nullptr;
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
     ProgressLine progress(!common.quiet);
@@ -717,26 +801,34 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     const app::WrongStandard standard{.name = options.source, .since = options.since, .until = options.until};
     const auto threads = static_cast<unsigned>(common.threads);
     std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell);
+    std::string work;
     if (!options.register_folder.empty()) {
-        std::set<std::string> used;
-        for (const archive::ListedCertificate& one : archive.list()) {
-            used.insert(one.number);
+        const app::Correction correction{
+            .standard = options.source,
+            .corrected = corrected,
+            .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
+            .templates = templates_folder(options.share)};
+        if (table) {
+            const app::WorkToShare shared = app::work_of(affected, correction, program_name());
+            app::ArchiveWorker(archive, *table, threads, correction.templates).finish(shared, wait_for_others, tell);
+            app::take_results(affected, *table, shared);
+            work = shared.work.id;
+        } else {
+            app::recalculate(affected, archive, correction, threads, tell);
         }
-        app::recalculate(
-            affected,
-            {.standard = options.source,
-             .corrected = corrected,
-             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
-             .templates = templates_folder(options.share)},
-            threads, [&](const std::string& number) { return !used.contains(number); }, tell);
+        app::draft_amendments(affected, archive, correction, [&](const std::vector<app::OutputFile>& draft) {
+            if (!options.output.empty()) {
+                write_draft(draft, options);
+            }
+        });
     }
     progress.clear();
-    if (!options.output.empty()) {
-        write_drafts(affected, options);
-    }
     write_to_stdout(options.format == "json"  ? app::affected_json(affected, standard)
                     : options.format == "csv" ? app::affected_csv(affected)
                                               : app::affected_text(affected));
+    if (!work.empty()) {
+        table->remove(work);  // what is told need not be kept
+    }
     return affected.empty() ? done : negative_answer;
 }
 
@@ -748,7 +840,7 @@ ExitCode show_statistics(const ArchiveOptions& options, const CommonOptions&) {
     return done;
 }
 
-constexpr std::array<Action, 19> k_actions = {{
+constexpr std::array<Action, 20> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
     {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
     {"number", 0, 0, "nothing more", " store by why key format amend ", take_number},
@@ -759,16 +851,18 @@ constexpr std::array<Action, 19> k_actions = {{
     {"amend", 1, k_any, "the record of the amendment and its documents", " store by why key format trust ",
      amend_certificate},
     {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
-    {"list", 0, 0, "nothing more", " store format ", list_certificates},
+    {"list", 0, k_any, "words to search for, or nothing for all", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
     {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
     {"head", 0, 0, "nothing more", " store output sign since ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
     {"migrate", 0, 0, "nothing more", " store to format ", migrate},
-    {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format ", replay},
+    {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format shared ", replay},
+    {"worker", 0, 0, "nothing more", " store wait ", work_for_others},
     {"statistics", 0, 0, "nothing more", " store format ", show_statistics},
-    {"affected", 0, 0, "nothing more", " store why format csv output source since until register ", find_affected},
+    {"affected", 0, 0, "nothing more", " store why format csv output source since until register shared ",
+     find_affected},
 }};
 
 struct GivenOption {
@@ -778,7 +872,7 @@ struct GivenOption {
 };
 
 void require_options(const Action& action, const ArchiveOptions& o) {
-    const std::array<GivenOption, 19> given = {{{"store", "--store", !o.store.empty()},
+    const std::array<GivenOption, 21> given = {{{"store", "--store", !o.store.empty()},
                                                 {"to", "--to", !o.to.empty()},
                                                 {"by", "--by", !o.by.empty()},
                                                 {"why", "--why", !o.why.empty()},
@@ -796,7 +890,9 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                                                 {"source", "--source", !o.source.empty()},
                                                 {"since", "--since", !o.since.empty()},
                                                 {"until", "--until", !o.until.empty()},
-                                                {"register", "--register", !o.register_folder.empty()}}};
+                                                {"register", "--register", !o.register_folder.empty()},
+                                                {"shared", "--shared", o.shared},
+                                                {"wait", "--wait-for-work", o.wait}}};
     const auto takes = [&](const char* word) {
         return action.takes.find(" " + std::string(word) + " ") != std::string_view::npos;
     };

@@ -16,6 +16,8 @@ struct ArchiveOptions {
     std::string source, since, until, register_folder;  ///< of affected
     std::vector<std::string> heads, persons;
     bool one_pair_of_eyes = false;
+    bool shared = false;  ///< of affected and replay: with all workers of the archive
+    bool wait = false;    ///< of worker: for work that is not there yet
 };
 
 /// The actions, in the order of --help.

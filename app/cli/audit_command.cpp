@@ -117,16 +117,32 @@ std::string rendered(const reports::AuditView& view, const std::string& form, co
     return reports::audit_as_text(view, reports::read_wording(assets), options.verbose);
 }
 
+/// Why a file was refused, as it is told on the terminal.
+std::string reason_of(const std::exception_ptr& failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const gum::DiagnosedError& error) {
+        const std::size_t more = error.diagnostics().size() - 1;
+        return gum::message(error.diagnostics().front()) +
+               (more == 0 ? "" : " (and " + std::to_string(more) + " more)");
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
 }  // namespace
 
 ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& options, const CommonOptions& common) {
     const std::vector<fs::path> named(files.begin(), files.end());
-    const std::vector<app::FileToAudit> files_to_audit = app::files_to_audit(named, options.laboratory);
+    const app::FilesToAudit files_to_audit = app::files_to_audit(named, options.laboratory);
     std::vector<fs::path> all;
-    for (const app::FileToAudit& one : files_to_audit) {
+    std::vector<reports::UnauditedFile> unaudited;
+    for (const app::FileToAudit& one : files_to_audit.files) {
         all.push_back(one.file);
         for (const fs::path& job : one.jobs) {
             all.push_back(job);
+            unaudited.push_back(
+                {.kind = reports::UnauditedFile::Kind::in_record, .file = job.string(), .because = one.file.string()});
             print_message({.code = "GC-AUDIT-0013",
                            .where = job.string(),
                            .what = "has no audit of its own: " + one.file.string() + " was made of it",
@@ -135,6 +151,9 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
                            .severity = gum::Severity::note},
                           common);
         }
+    }
+    for (const fs::path& file : files_to_audit.of_other_kinds) {
+        unaudited.push_back({.kind = reports::UnauditedFile::Kind::other_kind, .file = file.string()});
     }
     const Destination to = destination_of(options, named.front());
     std::vector<fs::path> outputs;
@@ -154,32 +173,33 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     const std::vector<certificate::Waiver> waivers =
         options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
     ExitCode code = done;
-    std::vector<audit::AuditReport> reports;
-    reports.reserve(files_to_audit.size());
-    std::vector<std::string> digests;
+    std::vector<reports::AuditedFileView> views;
+    views.reserve(files_to_audit.files.size());
     ProgressLine progress(!common.quiet);
-    for (app::AuditAttempt& attempt : app::audit_files(
-             files_to_audit, static_cast<unsigned>(common.threads), templates,
-             [&](const std::string& text) { progress(text); }, waivers, options.laboratory)) {
+    std::vector<app::AuditAttempt> attempts = app::audit_files(
+        files_to_audit.files, static_cast<unsigned>(common.threads), templates,
+        [&](const std::string& text) { progress(text); }, waivers, options.laboratory);
+    for (std::size_t i = 0; i < attempts.size(); ++i) {
+        app::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
+                unaudited.push_back(
+                    {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
                 std::rethrow_exception(attempt.failure);
             }
-            const bool critical = attempt.audited->report.has_critical();
-            reports.push_back(std::move(attempt.audited->report));
-            digests.push_back(std::move(attempt.audited->digest));
-            return critical ? negative_answer : done;
+            views.push_back(std::move(*attempt.view));
+            return attempt.has_critical ? negative_answer : done;
         });
         code = std::max(code, one);
     }
     progress.clear();
-    if (reports.empty()) {
+    if (views.empty()) {
         return code;
     }
     const reports::TaskRunner run = [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
         app::run_in_workers(static_cast<unsigned>(common.threads), n, task);
     };
-    const reports::AuditView view = app::audit_view(reports, std::move(digests), run);
+    const reports::AuditView view = app::audit_view(std::move(views), std::move(unaudited));
     if (!to.to_stdout.empty()) {
         write_to_stdout(rendered(view, to.to_stdout, options, run));
         return code;

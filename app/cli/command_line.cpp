@@ -206,11 +206,17 @@ void add_render(CLI::App& program, Arguments& a) {
     add_document_options(command, a.documents);
     add_file(command, "--superseded-by", a.documents.superseded_by,
              "Record of the certificate that amends or replaces this one: every page is marked as superseded");
+    add_file(command, "--head", a.documents.head,
+             "Head of the archive that holds the record, as gumcert archive head writes it: certificates as HTML, PDF\n"
+             "and text print it at their end, with a QR code");
+    command.add_option("--check-at", a.documents.check_at, "Where readers can have that head checked, as an address")
+        ->type_name("TEXT");
     command.footer(
         "Example: gumcert render record.json --format pdf -o certificate.pdf\n"
         "         gumcert render record.json --format report   the internal budget report; no certificate\n"
         "         gumcert render record.json --format label    a label with a QR code\n"
         "         gumcert render record.json --format pdf --language de,en\n"
+        "         gumcert render record.json --format pdf --head head.json   docs/archive.md\n"
         "The job in the record is evaluated again first: a record that says anything else than its job gives, by one\n"
         "digit or one word, is refused. docs/adr/0027-records-are-evaluated-again.md");
 }
@@ -323,7 +329,7 @@ void add_archive(CLI::App& program, Arguments& a) {
     command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
     command.add_option("NAME", o.named,
                        "Numbers of certificates; of add and amend a record and its documents; of verify "
-                       "evidence");
+                       "evidence; of list words that number, state, time or item contain");
     add_file(command, "--store", o.store,
              "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
              "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");
@@ -386,6 +392,10 @@ void add_archive(CLI::App& program, Arguments& a) {
             "For affected: folder of the laboratory with the corrected standard; the certificates are calculated "
             "again")
         ->type_name("DIR");
+    command.add_flag("--shared", o.shared,
+                     "For affected and replay of an archive on a server: all machines that run gumcert archive worker "
+                     "help");
+    command.add_flag("--wait-for-work", o.wait, "For worker: wait for work, and do not end");
     add_share(command, o.share);
     command.footer(
         "Example: gumcert archive init --store lab.archive --by \"A. Keeper\" --numbering EX-YYYY-####\n"
@@ -403,7 +413,8 @@ void add_archive(CLI::App& program, Arguments& a) {
         "verify computes every hash again, backup copies while others write, and verifies the copy; migrate copies "
         "into\n"
         "an archive of either kind, with the same entries, hashes and heads; replay evaluates archived records with\n"
-        "this program, and reports what differs; statistics counts certificates by month, method and person, and "
+        "this program, and reports what differs; worker does on any machine what affected and replay share;\n"
+        "statistics counts certificates by month, method and person, and "
         "charts\n"
         "E_n and repeatability; affected finds the certificates that rest on a standard, calculates\n"
         "them again, and drafts amendments. Exit code 1 where verify, replay or affected finds\n"

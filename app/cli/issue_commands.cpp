@@ -24,6 +24,7 @@
 #include "app/read_file.h"
 #include "app/recompute_record.h"
 #include "app/unprintable_characters.h"
+#include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/gates/printed_languages.h"
 #include "reports/audit/audit_html.h"
@@ -36,6 +37,17 @@ namespace gumcert::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+std::optional<reports::HeadToPrint> head_to_print(const DocumentOptions& options) {
+    if (options.head.empty()) {
+        return std::nullopt;
+    }
+    const archive::Head head = archive::head_from_json(app::read_file(options.head), options.head);
+    return reports::HeadToPrint{.entries = std::to_string(head.size),
+                                .digits = archive::short_form(head),
+                                .mark = archive::mark_of(head),
+                                .check_at = options.check_at};
+}
 
 /// What all documents of one command are made with. The signer is looked at first of all; templates when the first
 /// document is made, or before an evaluation.
@@ -51,6 +63,9 @@ public:
         if (!asked_.superseded_by.empty()) {
             files.emplace_back(asked_.superseded_by);
         }
+        if (!asked_.head.empty()) {
+            files.emplace_back(asked_.head);
+        }
         add_program_files(files, asked_.share);
         return files;
     }
@@ -61,6 +76,7 @@ public:
         options_.signer = signer_.signer.get();
         if (with_templates && !worker_) {
             options_.assets = render_assets(asked_.share, asked_.languages);
+            options_.assets.head = head_to_print(asked_);
             options_.signing_time = seconds_now();
             worker_ = std::make_unique<reports::PdfWorker>(options_.assets);
             options_.worker = worker_.get();
@@ -516,6 +532,14 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
                         const DocumentOptions& options, const CommonOptions& common) {
     const bool several = records.size() > 1;
     const bool to_stdout = options.output == "-";
+    if (options.head.empty() && !options.check_at.empty()) {
+        refuse_usage("--check-at", "without --head", "it says where the head of the archive can be checked",
+                     "name the head, or leave it out");
+    }
+    if (!options.head.empty() && format != "pdf" && format != "html" && format != "text") {
+        refuse_usage("--head", "--format " + format, "certificates as HTML, PDF and text print a head of the archive",
+                     "leave it out");
+    }
     if (to_stdout && several) {
         refuse_usage("-o -", "several records", "standard output takes one document", "render them one by one");
     }

@@ -18,6 +18,8 @@ struct DocumentOptions {
     std::string laboratory;              ///< --laboratory
     std::string signer;                  ///< --sign: signer description; "" = not signed
     std::string superseded_by;           ///< --superseded-by: record of the later certificate; "" = none
+    std::string head;                    ///< --head: head of an archive that documents print; "" = none
+    std::string check_at;                ///< --check-at: where it can be checked, for the reader
     std::string covariance = "auto";     ///< --covariance: a word of reports::covariance_form()
 };
 

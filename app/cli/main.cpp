@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,6 +29,7 @@
 #include "app/cli/share_folder.h"
 #include "app/cli/study_commands.h"
 #include "app/cli/terminal.h"
+#include "archive/store/open_store.h"
 
 namespace {
 
@@ -37,23 +40,48 @@ std::string version_text() {
     return fmt::format("gumcert {}\ncommit {}\nsha256 {}", k_version, k_commit, executable_digest());
 }
 
+/// The files that are named, and those of folders that are.
+std::vector<std::filesystem::path> files_in(const std::vector<std::string>& named) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> files;
+    for (const std::string& name : named) {
+        std::error_code error;
+        if (!fs::is_directory(name, error)) {
+            files.emplace_back(name);
+            continue;
+        }
+        fs::recursive_directory_iterator at(name, fs::directory_options::skip_permission_denied, error);
+        for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+            files.push_back(at->path());
+        }
+    }
+    return files;
+}
+
 /// Commands that read files of others, and nothing else that takes long, have walls of their own.
 CommonOptions with_walls_of_command(const Arguments& a) {
     if (a.command == "import") {
         return with_walls(a.common, {a.file});
     }
     const bool reads_certificates = a.command == "check" && !a.files.empty() && a.files.front() == "dcc";
-    const bool audits_foreign =
-        a.command == "audit" && std::none_of(a.files.begin(), a.files.end(), [](const auto& file) {
-            return std::filesystem::path(file).extension() == ".json";  // a record, whose evaluation may take long
+    if (a.command == "audit") {
+        const std::vector<std::filesystem::path> files = files_in(a.files);
+        const bool evaluates = std::any_of(files.begin(), files.end(), [](const std::filesystem::path& file) {
+            return file.extension() == ".json";  // a job or record, whose evaluation may take long
         });
-    const bool has_walls = a.command == "verify" || reads_certificates || audits_foreign;
-    return has_walls ? with_walls(a.common, {a.files.begin(), a.files.end()}) : a.common;
+        return evaluates ? a.common : with_walls(a.common, files);
+    }
+    return a.command == "verify" || reads_certificates ? with_walls(a.common, {a.files.begin(), a.files.end()})
+                                                       : a.common;
 }
 
 ExitCode dispatch(int argc, char** argv, Arguments& a) {
     try {
-        if (const std::optional<ExitCode> ended = read_command_line(argc, argv, version_text, a)) {
+        const std::optional<ExitCode> ended = read_command_line(argc, argv, version_text, a);
+        for (char* const word : std::span(argv, static_cast<std::size_t>(argc))) {
+            archive::hide_passwords({word, std::strlen(word)});
+        }
+        if (ended) {
             return *ended;
         }
     } catch (const std::invalid_argument& wrong) {

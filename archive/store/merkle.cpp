@@ -1,7 +1,7 @@
 #include "archive/store/merkle.h"
 
 #include <bit>
-#include <cstdint>
+#include <utility>
 
 #include "encoding/sha2.h"
 
@@ -20,15 +20,6 @@ std::string node_hash(const std::string& left, const std::string& right) {
 /// The largest power of two below n, which is at least 2.
 std::size_t left_part(std::size_t n) {
     return std::bit_floor(n - 1);
-}
-
-/// Root of `count` leaves from `first` on.
-std::string subtree(const std::vector<std::string>& leaves, std::size_t first, std::size_t count) {
-    if (count == 1) {
-        return leaves[first];
-    }
-    const std::size_t left = left_part(count);
-    return node_hash(subtree(leaves, first, left), subtree(leaves, first + left, count - left));
 }
 
 /// Place of a node on its way from a leaf to the root, beside that of the last one of its row (RFC 9162, 2.1.3.2).
@@ -61,11 +52,31 @@ private:
 }  // namespace
 
 void MerkleTree::add(const std::string& entry) {
-    leaves_.push_back(leaf_hash(entry));
+    std::string hash = leaf_hash(entry);
+    for (std::size_t row = 0;; ++row) {
+        if (row == rows_.size()) {
+            rows_.emplace_back();
+        }
+        rows_[row].push_back(std::move(hash));
+        const std::size_t count = rows_[row].size();
+        if (count % 2 == 1) {
+            return;
+        }
+        hash = node_hash(rows_[row][count - 2], rows_[row][count - 1]);
+    }
+}
+
+/// Root of `count` leaves from `first` on; the parts into which RFC 6962 divides a tree begin at multiples of their size.
+std::string MerkleTree::subtree(std::size_t first, std::size_t count) const {
+    if (std::has_single_bit(count)) {
+        return rows_[static_cast<std::size_t>(std::countr_zero(count))][first / count];
+    }
+    const std::size_t left = left_part(count);
+    return node_hash(subtree(first, left), subtree(first + left, count - left));
 }
 
 std::string MerkleTree::root(std::size_t size) const {
-    return size == 0 ? encoding::sha256_bytes("") : subtree(leaves_, 0, size);
+    return size == 0 ? encoding::sha256_bytes("") : subtree(0, size);
 }
 
 std::vector<std::string> MerkleTree::inclusion_proof(std::size_t index, std::size_t size) const {
@@ -74,10 +85,10 @@ std::vector<std::string> MerkleTree::inclusion_proof(std::size_t index, std::siz
     while (size > 1) {
         const std::size_t left = left_part(size);
         if (index < left) {
-            from_the_top.push_back(subtree(leaves_, first + left, size - left));
+            from_the_top.push_back(subtree(first + left, size - left));
             size = left;
         } else {
-            from_the_top.push_back(subtree(leaves_, first, left));
+            from_the_top.push_back(subtree(first, left));
             first += left;
             index -= left;
             size -= left;
@@ -110,10 +121,10 @@ std::vector<std::string> MerkleTree::consistency_proof(std::size_t earlier, std:
     while (earlier < size) {
         const std::size_t left = left_part(size);
         if (earlier <= left) {
-            from_the_top.push_back(subtree(leaves_, first + left, size - left));
+            from_the_top.push_back(subtree(first + left, size - left));
             size = left;
         } else {
-            from_the_top.push_back(subtree(leaves_, first, left));
+            from_the_top.push_back(subtree(first, left));
             first += left;
             earlier -= left;
             size -= left;
@@ -121,7 +132,7 @@ std::vector<std::string> MerkleTree::consistency_proof(std::size_t earlier, std:
         }
     }
     if (!is_known) {
-        from_the_top.push_back(subtree(leaves_, first, size));
+        from_the_top.push_back(subtree(first, size));
     }
     return {from_the_top.rbegin(), from_the_top.rend()};
 }

@@ -13,8 +13,8 @@ public:
     /// \param entry  what the leaf stands for; here the hash of an entry of the log, 32 bytes
     void add(const std::string& entry);
 
-    [[nodiscard]] std::size_t size() const { return leaves_.size(); }
-    /// Root of the first leaves, 32 bytes; of none the SHA-256 of nothing.
+    [[nodiscard]] std::size_t size() const { return rows_.empty() ? 0 : rows_.front().size(); }
+    /// Root of the first leaves, 32 bytes; of none the SHA-256 of nothing. Takes as many hashes as the tree is high.
     /// \param size  at most size()
     [[nodiscard]] std::string root(std::size_t size) const;
     [[nodiscard]] std::string root() const { return root(size()); }
@@ -26,7 +26,10 @@ public:
     [[nodiscard]] std::vector<std::string> consistency_proof(std::size_t earlier, std::size_t size) const;
 
 private:
-    std::vector<std::string> leaves_;  // hashes, 32 bytes each
+    /// Hashes, 32 bytes each: of the leaves, of each two of them, of each four …
+    std::vector<std::vector<std::string>> rows_;
+
+    [[nodiscard]] std::string subtree(std::size_t first, std::size_t count) const;
 };
 
 /// The root that a leaf and its proof give (RFC 9162, 2.1.3.2).

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "archive/store/entry.h"
@@ -10,6 +11,10 @@ namespace gumcert::archive {
 
 /// Whether an address is one of PostgreSQL, "postgresql://…" or "postgres://…"; every other one is a file of SQLite.
 [[nodiscard]] bool is_postgresql(const std::string& address);
+
+/// Overwrites the passwords of an address of PostgreSQL with x, wherever in a word of the command line it begins: other
+/// users of the machine can read those words. Every other word stays as it is.
+void hide_passwords(std::span<char> word);
 
 /// A new archive with its first entry, and with what `fill` adds: all of it or nothing.
 /// \throws gum::StorageError  GC-ARCHIVE-0002 where it is there already, and others
@@ -22,7 +27,8 @@ namespace gumcert::archive {
 
 /// A new archive with the log and the contents of another one: the same entries with the same hashes, so that heads and
 /// evidence hold for both.
+/// \param finish  adds what lists say (archive::list_again)
 /// \throws gum::StorageError  as both of them
-[[nodiscard]] std::unique_ptr<Store> replay_into(Store& from, const std::string& address);
+[[nodiscard]] std::unique_ptr<Store> replay_into(Store& from, const std::string& address, const Fill& finish);
 
 }  // namespace gumcert::archive

@@ -24,6 +24,13 @@ CREATE TABLE gumcert_archive.log(
  prev bytea NOT NULL CHECK(length(prev) = 32),
  hash bytea NOT NULL CHECK(length(hash) = 32)
 );
+CREATE TABLE gumcert_archive.listed(
+ certificate text COLLATE "C" PRIMARY KEY,
+ state text COLLATE "C" NOT NULL,
+ since text COLLATE "C" NOT NULL,
+ item text COLLATE "C" NOT NULL,
+ record text COLLATE "C" NOT NULL
+);
 CREATE INDEX log_by_certificate ON gumcert_archive.log(certificate, kind, seq);
 CREATE INDEX log_by_kind ON gumcert_archive.log(kind, seq);
 CREATE UNIQUE INDEX log_by_request ON gumcert_archive.log(request_key) WHERE request_key <> '';

@@ -114,6 +114,14 @@ public:
                                 {{content.sha256}, bytes_of(content.bytes)});
     }
 
+    void list(const ListedCertificate& one) override {
+        (void)connection_.query(
+            "INSERT INTO gumcert_archive.listed VALUES($1, $2, $3, $4, $5) ON CONFLICT (certificate) DO UPDATE SET "
+            "state "
+            "= excluded.state, since = excluded.since, item = excluded.item, record = excluded.record",
+            {{one.number}, {one.state}, {one.since}, {one.item}, {one.record}});
+    }
+
     [[nodiscard]] bool has(const std::string& sha256) override {
         return connection_.query("SELECT 1 FROM gumcert_archive.content WHERE sha256 = $1", {{sha256}}).size() > 0;
     }
@@ -151,16 +159,15 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<LogEntry> newest_entries(const std::vector<std::string>& kinds) override {
-        std::string list;
-        std::vector<Value> values;
-        for (const std::string& kind : kinds) {
-            values.push_back({kind});
-            list += (list.empty() ? "$" : ", $") + std::to_string(values.size());
+    [[nodiscard]] std::vector<ListedCertificate> listed() override {
+        const Rows rows = connection_.query(
+            "SELECT certificate, state, since, item, record FROM gumcert_archive.listed ORDER BY certificate");
+        std::vector<ListedCertificate> certificates;
+        for (int row = 0; row < rows.size(); ++row) {
+            certificates.push_back({rows.column(row, 0), rows.column(row, 1), rows.column(row, 2), rows.column(row, 3),
+                                    rows.column(row, 4)});
         }
-        return all_of("WHERE seq IN (SELECT max(seq) FROM gumcert_archive.log WHERE certificate <> '' AND kind IN (" +
-                          list + ") GROUP BY certificate) ORDER BY certificate",
-                      values);
+        return certificates;
     }
 
     void each_entry(const std::function<void(const LogEntry&)>& visit) override {
@@ -213,8 +220,13 @@ public:
     void copy_to(const std::filesystem::path& file) override {
         {
             std::unique_ptr<Store> copy;
-            replay(*this,
-                   [&](const LogEntry& first, const Fill& fill) { copy = create_sqlite_store(file, first, fill); });
+            replay(
+                *this, [&](const LogEntry& first, const Fill& fill) { copy = create_sqlite_store(file, first, fill); },
+                [&](Store& to) {
+                    for (const ListedCertificate& one : listed()) {
+                        to.list(one);
+                    }
+                });
         }
         close_sqlite_file(file);
     }
@@ -308,7 +320,7 @@ std::unique_ptr<Store> open_postgresql_store(const std::string& address, Access 
 }
 
 std::string postgresql_schema_digest() {
-    return "6cea3206e292992d43a57573a8ea61249b2e8e617d8dcd60c7c52c772ee40c56";
+    return "bf880ee61ceb4ab975b5b479a80cae0623f022b1b734259cd47ca015b8aea774";
 }
 
 }  // namespace gumcert::archive

@@ -28,7 +28,7 @@ LogEntry first_entry_of(Store& store) {
 
 }  // namespace
 
-void replay(Store& from, const std::function<void(const LogEntry&, const Fill&)>& create) {
+void replay(Store& from, const std::function<void(const LogEntry&, const Fill&)>& create, const Fill& finish) {
     from.read([&] {
         const LogEntry first = first_entry_of(from);
         create(first, [&](Store& to) {
@@ -39,6 +39,7 @@ void replay(Store& from, const std::function<void(const LogEntry&, const Fill&)>
                     to.append(entry);
                 }
             });
+            finish(to);
         });
     });
 }

@@ -26,6 +26,13 @@ CREATE TABLE log(
  prev BLOB NOT NULL CHECK(length(prev) = 32),
  hash BLOB NOT NULL CHECK(length(hash) = 32)
 ) STRICT;
+CREATE TABLE listed(
+ certificate TEXT PRIMARY KEY NOT NULL,
+ state TEXT NOT NULL,
+ since TEXT NOT NULL,
+ item TEXT NOT NULL,
+ record TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
 CREATE INDEX log_by_certificate ON log(certificate, kind, seq);
 CREATE INDEX log_by_kind ON log(kind, seq);
 CREATE UNIQUE INDEX log_by_request ON log(request_key) WHERE request_key <> '';

@@ -1,5 +1,7 @@
 #include "archive/store/sqlite_statement.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <new>
 #include <utility>
 
@@ -15,11 +17,31 @@ namespace {
         gum::Diagnostic{.code = code, .where = name, .what = std::move(what), .rule = rule, .action = action});
 }
 
+/// The result by its class; what the system said of files that cannot be opened or written tells more.
+int class_of(sqlite3* database, int result) {
+    const int found = result & 0xFF;
+    if (database == nullptr || (found != SQLITE_IOERR && found != SQLITE_CANTOPEN)) {
+        return found;
+    }
+    switch (sqlite3_system_errno(database)) {
+        case ENOSPC:
+        case EDQUOT:
+            return SQLITE_FULL;
+        case EIO:
+            return SQLITE_IOERR;
+        default:
+            return found;
+    }
+}
+
 }  // namespace
 
 void refuse_sqlite(sqlite3* database, int result, const std::string& name) {
-    const std::string what = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(result);
-    switch (result & 0xFF) {
+    std::string what = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(result);
+    // SQLite quotes what stands in the file, which may come from anywhere.
+    std::replace_if(
+        what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7F'; }, ' ');
+    switch (class_of(database, result)) {
         case SQLITE_NOMEM:
             throw std::bad_alloc();  // says nothing about the store
         case SQLITE_BUSY:
@@ -45,8 +67,10 @@ void refuse_sqlite(sqlite3* database, int result, const std::string& name) {
             fail("GC-ARCHIVE-0034", name, what, "the log and the contents only grow, and their order is kept",
                  "nothing was changed; see docs/archive.md for what can be done instead");
         default:
-            fail("GC-ARCHIVE-0008", name, what, "the store answers without trouble",
-                 "look after disk and file, then try again; the request was not carried out");
+            fail(
+                "GC-ARCHIVE-0008", name, what, "the store answers without trouble",
+                "look after disk and file, then try again; where COMMIT failed, the same request key tells whether the "
+                "request was carried out");
     }
 }
 

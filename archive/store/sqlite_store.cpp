@@ -1,10 +1,13 @@
 #include "archive/store/sqlite_store.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/vfs.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <exception>
 #include <new>
 #include <system_error>
@@ -123,6 +126,43 @@ std::vector<std::string> schema_lines(sqlite3* database, const std::string& name
     return lines;
 }
 
+void require_memory() {
+    constexpr sqlite3_uint64 k_enough = 4U << 20U;
+    void* const some = sqlite3_malloc64(k_enough);
+    sqlite3_free(some);
+    if (some == nullptr) {
+        throw std::bad_alloc();
+    }
+}
+
+/// Reads a file that SQLite has open, by its own calls, from the first to the last byte.
+/// \param which  SQLITE_FCNTL_FILE_POINTER, or SQLITE_FCNTL_JOURNAL_POINTER: the write-ahead log
+/// \throws gum::StorageError  GC-ARCHIVE-0008 where the disk does not answer
+void read_through(sqlite3* database, int which, const std::string& name) {
+    sqlite3_file* file = nullptr;
+    (void)sqlite3_file_control(database, "main", which, static_cast<void*>(&file));
+    if (file == nullptr || file->pMethods == nullptr) {
+        return;  // there is no such file
+    }
+    sqlite3_int64 size = 0;
+    int result = file->pMethods->xFileSize(file, &size);
+    std::vector<char> piece(1U << 16U);
+    for (sqlite3_int64 at = 0; result == SQLITE_OK && at < size; at += static_cast<sqlite3_int64>(piece.size())) {
+        const auto length = std::min<sqlite3_int64>(size - at, static_cast<sqlite3_int64>(piece.size()));
+        result = file->pMethods->xRead(file, piece.data(), static_cast<int>(length), at);
+    }
+    if (result != SQLITE_OK) {
+        refuse_sqlite(nullptr, result, name);
+    }
+}
+
+/// \return whether this program has made the file
+bool make_file(const fs::path& file) {
+    constexpr mode_t k_rights = 0644;  // as SQLite makes it
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, k_rights);
+    return descriptor >= 0 && ::close(descriptor) == 0;
+}
+
 class SqliteStore : public Store {
 public:
     SqliteStore(fs::path file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
@@ -146,6 +186,11 @@ public:
     void put(const Content& content) override {
         Statement insert = statement("INSERT INTO content VALUES(?1, ?2)");
         insert.text(content.sha256).bytes(content.bytes).run();
+    }
+
+    void list(const ListedCertificate& one) override {
+        Statement insert = statement("INSERT OR REPLACE INTO listed VALUES(?1, ?2, ?3, ?4, ?5)");
+        insert.text(one.number).text(one.state).text(one.since).text(one.item).text(one.record).run();
     }
 
     [[nodiscard]] bool has(const std::string& sha256) override {
@@ -185,23 +230,13 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<LogEntry> newest_entries(const std::vector<std::string>& kinds) override {
-        std::string list;
-        for (std::size_t i = 0; i < kinds.size(); ++i) {
-            list += (i == 0 ? "?" : ", ?") + std::to_string(i + 1);
-        }
-        Statement rows = statement(select_entries(("WHERE seq IN (SELECT max(seq) FROM log WHERE certificate <> '' AND "
-                                                   "kind IN (" +
-                                                   list + ") GROUP BY certificate) ORDER BY certificate")
-                                                      .c_str()));
-        for (const std::string& kind : kinds) {
-            rows.text(kind);
-        }
-        std::vector<LogEntry> entries;
+    [[nodiscard]] std::vector<ListedCertificate> listed() override {
+        std::vector<ListedCertificate> certificates;
+        Statement rows = statement("SELECT certificate, state, since, item, record FROM listed ORDER BY certificate");
         while (rows.next()) {
-            entries.push_back(entry_of(rows));
+            certificates.push_back({rows.column(0), rows.column(1), rows.column(2), rows.column(3), rows.column(4)});
         }
-        return entries;
+        return certificates;
     }
 
     void each_entry(const std::function<void(const LogEntry&)>& visit) override {
@@ -225,6 +260,7 @@ private:
     fs::path file_;
     Database database_;
 
+    [[nodiscard]] std::vector<std::string> integrity_lines();
     [[nodiscard]] std::vector<std::string> integrity_problems();
     [[nodiscard]] Statement statement(std::string_view sql) { return {database_.get(), sql, name()}; }
 
@@ -241,7 +277,7 @@ private:
     }
 };
 
-std::vector<std::string> SqliteStore::integrity_problems() {
+std::vector<std::string> SqliteStore::integrity_lines() {
     std::vector<std::string> problems;
     Statement integrity = statement("PRAGMA integrity_check(20)");
     while (integrity.next()) {
@@ -252,18 +288,30 @@ std::vector<std::string> SqliteStore::integrity_problems() {
     return problems;
 }
 
+/// Where memory runs out, or the disk does not answer, SQLite tells of a page that it could not get, as of a damaged one.
+/// Damage is found again, with the same words, while there is memory and all of the file can be read.
+std::vector<std::string> SqliteStore::integrity_problems() {
+    constexpr int k_looks = 4;
+    std::vector<std::string> problems = integrity_lines();
+    for (int look = 1; look < k_looks && !problems.empty(); ++look) {
+        require_memory();
+        read_through(database_.get(), SQLITE_FCNTL_FILE_POINTER, name());
+        read_through(database_.get(), SQLITE_FCNTL_JOURNAL_POINTER, name());
+        std::vector<std::string> again = integrity_lines();
+        if (again == problems) {
+            return problems;
+        }
+        problems = std::move(again);
+    }
+    if (!problems.empty()) {
+        refuse_store("GC-ARCHIVE-0008", file_, "is another one each time that it is read",
+                     "the store answers without trouble", "look after disk and file, then try again");
+    }
+    return problems;
+}
+
 std::vector<std::string> SqliteStore::own_problems() {
     std::vector<std::string> problems = integrity_problems();
-    // Where memory runs out, SQLite tells of a page that it could not get, as of a damaged one. Damage is found again, with
-    // the same words, while there is memory.
-    if (!problems.empty()) {
-        constexpr sqlite3_uint64 k_enough = 4U << 20U;
-        void* const some = sqlite3_malloc64(k_enough);
-        sqlite3_free(some);
-        if (some == nullptr || integrity_problems() != problems) {
-            throw std::bad_alloc();
-        }
-    }
     Statement keys = statement("PRAGMA foreign_key_check");
     while (keys.next()) {
         problems.push_back("a row of " + keys.column(0) + " names a content that is not there");
@@ -280,6 +328,9 @@ std::vector<std::string> SqliteStore::own_problems() {
 
 void SqliteStore::copy_to(const fs::path& file) {
     const Database copy = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    // The journal of the copy is gone for good when this returns: one that a power cut brought back would have to be rolled
+    // back first, and whoever reads a backup may not write it.
+    (void)pragma(copy.get(), "synchronous = EXTRA", file.string());
     sqlite3_backup* const backup = sqlite3_backup_init(copy.get(), "main", database_.get(), "main");
     if (backup == nullptr) {
         refuse_sqlite(copy.get(), sqlite3_errcode(copy.get()), file.string());
@@ -313,24 +364,18 @@ void close_sqlite_file(const fs::path& file) {
 }
 
 std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
-    std::error_code error;
-    if (fs::exists(file, error) || error) {
-        refuse_store("GC-ARCHIVE-0002", file, error ? error.message() : "is there already",
-                     "an archive is begun in a new file", "choose another name");
-    }
     refuse_network_share(file.parent_path());
-    bool begun = false;
+    const bool made = make_file(file);
+    if (!made && errno == EEXIST) {
+        refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
+                     "choose another name");
+    }
     try {
         Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
         prepare(database.get(), file, Access::read_and_write);
         sqlite3* const raw = database.get();
         auto store = std::make_unique<SqliteStore>(file, std::move(database));
         store->write([&] {
-            if (pragma(raw, "user_version", file.string()) != "0") {  // somebody else was faster
-                refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
-                             "choose another name");
-            }
-            begun = true;
             execute(raw, k_schema, file.string());
             (void)pragma(raw, "application_id = " + std::to_string(k_application_id), file.string());
             (void)pragma(raw, "user_version = " + std::to_string(k_schema_version), file.string());
@@ -341,9 +386,10 @@ std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry&
         });
         return store;
     } catch (...) {
-        if (begun) {  // by this program, and not finished
-            for (const char* const ending : {"", "-wal", "-shm"}) {
-                fs::remove(file.string() + ending, error);
+        if (made) {  // and not finished
+            std::error_code ignored;
+            for (const char* const ending : {"", "-wal", "-shm", "-journal"}) {
+                fs::remove(file.string() + ending, ignored);
             }
         }
         throw;

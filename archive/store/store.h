@@ -19,8 +19,16 @@ struct Content {
     std::string bytes;
 };
 
-/// Where an archive is kept: a log to which entries are added, and contents under their hashes. Nothing is changed or
-/// removed. What entries mean, and their hashes, is made above it, so that every store holds the same bytes.
+/// A certificate as lists show it. It stands in a table of its own, so that a list need not read the log, and says nothing
+/// that the log does not say: it is made of the entries above the store, and verify_store() makes it again.
+struct ListedCertificate {
+    std::string number, state, since, item, record;
+
+    friend bool operator==(const ListedCertificate&, const ListedCertificate&) = default;
+};
+
+/// Where an archive is kept: a log to which entries are added, and contents under their hashes. Nothing of these is changed
+/// or removed. What entries mean, and their hashes, is made above it, so that every store holds the same bytes.
 ///
 /// Every function throws gum::StorageError, GC-ARCHIVE-0001 to -0010 and -0034, where the store has trouble.
 class Store {
@@ -41,6 +49,8 @@ public:
     // Inside of write() only.
     virtual void append(const LogEntry& entry) = 0;
     virtual void put(const Content& content) = 0;  ///< \pre has(content.sha256) is false
+    /// What lists say of a certificate from now on.
+    virtual void list(const ListedCertificate& certificate) = 0;
 
     [[nodiscard]] virtual bool has(const std::string& sha256) = 0;
     [[nodiscard]] virtual std::optional<std::string> content(const std::string& sha256) = 0;
@@ -50,8 +60,8 @@ public:
     [[nodiscard]] virtual std::vector<LogEntry> entries_of(const std::string& certificate) = 0;
     /// Of one kind, the newest first, until `more` returns false.
     virtual void entries_of_kind(const std::string& kind, const std::function<bool(const LogEntry&)>& more) = 0;
-    /// The newest entry of each certificate, of some kinds, by certificate.
-    [[nodiscard]] virtual std::vector<LogEntry> newest_entries(const std::vector<std::string>& kinds) = 0;
+    /// All certificates that list() was told of, by number.
+    [[nodiscard]] virtual std::vector<ListedCertificate> listed() = 0;
     /// All, in the order of the store, which is that of seq.
     virtual void each_entry(const std::function<void(const LogEntry&)>& visit) = 0;
     virtual void each_content(const std::function<void(const Content&)>& visit) = 0;

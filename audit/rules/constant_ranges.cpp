@@ -55,8 +55,9 @@ const std::vector<KnownConstant> k_constants = {
 }  // namespace
 
 const ConstantRange* constant_range(const AuditedRow& row) {
+    const std::string text = text_of_row(row);
     for (const KnownConstant& constant : k_constants) {
-        if (mentions(row, constant.property) && (constant.material.empty() || mentions(row, constant.material))) {
+        if (mentions(text, constant.property) && (constant.material.empty() || mentions(text, constant.material))) {
             return &constant.range;
         }
     }

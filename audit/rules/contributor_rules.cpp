@@ -28,15 +28,32 @@ constexpr Clause k_interpolation{.text = "ANAB GD 2702", .verified = false};
 
 enum class Presence { missing, without_number, with_number };
 
-Presence presence_of(const AuditedBudget& budget, const RequiredContributor& required) {
-    Presence presence = Presence::missing;
+/// The rows of a budget with what they are called.
+struct RowWithName {
+    Presence presence;  ///< of what it stands for
+    NamedRow name;
+};
+std::vector<RowWithName> named_rows(const AuditedBudget& budget) {
+    std::vector<RowWithName> rows;
     for (const AuditedRow& row : budget.rows) {
-        const Presence of_row = row.used_u > 0.0 ? Presence::with_number : Presence::without_number;
-        if (of_row > presence && stands_for(row, required)) {
-            presence = of_row;
+        rows.push_back(
+            {.presence = row.used_u > 0.0 ? Presence::with_number : Presence::without_number, .name = NamedRow(row)});
+    }
+    return rows;
+}
+
+Presence presence_of(const std::vector<RowWithName>& rows, const RequiredContributor& required) {
+    Presence presence = Presence::missing;
+    for (const RowWithName& row : rows) {
+        if (row.presence > presence && row.name.stands_for(required)) {
+            presence = row.presence;
         }
     }
     return presence;
+}
+/// The same, where one contributor alone is asked for.
+Presence presence_of(const AuditedBudget& budget, const RequiredContributor& required) {
+    return presence_of(named_rows(budget), required);
 }
 
 bool has_row_of(const AuditedBudget& budget, std::initializer_list<Contributor> contributors) {
@@ -118,9 +135,10 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
         if (subject.budgets[i].rows.empty()) {
             continue;
         }
+        const std::vector<RowWithName> rows = named_rows(subject.budgets[i]);
         std::vector<std::string> missing, without_number;
         for (const RequiredContributor& required : asked_of(subject.budgets[i])) {
-            const Presence presence = presence_of(subject.budgets[i], required);
+            const Presence presence = presence_of(rows, required);
             if (presence == Presence::missing) {
                 missing.emplace_back(required.name);
             } else if (presence == Presence::without_number) {

@@ -208,13 +208,12 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
         if (!(student || few) || budget.coverage.truncate || !std::isfinite(outcome.nu_eff) || outcome.nu_eff < 1.0) {
             return;
         }
-        AuditedBudget as_it_is = budget, cut = budget;
-        for (AuditedBudget* one : {&as_it_is, &cut}) {
-            one->coverage.kind = CoverageRule::Kind::student_t;
-            one->coverage.probability = few ? probability_of(budget) : budget.coverage.probability;
-        }
-        cut.coverage.truncate = true;
-        const BudgetOutcome whole = evaluate(as_it_is), lower = evaluate(cut);
+        CoverageRule as_it_is = budget.coverage;
+        as_it_is.kind = CoverageRule::Kind::student_t;
+        as_it_is.probability = few ? probability_of(budget) : budget.coverage.probability;
+        CoverageRule cut = as_it_is;
+        cut.truncate = true;
+        const BudgetOutcome whole = evaluate(budget, as_it_is), lower = evaluate(budget, cut);
         if (whole.printed_U == lower.printed_U && !some_truncate) {
             return;
         }
@@ -283,9 +282,8 @@ struct ShownCoverage {
     OutcomeIntervals allowed;
 };
 ShownCoverage shown_coverage(const AuditedBudget& budget) {
-    AuditedBudget shown = budget;
-    shown.coverage = check_claims(budget).coverage;
-    return {.outcome = evaluate(shown), .allowed = outcome_intervals(shown)};
+    const CoverageRule shown = check_claims(budget).coverage;
+    return {.outcome = evaluate(budget, shown), .allowed = outcome_intervals(budget, shown)};
 }
 
 /// Whether the stated k is the used one, rounded to a whole number by more than 5 %: "2" for 2.40. K13.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/row_facts.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
@@ -168,6 +169,44 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
     });
 }
 
+/// d where a text says that something is d/√12: "0.0289 = 0.1/sqrt(12)".
+std::optional<double> step_in_words(const std::string& text) {
+    for (const std::string_view root : {"/sqrt(12)", "/ sqrt(12)", "/√12", "/ √12", "/√(12)", "/wurzel(12)"}) {
+        const std::size_t at = text.find(root);
+        const std::size_t last = at == std::string::npos || at == 0 ? at : text.find_last_not_of(' ', at - 1);
+        if (at == std::string::npos || at == 0 || last == std::string::npos) {
+            continue;
+        }
+        const std::size_t before = text.find_last_not_of("0123456789.,", last);
+        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+        if (const std::optional<StatedNumber> step = read_number(text.substr(begin, last + 1 - begin), "")) {
+            return step->value;
+        }
+    }
+    return std::nullopt;
+}
+
+/// U09 of a row that is called repeatability, and is the step of a display.
+void resolution_called_repeatability(const RowAt& at, FindingCollector& findings) {
+    const AuditedRow& row = at.is;
+    const bool has_readings = row.n || !row.readings.empty() || std::isfinite(row.used_nu);
+    const std::optional<double> step = row.contributor == Contributor::repeatability && !has_readings
+                                           ? step_in_words(in_small_letters(row.comment + " " + row.source))
+                                           : std::nullopt;
+    if (!step || !(*step > 0.0) || u_differs(row, *step / std::sqrt(12.0))) {
+        return;
+    }
+    AuditFinding finding = finding_at(at, "u",
+                                      in_words(*step, row.unit) + "/√12 is the standard uncertainty of a step of " +
+                                          in_words(*step, row.unit) +
+                                          ", and the row is called repeatability: no readings stand behind it");
+    finding.evidence = {"u = " + in_words(row.used_u, row.unit), "√12 u = " + in_words(*step, row.unit)};
+    finding.correction = "Call the row a resolution, and add the repeatability from readings, with its ν.";
+    finding.question = "From how many readings does the repeatability come?";
+    finding.contribution_missing = true;
+    findings.add(std::move(finding));
+}
+
 /// U09: d/√12, and √2 d/√12 for a difference of two readings.
 void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
@@ -179,6 +218,7 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
+        resolution_called_repeatability(at, findings);
         if (row.origin != Origin::resolution || !row.origin_value || !(*row.origin_value > 0.0) ||
             row.shape == Shape::triangular || row.shape == Shape::arcsine || row.type_a.value_or(false)) {
             return;
@@ -523,12 +563,12 @@ std::vector<Rule> type_b_rules() {
              "two is meant, the divisor or the distribution?",
          .examine = wrong_divisor},
         {.id = "U09",
-         .title = "Resolution divided by the wrong number",
+         .title = "Resolution divided by the wrong number, or called repeatability",
          .clause = {.text = "JCGM 100:2008, F.2.2.1", .verified = true},
          .needs = {Need::rows},
          .detection =
              "a row of a resolution d with u = d, d/√3, d/2, d/6 or d/(2√12); d/√12, and √2 d/√12 of a difference, are "
-             "right",
+             "right; a repeatability without readings whose words say that it is d/√12",
          .correction = "u = d/√12 of a display with the step d; √2 times that for a difference of two readings.",
          .question = "Is the number in the table the step of the display, or half of it?",
          .examine = wrong_resolution},

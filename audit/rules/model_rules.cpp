@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -488,18 +489,36 @@ std::string source_of(const AuditedRow& row) {
 const std::string& named_source(const AuditedRow& row) {
     return row.source.empty() ? row.comment : row.source;
 }
+/// Pairs of rows from one source. Of a source with many rows each is paired with the first of them only.
 std::vector<SharedSource> shared_sources(const AuditSubject& subject) {
+    constexpr std::size_t k_many = 20;
     std::vector<SharedSource> shared;
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const std::vector<AuditedRow>& rows = subject.budgets[b].rows;
+        std::map<std::string, std::vector<std::size_t>> by_source;
+        std::vector<const std::vector<std::size_t>*> groups;  // by their first rows
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::string source = source_of(rows[i]);
-            for (std::size_t j = i + 1; j < rows.size() && !source.empty(); ++j) {
-                if (contribution_of(rows[i]) > 0.0 && contribution_of(rows[j]) > 0.0 && source_of(rows[j]) == source) {
-                    shared.push_back({b, i, j});
+            const std::string source = contribution_of(rows[i]) > 0.0 ? source_of(rows[i]) : std::string();
+            if (!source.empty()) {
+                std::vector<std::size_t>& group = by_source[source];
+                if (group.empty()) {
+                    groups.push_back(&group);
+                }
+                group.push_back(i);
+            }
+        }
+        const std::size_t before = shared.size();
+        for (const std::vector<std::size_t>* group : groups) {
+            for (std::size_t i = 0; i < (group->size() > k_many ? 1 : group->size()); ++i) {
+                for (std::size_t j = i + 1; j < group->size(); ++j) {
+                    shared.push_back({b, (*group)[i], (*group)[j]});
                 }
             }
         }
+        std::sort(shared.begin() + static_cast<std::ptrdiff_t>(before), shared.end(),
+                  [](const SharedSource& x, const SharedSource& y) {
+                      return std::pair(x.first, x.second) < std::pair(y.first, y.second);
+                  });
     }
     return shared;
 }
@@ -764,37 +783,41 @@ std::string order_free_name(const std::string& name) {
     return all;
 }
 
-/// S16
+/// Whether two rows of one name are one contribution.
+bool is_same_contribution(const AuditedRow& a, const AuditedRow& b) {
+    const bool resolution = a.origin == Origin::resolution || b.origin == Origin::resolution ||
+                            a.contributor == Contributor::item_resolution ||
+                            a.contributor == Contributor::reference_resolution;
+    const bool other_source = !a.source.empty() && !b.source.empty() && a.source != b.source;
+    const bool other_estimate = a.estimate && b.estimate && a.estimate->value != b.estimate->value;
+    return !resolution && !other_source && !other_estimate && contribution_of(a) > 0.0 && a.used_u == b.used_u &&
+           std::abs(a.used_sensitivity) == std::abs(b.used_sensitivity) && a.unit == b.unit && b.in_sum &&
+           a.used_nu == b.used_nu;
+}
+
+/// S16: each row against the first that it is the same as.
 void equal_rows(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
-        std::vector<std::string> names;  // of each row once: there are as many pairs as the square of the rows
-        for (const AuditedRow& row : budget.rows) {
-            names.push_back(order_free_name(row.quantity));
-        }
-        for (std::size_t i = 0; i < budget.rows.size(); ++i) {
-            for (std::size_t j = i + 1; j < budget.rows.size(); ++j) {
-                if (names[i] != names[j]) {
-                    continue;
-                }
-                const AuditedRow &a = budget.rows[i], &c = budget.rows[j];
-                const bool resolution = a.origin == Origin::resolution || c.origin == Origin::resolution ||
-                                        a.contributor == Contributor::item_resolution ||
-                                        a.contributor == Contributor::reference_resolution;
-                const bool other_source = !a.source.empty() && !c.source.empty() && a.source != c.source;
-                const bool other_estimate = a.estimate && c.estimate && a.estimate->value != c.estimate->value;
-                if (resolution || other_source || other_estimate || !(contribution_of(a) > 0.0) ||
-                    a.used_u != c.used_u || std::abs(a.used_sensitivity) != std::abs(c.used_sensitivity) ||
-                    a.unit != c.unit || !c.in_sum || a.used_nu != c.used_nu || a.quantity.empty() ||
-                    have_correlation(budget, i, j)) {
-                    continue;
-                }
-                AuditFinding finding = finding_at({.budget = b, .row = j, .of = budget, .is = c}, "",
-                                                  "the same contribution as " + name_of_row(budget, i));
-                finding.evidence = {"u = " + in_words(c.used_u, c.unit), "c = " + in_words(c.used_sensitivity)};
-                finding.correct = leave_out(j);
-                findings.add(std::move(finding));
+        std::map<std::string, std::vector<std::size_t>> by_name;  // rows that are the same as none before them
+        for (std::size_t j = 0; j < budget.rows.size(); ++j) {
+            const AuditedRow& row = budget.rows[j];
+            if (row.quantity.empty()) {
+                continue;
             }
+            std::vector<std::size_t>& others = by_name[order_free_name(row.quantity)];
+            const auto same = std::find_if(others.begin(), others.end(), [&](std::size_t i) {
+                return is_same_contribution(budget.rows[i], row) && !have_correlation(budget, i, j);
+            });
+            if (same == others.end()) {
+                others.push_back(j);
+                continue;
+            }
+            AuditFinding finding = finding_at({.budget = b, .row = j, .of = budget, .is = row}, "",
+                                              "the same contribution as " + name_of_row(budget, *same));
+            finding.evidence = {"u = " + in_words(row.used_u, row.unit), "c = " + in_words(row.used_sensitivity)};
+            finding.correct = leave_out(j);
+            findings.add(std::move(finding));
         }
     }
 }

@@ -93,10 +93,17 @@ Correction both(Correction first, Correction second) {
     };
 }
 
-bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words) {
-    const std::string text = in_small_letters(row.quantity + " " + row.source + " " + row.comment);
+std::string text_of_row(const AuditedRow& row) {
+    return in_small_letters(row.quantity + " " + row.source + " " + row.comment);
+}
+
+bool mentions(const std::string& text_of_row, const std::vector<std::string_view>& words) {
     return std::any_of(words.begin(), words.end(),
-                       [&text](std::string_view word) { return text.find(word) != std::string::npos; });
+                       [&text_of_row](std::string_view word) { return text_of_row.find(word) != std::string::npos; });
+}
+
+bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words) {
+    return mentions(text_of_row(row), words);
 }
 
 bool u_differs(const AuditedRow& row, double expected, double relative, double left_open) {

@@ -44,7 +44,10 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 /// One after the other.
 [[nodiscard]] Correction both(Correction first, Correction second);
 
-/// Whether quantity, source or comment of a row have one of some words, given in small letters.
+/// Quantity, source and comment of a row in small letters, to look for words in.
+[[nodiscard]] std::string text_of_row(const AuditedRow& row);
+/// Whether a text has one of some words, given in small letters.
+[[nodiscard]] bool mentions(const std::string& text_of_row, const std::vector<std::string_view>& words);
 [[nodiscard]] bool mentions(const AuditedRow& row, const std::vector<std::string_view>& words);
 
 /// True where the u that a row uses is another number than it should be: further away than a relative deviation, the

@@ -5,9 +5,11 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "audit/row_facts.h"
+#include "audit/rules/read_cells.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/worksheet_view.h"
@@ -211,12 +213,21 @@ void volatile_function(const AuditSubject& subject, FindingCollector& findings) 
     for (const SheetFormula& formula : view->formulas()) {
         if (view->stands_under_results(formula.cell) &&
             calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
-            AuditFinding finding = finding_in(
-                formula.place, "U rests on a function that gives another value each time the file is opened");
+            AuditFinding finding =
+                finding_in(view->place(formula.cell),
+                           "U rests on a function that gives another value each time the file is opened");
             finding.evidence = {
                 "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
             findings.add(std::move(finding));
         }
+    }
+}
+
+/// What was left out of formulas that read too much.
+void tell_limit(const ReadCells& cells, FindingCollector& findings) {
+    if (!cells.is_complete()) {
+        findings.leave_unchecked(
+            "formulas read more columns than an audit follows; what stands behind was not looked at");
     }
 }
 
@@ -227,25 +238,40 @@ bool is_over_readings(const Formula& formula) {
                            "VAR.P", "MEDIAN", "DEVSQ", "COUNT"});
 }
 
+/// How many cells areas have, blank ones too.
+std::size_t cells_in(const WorksheetView& view, const CellPlace& formula, const std::vector<workbook::Area>& areas) {
+    constexpr std::size_t k_most_areas = 16, k_most_cells = 10'000;
+    std::size_t cells = 0;
+    bool overlap = false;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        const workbook::CellRange& range = areas[i].range;
+        const auto meets = [&](const workbook::Area& other) {
+            return other.sheet == areas[i].sheet && other.range.first.row <= range.last.row &&
+                   range.first.row <= other.range.last.row && other.range.first.column <= range.last.column &&
+                   range.first.column <= other.range.last.column;
+        };
+        const auto end = areas.begin() + static_cast<std::ptrdiff_t>(std::min(i, k_most_areas));
+        overlap = overlap || std::any_of(areas.begin(), end, meets);
+        cells += std::size_t{range.last.row - range.first.row + 1} * (range.last.column - range.first.column + 1);
+    }
+    return overlap ? view.count_of_read(formula, k_most_cells) : cells;
+}
+
 /// What stands in the cells that a formula over readings reads.
 struct ReadingsRange {
-    std::size_t numbers = 0, texts = 0, cells = 0;
-    std::vector<std::string> text_places;
+    std::size_t numbers = 0, cells = 0;
+    std::vector<CellRun> runs;
     std::string area;
 };
-ReadingsRange readings_of(const WorksheetView& view, const SheetFormula& formula) {
+ReadingsRange readings_of(const WorksheetView& view, ReadCells& cells, const SheetFormula& formula) {
     ReadingsRange range;
-    for (const CellPlace& cell : view.read_by(formula.cell)) {
-        const CellValue value = view.value(cell);
-        ++range.cells;
-        range.numbers += value.kind == CellKind::number ? 1U : 0U;
-        if (value.kind == CellKind::text) {
-            ++range.texts;
-            range.text_places.push_back(view.place(cell));
-        }
+    range.runs = cells.runs(formula.cell);
+    for (const CellRun& run : range.runs) {
+        range.numbers += cells.numbers(run);
     }
     const std::vector<workbook::Area> areas = view.areas_read(formula.cell);
     range.area = areas.empty() ? "" : workbook::a1_text(areas.front().range);
+    range.cells = cells_in(view, formula.cell, areas);
     return range;
 }
 
@@ -264,23 +290,42 @@ std::optional<double> rooted_number(const WorksheetView& view, const SheetFormul
     return value.kind == CellKind::number ? std::optional(value.number) : std::nullopt;
 }
 
+/// Each text among readings is told once, with the first formula that reads it.
+void tell_texts(const WorksheetView& view, const ReadCells& cells, const SheetFormula& formula,
+                const ReadingsRange& range, CellRun run, workbook::UntakenPlaces& told, FindingCollector& findings) {
+    for (run.begin = told.first_from(run.begin); run.begin < run.end; run.begin = told.first_from(run.begin)) {
+        const std::uint32_t at = run.begin;
+        told.take(at);
+        if (cells.texts({.sheet = run.sheet, .begin = at, .end = at + 1}) == 0) {
+            continue;
+        }
+        AuditFinding finding =
+            finding_in(view.place(cells.cell(run.sheet, at)),
+                       "text among the readings " + range.area + ": mean and standard deviation leave it out");
+        finding.evidence = {view.place(formula.cell) + " reads " + range.area,
+                            text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " of " +
+                                text::count_of(static_cast<std::int64_t>(range.cells), "cell")};
+        findings.add(std::move(finding));
+    }
+}
+
 void count_of_readings(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    ReadCells cells(*view);
+    std::vector<workbook::UntakenPlaces> told;
+    for (const workbook::SheetIndex& index : view->indexes()) {
+        told.emplace_back(index.places().size());
+    }
     for (const SheetFormula& formula : view->formulas()) {
         if (!is_over_readings(formula.formula)) {
             continue;
         }
-        const ReadingsRange range = readings_of(*view, formula);
+        const ReadingsRange range = readings_of(*view, cells, formula);
         if (range.numbers < 2) {
             continue;
         }
-        for (const std::string& place : range.text_places) {
-            AuditFinding finding = finding_in(
-                place, "text among the readings " + range.area + ": mean and standard deviation leave it out");
-            finding.evidence = {formula.place + " reads " + range.area,
-                                text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " of " +
-                                    text::count_of(static_cast<std::int64_t>(range.cells), "cell")};
-            findings.add(std::move(finding));
+        for (const CellRun& run : range.runs) {
+            tell_texts(*view, cells, formula, range, run, told[run.sheet], findings);
         }
     }
     for_each_row(subject, [&](const RowAt& at) {
@@ -292,14 +337,14 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
         const std::optional<double> n = rooted_number(*view, *divisor);
         // The cell itself, or the one that it passes on.
         const SheetFormula* spread = stated;
-        const std::vector<CellPlace> read = view->read_by(stated->cell);
-        if (!is_over_readings(spread->formula) && read.size() == 1) {
-            spread = view->formula_at(read.front());
+        const std::optional<CellPlace> passed_on = view->only_cell_read(stated->cell);
+        if (!is_over_readings(spread->formula) && passed_on) {
+            spread = view->formula_at(*passed_on);
         }
         if (!n || spread == nullptr || !is_over_readings(spread->formula)) {
             return;
         }
-        const ReadingsRange range = readings_of(*view, *spread);
+        const ReadingsRange range = readings_of(*view, cells, *spread);
         const auto numbers = static_cast<double>(range.numbers);
         if (range.numbers < 2 || (*n == numbers && range.cells == range.numbers)) {
             return;
@@ -317,6 +362,7 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
         finding.correct = both(scale_u(at.row, std::sqrt(*n / numbers)), set_degrees_of_freedom(at.row, numbers - 1.0));
         findings.add(std::move(finding));
     });
+    tell_limit(cells, findings);
 }
 
 // W05 -----------------------------------------------------------------------------------------------------------------
@@ -327,45 +373,54 @@ bool has_absolute_reference(const Formula& formula) {
     });
 }
 
+/// The formula that gives u of a row, or what it is divided from.
+const SheetFormula* formula_of_row(const WorksheetView& view, const AuditedRow& row) {
+    return view.formula_at(place_of(row.stated ? row.stated : row.u));
+}
+
 void stray_address(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    ReadCells cells(*view);
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
-        std::map<CellPlace, std::size_t> first_reader;
+        FirstReaders all, by_absolute_address;
         for (std::size_t r = 0; r < budget.rows.size(); ++r) {
-            const AuditedRow& row = budget.rows[r];
-            const SheetFormula* formula = view->formula_at(place_of(row.stated ? row.stated : row.u));
+            const SheetFormula* formula = formula_of_row(*view, budget.rows[r]);
             if (formula == nullptr) {
                 continue;
             }
-            for (const CellPlace& read : view->read_by(formula->cell)) {
-                const CellValue value = view->value(read);
-                if (value.kind != CellKind::number || view->formula_at(read) != nullptr) {
-                    continue;
+            const bool is_absolute = has_absolute_reference(formula->formula);
+            const std::vector<CellRun> runs = cells.runs(formula->cell);
+            std::optional<FirstReaders::Shared> shared;
+            std::size_t sheet = 0;
+            for (const CellRun& run : runs) {
+                if (!shared) {
+                    shared = (is_absolute ? all : by_absolute_address).shared(cells, run);
+                    sheet = run.sheet;
                 }
-                const auto [first, is_new] = first_reader.emplace(read, r);
-                if (is_new || first->second == r) {
-                    continue;
+                all.add(run, r);
+                if (is_absolute) {
+                    by_absolute_address.add(run, r);
                 }
-                const AuditedRow& other = budget.rows[first->second];
-                const SheetFormula* other_formula = view->formula_at(place_of(other.stated ? other.stated : other.u));
-                if (!has_absolute_reference(formula->formula) &&
-                    (other_formula == nullptr || !has_absolute_reference(other_formula->formula))) {
-                    continue;
-                }
-                const RowAt at{.budget = b, .row = r, .of = budget, .is = row};
-                AuditFinding finding = finding_at(at, formula->place,
-                                                  "reads the same cell as the row \"" + other.quantity +
-                                                      "\" by an absolute address: " + view->place(read) +
-                                                      " counts twice, or another cell was meant");
-                finding.evidence = {view->place(read) + " = " + in_words(value.number),
-                                    "read by " + formula->place + " and " +
-                                        (other_formula == nullptr ? other.place : other_formula->place)};
-                finding.correct = leave_out(r);
-                findings.add(std::move(finding));
             }
+            if (!shared) {
+                continue;
+            }
+            const CellPlace read = cells.cell(sheet, shared->at);
+            const AuditedRow& other = budget.rows[shared->reader];
+            const RowAt at{.budget = b, .row = r, .of = budget, .is = budget.rows[r]};
+            AuditFinding finding = finding_at(at, view->place(formula->cell),
+                                              "reads the same cell as the row \"" + other.quantity +
+                                                  "\" by an absolute address: " + view->place(read) +
+                                                  " counts twice, or another cell was meant");
+            finding.evidence = {
+                view->place(read) + " = " + in_words(view->value(read).number),
+                "read by " + view->place(formula->cell) + " and " + view->place(formula_of_row(*view, other)->cell)};
+            finding.correct = leave_out(r);
+            findings.add(std::move(finding));
         }
     }
+    tell_limit(cells, findings);
 }
 
 // W06 -----------------------------------------------------------------------------------------------------------------
@@ -410,34 +465,34 @@ std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
 }
 
 void reading_read_twice(const AuditSubject& subject, FindingCollector& findings) {
+    constexpr std::size_t k_most_named = 6;
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for (const CopiedRun& run : copied_runs(*view)) {
-        std::set<CellPlace> seen;
-        std::set<CellPlace> missing;
-        const CellPlace first = *std::min_element(run.read.begin(), run.read.end());
-        for (std::uint32_t i = 0; i < run.read.size(); ++i) {
-            const CellPlace expected{.sheet = first.sheet,
-                                     .address = {.row = first.address.row + i, .column = first.address.column}};
-            if (view->value(expected).kind == CellKind::number &&
-                std::find(run.read.begin(), run.read.end(), expected) == run.read.end()) {
-                missing.insert(expected);
+        const std::set<CellPlace> read(run.read.begin(), run.read.end());
+        if (read.size() == run.read.size()) {
+            continue;
+        }
+        std::vector<std::string> missing;
+        CellPlace expected = *read.begin();
+        for (std::size_t i = 0; i < run.read.size(); ++i, ++expected.address.row) {
+            if (!read.contains(expected) && view->value(expected).kind == CellKind::number) {
+                missing.push_back(view->place(expected));
             }
         }
+        const std::string never_read = missing.empty() ? ""
+                                                       : ", and " + text::listed(missing, k_most_named) +
+                                                             (missing.size() == 1 ? " is" : " are") + " never read";
+        const std::string column = "column of copies " + view->place(run.formulas.front()->cell) + " to " +
+                                   view->place(run.formulas.back()->cell);
+        std::set<CellPlace> seen;
         for (std::size_t i = 0; i < run.read.size(); ++i) {
             if (seen.insert(run.read[i]).second) {
                 continue;
             }
-            std::string what = "reads " + view->place(run.read[i]) + " a second time";
-            std::vector<std::string> places;
-            for (const CellPlace& cell : missing) {
-                places.push_back(view->place(cell));
-            }
-            if (!places.empty()) {
-                what += ", and " + text::all_of(places) + (places.size() == 1 ? " is" : " are") + " never read";
-            }
-            AuditFinding finding = finding_in(run.formulas[i]->place, what);
-            finding.evidence = {"column of copies " + run.formulas.front()->place + " to " +
-                                run.formulas.back()->place};
+            AuditFinding finding = finding_in(view->place(run.formulas[i]->cell),
+                                              "reads " + view->place(run.read[i]) + " a second time" + never_read);
+            finding.evidence = {column};
+            finding.kind = column + finding.what;
             findings.add(std::move(finding));
         }
     }
@@ -478,13 +533,25 @@ std::vector<StandardTable> standard_tables(const WorksheetView& view) {
     return tables;
 }
 
-/// Calls `look` with the correction and U of each row below the heads, until both columns are empty.
+/// Calls `look` with the correction and U of each row below the heads, until both columns are empty or the next table has
+/// its heads there.
 void for_each_correction(
     const WorksheetView& view,
     const std::function<void(const CellPlace&, const CellValue&, const CellPlace&, const CellValue&)>& look) {
     constexpr std::uint32_t k_longest = 10'000;
-    for (const StandardTable& table : standard_tables(view)) {
-        for (std::uint32_t row = table.head_row + 1; row < table.head_row + k_longest; ++row) {
+    const std::vector<StandardTable> tables = standard_tables(view);
+    std::map<std::tuple<std::size_t, std::uint32_t, std::uint32_t>, std::uint32_t> next_heads;
+    std::vector<std::uint32_t> ends(tables.size());
+    for (std::size_t i = tables.size(); i-- > 0;) {
+        std::uint32_t& next =
+            next_heads.try_emplace({tables[i].sheet, tables[i].correction, tables[i].U}, workbook::k_most_rows + 1)
+                .first->second;
+        ends[i] = std::min(next, tables[i].head_row + k_longest);
+        next = tables[i].head_row;
+    }
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const StandardTable& table = tables[i];
+        for (std::uint32_t row = table.head_row + 1; row < ends[i]; ++row) {
             const CellPlace c{.sheet = table.sheet, .address = {.row = row, .column = table.correction}};
             const CellPlace u{.sheet = table.sheet, .address = {.row = row, .column = table.U}};
             const CellValue correction = view.value(c), U = view.value(u);
@@ -507,6 +574,7 @@ void correction_without_uncertainty(const AuditSubject& subject, FindingCollecto
                 AuditFinding finding = finding_in(
                     view->place(c), "a correction of 0 with an uncertainty of 0: cells that were never filled in");
                 finding.evidence = {view->place(c) + " = 0", view->place(u) + " = 0"};
+                finding.kind = finding.what;
                 findings.add(std::move(finding));
             }
         });
@@ -550,30 +618,41 @@ void component_left_out(const AuditSubject& subject, FindingCollector& findings)
 
 void choice_over_text(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    ReadCells cells(*view);
     for (const SheetFormula& formula : view->formulas()) {
         const FormulaNode& root = formula.formula.nodes[formula.formula.root()];
         if (!is_call(root, {"MAX", "MIN"})) {
             continue;
         }
-        std::size_t numbers = 0, others = 0;
+        const std::vector<CellRun> runs = cells.runs(formula.cell);
+        std::size_t numbers = 0;
         std::string where;
-        for (const CellPlace& cell : view->read_by(formula.cell)) {
-            const CellValue value = view->value(cell);
-            numbers += value.kind == CellKind::number ? 1U : 0U;
-            if (value.kind == CellKind::text || value.kind == CellKind::blank) {
-                ++others;
-                where = view->place(cell) + (value.kind == CellKind::text ? " = \"" + value.text + "\"" : " is empty");
+        for (const CellRun& run : runs) {
+            numbers += cells.numbers(run);
+            if (const std::optional<std::uint32_t> at = cells.text(run); at && where.empty()) {
+                const CellPlace text = cells.cell(run.sheet, *at);
+                where = view->place(text) + " = \"" + view->value(text).text + "\"";
             }
         }
         // One number is left to choose from: the other one, the floor, is no number.
-        if (numbers != 1 || others == 0) {
+        if (numbers != 1) {
             continue;
         }
-        AuditFinding finding = finding_in(formula.place, root.text + " chooses between a number and " + where +
-                                                             ", which it leaves out: the floor is gone");
+        for (const workbook::Area& area : view->areas_read(formula.cell)) {
+            if (const std::optional<CellPlace> blank = where.empty() ? cells.blank(area) : std::nullopt) {
+                where = view->place(*blank) + " is empty";
+            }
+        }
+        if (where.empty()) {
+            continue;
+        }
+        AuditFinding finding =
+            finding_in(view->place(formula.cell), root.text + " chooses between a number and " + where +
+                                                      ", which it leaves out: the floor is gone");
         finding.evidence = {where};
         findings.add(std::move(finding));
     }
+    tell_limit(cells, findings);
 }
 
 // W11, W12 ------------------------------------------------------------------------------------------------------------
@@ -585,8 +664,9 @@ void value_of_another_workbook(const AuditSubject& subject, FindingCollector& fi
             std::find_if(formula.formula.references.begin(), formula.formula.references.end(),
                          [](const workbook::Reference& reference) { return !reference.workbook.empty(); });
         if (link != formula.formula.references.end()) {
-            AuditFinding finding =
-                finding_in(formula.place, "the value comes from another workbook, [" + link->workbook + "]");
+            AuditFinding finding = finding_in(view->place(formula.cell),
+                                              "the value comes from another workbook, [" + link->workbook + "]");
+            finding.kind = finding.what;
             findings.add(std::move(finding));
         }
     }
@@ -613,6 +693,7 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
                 view->place(at),
                 std::string("an error value") + (hidden ? " on a hidden sheet" : "") +
                     (view->stands_under_results(at) ? ", and U rests on it" : "; no result that we found rests on it"));
+            finding.kind = finding.what;
             findings.add(std::move(finding));
         }
         const bool used = std::any_of(sheet.cells.begin(), sheet.cells.end(), [&](const workbook::Cell& cell) {
@@ -630,62 +711,79 @@ bool is_rate_per_year(const std::string& label) {
     return says(label, {"per year", "/yr", "/year", "p.a.", "pro jahr", "/a", "/jahr", "annual"});
 }
 
+/// Whether one of the cells that a formula reads holds a rate per year.
+/// \param labels_left  how many labels may be looked at; none is left where that was not enough
+bool reads_rate_per_year(const WorksheetView& view, ReadCells& cells, const SheetFormula& formula,
+                         std::size_t& labels_left) {
+    for (const CellRun& run : cells.runs(formula.cell)) {
+        for (std::uint32_t at = run.begin; at < run.end && labels_left > 0; ++at, --labels_left) {
+            if (is_rate_per_year(view.label(cells.cell(run.sheet, at)))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 void time_units(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    ReadCells cells(*view);
+    std::size_t labels_left = 1'000'000;
+    std::map<std::string, std::pair<std::size_t, std::size_t>> row_of_place;  // budget and row
+    for_each_row(subject, [&row_of_place](const RowAt& at) {
+        for (const std::optional<StatedNumber>* number : {&at.is.stated, &at.is.u}) {
+            if (*number) {
+                row_of_place[(*number)->place] = {at.budget, at.row};
+            }
+        }
+    });
     for (const SheetFormula& formula : view->formulas()) {
-        const bool has_dates = calls(formula.formula, {"NOW", "TODAY", "DATEVALUE", "DATE", "DAYS"});
-        if (!has_dates) {
+        if (!calls(formula.formula, {"NOW", "TODAY", "DATEVALUE", "DATE", "DAYS"})) {
             continue;
         }
-        const std::vector<CellPlace> read = view->read_by(formula.cell);
-        const bool per_year = std::any_of(read.begin(), read.end(),
-                                          [&](const CellPlace& cell) { return is_rate_per_year(view->label(cell)); });
         for (const workbook::FormulaLiteral& literal : workbook::literal_numbers(formula.formula)) {
             const bool divides =
                 formula.formula.nodes[literal.parent].kind == FormulaNodeKind::divide && literal.argument == 1;
             const bool days_in_year = literal.number >= 360.0 && literal.number <= 366.0;
-            if (!per_year || !divides || days_in_year) {
+            if (!divides || days_in_year || !reads_rate_per_year(*view, cells, formula, labels_left)) {
                 continue;
             }
-            AuditFinding finding = finding_in(formula.place, "a rate per year times days divided by " + literal.text +
-                                                                 ": the units of time do not close");
+            const std::string place = view->place(formula.cell);
+            AuditFinding finding = finding_in(
+                place, "a rate per year times days divided by " + literal.text + ": the units of time do not close");
             finding.expected = "days/365";
             finding.actual = "days/" + literal.text;
             finding.evidence = {
                 "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
-            for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
-                for (std::size_t r = 0; r < subject.budgets[b].rows.size(); ++r) {
-                    const AuditedRow& row = subject.budgets[b].rows[r];
-                    if (place_of(row.stated) == formula.place || place_of(row.u) == formula.place) {
-                        finding.budgets = {b};
-                        finding.correct = scale_u(r, literal.number / 365.0);
-                    }
-                }
+            if (const auto row = row_of_place.find(place); row != row_of_place.end()) {
+                finding.budgets = {row->second.first};
+                finding.correct = scale_u(row->second.second, literal.number / 365.0);
             }
             findings.add(std::move(finding));
         }
     }
+    if (labels_left == 0) {
+        findings.leave_unchecked("formulas with days read more cells than an audit looks at the labels of");
+    }
+    tell_limit(cells, findings);
 }
 
 // W14 -----------------------------------------------------------------------------------------------------------------
 
 void computed_and_not_used(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
-    std::set<CellPlace> read;
-    for (const SheetFormula& formula : view->formulas()) {
-        for (const CellPlace& cell : view->read_by(formula.cell)) {
-            read.insert(cell);
-        }
-    }
+    const std::vector<CellPlace> unread = view->unread_cells();
     for (const SheetFormula& formula : view->formulas()) {
         const bool visible = view->workbook().sheets[formula.cell.sheet].state == workbook::SheetState::visible;
-        if (!visible || view->stands_under_results(formula.cell) || read.contains(formula.cell)) {
+        if (!visible || view->stands_under_results(formula.cell) ||
+            !std::binary_search(unread.begin(), unread.end(), formula.cell)) {
             continue;
         }
         const std::string label = view->label(formula.cell);
         if (says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung", "uncertainty",
                          "unsicherheit"})) {
-            AuditFinding finding = finding_in(formula.place, "computed, and never used: \"" + label + "\"");
+            AuditFinding finding = finding_in(view->place(formula.cell), "computed, and never used: \"" + label + "\"");
+            finding.kind = finding.what;
             findings.add(std::move(finding));
         }
     }

@@ -6,7 +6,7 @@
 namespace gumcert::audit {
 namespace {
 
-constexpr std::size_t k_most_read = 10'000;
+constexpr std::uint32_t k_farthest = 200;  ///< rows or columns from a label to what it names
 
 std::set<std::string> places_of_claims(const AuditSubject& subject) {
     std::set<std::string> places;
@@ -26,21 +26,20 @@ std::set<std::string> places_of_claims(const AuditSubject& subject) {
 WorksheetView::WorksheetView(const AuditSubject& subject) : held_(*subject.workbook) {
     std::vector<workbook::CellPlace> results;
     for (const std::string& place : places_of_claims(subject)) {
-        if (const auto cell = held_.cells.find(place); cell != held_.cells.end()) {
-            results.push_back(cell->second);
+        if (const std::optional<workbook::CellPlace> cell = held_.cell_at(place)) {
+            results.push_back(*cell);
         }
     }
-    for (const workbook::CellPlace& cell : held_.graph.closure(results)) {
-        under_.insert(cell);
-    }
+    under_ = held_.graph.closure(results);
 }
 
 const SheetFormula* WorksheetView::formula_at(const std::string& place) const {
-    const auto found = held_.formula_at.find(place);
-    return found == held_.formula_at.end() ? nullptr : &held_.formulas[found->second];
+    const std::optional<workbook::CellPlace> cell = held_.cell_at(place);
+    return cell ? held_.formula_at(*cell) : nullptr;
 }
-const SheetFormula* WorksheetView::formula_at(const workbook::CellPlace& cell) const {
-    return formula_at(place(cell));
+
+bool WorksheetView::stands_under_results(const workbook::CellPlace& cell) const {
+    return std::binary_search(under_.begin(), under_.end(), cell);
 }
 
 workbook::CellValue WorksheetView::value(const workbook::CellPlace& cell) const {
@@ -53,29 +52,43 @@ workbook::CellValue WorksheetView::value(const workbook::CellPlace& cell) const 
     return stored == nullptr ? workbook::CellValue{} : stored->value;
 }
 
-std::vector<workbook::CellPlace> WorksheetView::read_by(const workbook::CellPlace& cell) const {
-    return held_.graph.precedents(cell, k_most_read);
-}
-
-std::string WorksheetView::place(const workbook::CellPlace& cell) const {
-    return workbook::sheet_a1(held_.workbook.sheets[cell.sheet].name, cell.address);
+std::optional<workbook::CellPlace> WorksheetView::only_cell_read(const workbook::CellPlace& cell) const {
+    const std::vector<workbook::Area> areas = held_.graph.areas_read(cell);
+    if (areas.empty()) {
+        return std::nullopt;
+    }
+    const workbook::Area& first = areas.front();
+    const bool is_one = first.range.first == first.range.last &&
+                        std::all_of(areas.begin(), areas.end(), [&first](const workbook::Area& other) {
+                            return other.sheet == first.sheet && other.range == first.range;
+                        });
+    return is_one ? std::optional(workbook::CellPlace{first.sheet, first.range.first}) : std::nullopt;
 }
 
 std::string WorksheetView::label(const workbook::CellPlace& cell) const {
-    const workbook::Sheet& sheet = held_.workbook.sheets[cell.sheet];
+    const std::vector<workbook::Cell>& cells = held_.workbook.sheets[cell.sheet].cells;
+    const workbook::CellAddress leftmost{.row = cell.address.row,
+                                         .column = cell.address.column - std::min(cell.address.column - 1, k_farthest)};
     std::string words;
-    for (std::uint32_t column = 1; column < cell.address.column; ++column) {
-        const workbook::Cell* left = workbook::find_cell(sheet, {.row = cell.address.row, .column = column});
-        if (left != nullptr && left->value.kind == workbook::CellKind::text) {
-            words += left->value.text + " ";
-        }
+    for (auto left = std::lower_bound(
+             cells.begin(), cells.end(), leftmost,
+             [](const workbook::Cell&one, const workbook::CellAddress&wanted) { return one.address < wanted; });
+         left != cells.end() && left->address < cell.address; ++left) {
+        words += left->value.kind == workbook::CellKind::text ? left->value.text + " " : "";
     }
-    constexpr std::uint32_t k_farthest = 200;
-    for (std::uint32_t up = 1; up < std::min(cell.address.row, k_farthest); ++up) {
-        const workbook::Cell* above =
-            workbook::find_cell(sheet, {.row = cell.address.row - up, .column = cell.address.column});
-        if (above != nullptr && above->formula.empty() && above->value.kind == workbook::CellKind::text) {
-            return words + above->value.text;
+    const workbook::SheetIndex& index = held_.graph.indexes()[cell.sheet];
+    const std::size_t at = index.column_from(cell.address.column);
+    if (at == index.columns().size() || index.columns()[at].column != cell.address.column) {
+        return words;
+    }
+    const workbook::SheetIndex::Column& column = index.columns()[at];
+    for (std::uint32_t place = index.place_from(column, cell.address.row); place-- > column.begin;) {
+        const workbook::Cell& above = cells[index.places()[place]];
+        if (cell.address.row - above.address.row >= k_farthest) {
+            break;
+        }
+        if (above.formula.empty() && above.value.kind == workbook::CellKind::text) {
+            return words + above.value.text;
         }
     }
     return words;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,22 +20,32 @@ public:
     [[nodiscard]] const std::vector<SheetFormula>& formulas() const { return held_.formulas; }
     /// The formula of a cell; nullptr where it has none that was understood.
     [[nodiscard]] const SheetFormula* formula_at(const std::string& place) const;
-    [[nodiscard]] const SheetFormula* formula_at(const workbook::CellPlace& cell) const;
+    [[nodiscard]] const SheetFormula* formula_at(const workbook::CellPlace& cell) const {
+        return held_.formula_at(cell);
+    }
     /// The value of a cell: computed here where we do, else as stored.
     [[nodiscard]] workbook::CellValue value(const workbook::CellPlace& cell) const;
-    /// Cells that a formula reads, each once, blank ones too, up to 10 000.
-    [[nodiscard]] std::vector<workbook::CellPlace> read_by(const workbook::CellPlace& cell) const;
     [[nodiscard]] std::vector<workbook::Area> areas_read(const workbook::CellPlace& cell) const {
         return held_.graph.areas_read(cell);
     }
-    [[nodiscard]] std::string place(const workbook::CellPlace& cell) const;
-    [[nodiscard]] bool stands_under_results(const workbook::CellPlace& cell) const { return under_.contains(cell); }
-    /// Words that say what a cell is: the texts to its left in the row, and the next text above it.
+    /// The one cell that a formula reads; nothing where it reads none or several.
+    [[nodiscard]] std::optional<workbook::CellPlace> only_cell_read(const workbook::CellPlace& cell) const;
+    /// How many cells a formula reads, blank ones too, each once.
+    [[nodiscard]] std::size_t count_of_read(const workbook::CellPlace& cell, std::size_t most) const {
+        return held_.graph.precedents(cell, most).size();
+    }
+    /// Cells that no formula reads, in order.
+    [[nodiscard]] std::vector<workbook::CellPlace> unread_cells() const { return held_.graph.unread_cells(); }
+    [[nodiscard]] const std::vector<workbook::SheetIndex>& indexes() const { return held_.graph.indexes(); }
+    [[nodiscard]] std::string place(const workbook::CellPlace& cell) const { return held_.place(cell); }
+    [[nodiscard]] bool stands_under_results(const workbook::CellPlace& cell) const;
+    /// Words that say what a cell is: the texts to its left in the row, and the next text above it, as far as they stand
+    /// within 200 columns and rows.
     [[nodiscard]] std::string label(const workbook::CellPlace& cell) const;
 
 private:
     const AuditedWorkbook& held_;
-    std::set<workbook::CellPlace> under_;  ///< on which the claims stand
+    std::vector<workbook::CellPlace> under_;  ///< on which the claims stand, in order
 };
 
 /// The walk of a subject; nothing where it has no workbook.

@@ -315,7 +315,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
-    for (const std::string_view text : {head, trimmed(without_brackets(head))}) {
+    const std::string_view short_head = trimmed(without_brackets(head));
+    for (std::string_view text = head;; text = short_head) {
         if (text == "u") {
             return Column::u;
         }
@@ -325,13 +326,16 @@ std::optional<Column> column_of(std::string_view head) {
         if (const std::optional<Column> column = meaning_of(k_column_words, text)) {
             return column;
         }
+        if (text == short_head) {
+            return std::nullopt;
+        }
     }
-    return std::nullopt;
 }
 
 std::optional<Statement> statement_of(std::string_view name) {
     name = trimmed(name);
-    for (const std::string_view text : {name, trimmed(without_brackets(name))}) {
+    const std::string_view short_name = trimmed(without_brackets(name));
+    for (std::string_view text = name;; text = short_name) {
         if (text == "U" || text == "U(y)") {
             return Statement::U;
         }
@@ -344,8 +348,10 @@ std::optional<Statement> statement_of(std::string_view name) {
         if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
             return statement;
         }
+        if (text == short_name) {
+            return std::nullopt;
+        }
     }
-    return std::nullopt;
 }
 
 }  // namespace gumcert::audit

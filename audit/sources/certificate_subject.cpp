@@ -388,7 +388,7 @@ void tell_what_is_not_read(std::span<const reports::DccStatement> statements, Au
     std::vector<std::string> kinds;
     for (const reports::DccStatement& statement : statements) {
         const WordLine kind(statement.ref_type);
-        if (kind.has_any({"*conformity", "*accreditation", "*remark", "*opinion", "*draft", "*specimen"})) {
+        if (kind.has_any({"*conformity", "*accreditation", "*draft", "*specimen"})) {
             continue;
         }
         const std::string name = statement.ref_type.empty() ? "of no stated kind" : statement.ref_type;

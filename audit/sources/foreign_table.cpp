@@ -22,13 +22,16 @@ using workbook::CellAddress;
 using workbook::CellKind;
 using workbook::CellValue;
 
-constexpr std::size_t k_most_tables = 10'000, k_most_rows = 10'000;
+constexpr std::size_t k_most_tables = 10'000, k_most_rows = 2'000;
 
 /// The cells of a sheet row by row, with the values that formulas give.
 class SheetView {
 public:
     SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet)
-        : workbook_(workbook), evaluation_(evaluation), sheet_(sheet) {
+        : workbook_(workbook),
+          evaluation_(evaluation),
+          sheet_(sheet),
+          name_(workbook::quoted_sheet(workbook.sheets[sheet].name)) {
         for (const Cell& cell : workbook.sheets[sheet].cells) {
             rows_[cell.address.row].push_back(&cell);
         }
@@ -36,7 +39,7 @@ public:
 
     [[nodiscard]] const std::map<std::uint32_t, std::vector<const Cell*>>& rows() const { return rows_; }
     [[nodiscard]] std::string place(const CellAddress& address) const {
-        return workbook::sheet_a1(workbook_.sheets[sheet_].name, address);
+        return name_ + "!" + workbook::a1_text(address);
     }
     /// What the cell shows: of a formula the value that we computed, where we did.
     [[nodiscard]] CellValue value(const Cell& cell) const {
@@ -81,6 +84,7 @@ private:
     const workbook::Workbook& workbook_;
     const workbook::Evaluation& evaluation_;
     std::size_t sheet_;
+    std::string name_;  ///< of the sheet, as formulas write it
     std::map<std::uint32_t, std::vector<const Cell*>> rows_;
 };
 

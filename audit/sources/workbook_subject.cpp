@@ -1,9 +1,8 @@
 #include "audit/sources/workbook_subject.h"
 
-#include <map>
+#include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,17 +16,12 @@ namespace {
 using workbook::CellPlace;
 
 /// Marks the rows that the formula of u_c leaves out.
-void mark_sum(AuditedBudget& budget, const AuditedWorkbook& held) {
-    const std::map<std::string, CellPlace>& cells = held.cells;
-    if (!budget.claims.u_c || !cells.contains(budget.claims.u_c->place)) {
-        return;
-    }
-    const CellPlace u_c = cells.at(budget.claims.u_c->place);
-    const std::vector<CellPlace> list = held.graph.closure(std::vector{u_c});
-    const std::set<CellPlace> under(list.begin(), list.end());
+/// \param under  the cells on which u_c stands, in order
+void mark_sum(AuditedBudget& budget, const AuditedWorkbook& held, const std::vector<CellPlace>& under) {
     const auto reached = [&](const AuditedRow& row) {
         for (const std::optional<StatedNumber>* number : {&row.contribution, &row.u, &row.stated}) {
-            if (*number && cells.contains((*number)->place) && under.contains(cells.at((*number)->place))) {
+            const std::optional<CellPlace> cell = *number ? held.cell_at((*number)->place) : std::nullopt;
+            if (cell && std::binary_search(under.begin(), under.end(), *cell)) {
                 return true;
             }
         }
@@ -46,6 +40,20 @@ void mark_sum(AuditedBudget& budget, const AuditedWorkbook& held) {
     note_unexplained(budget);
 }
 
+void mark_sums(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held) {
+    std::vector<CellPlace> sums;
+    std::vector<AuditedBudget*> of;
+    for (AuditedBudget& budget : budgets) {
+        const std::optional<StatedNumber>& u_c = budget.claims.u_c;
+        if (const std::optional<CellPlace> cell = u_c ? held.cell_at(u_c->place) : std::nullopt) {
+            sums.push_back(*cell);
+            of.push_back(&budget);
+        }
+    }
+    held.graph.each_closure(sums,
+                            [&](std::size_t i, const std::vector<CellPlace>& under) { mark_sum(*of[i], held, under); });
+}
+
 }  // namespace
 
 AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
@@ -58,9 +66,7 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
     subject.kind = AuditSubject::Kind::table;
     if (!held->evaluation.cells.empty()) {
         subject.kind = AuditSubject::Kind::workbook;
-        for (AuditedBudget& budget : subject.budgets) {
-            mark_sum(budget, *held);
-        }
+        mark_sums(subject.budgets, *held);
         for (const workbook::NotEvaluated& reason : held->evaluation.reasons) {
             const workbook::Sheet& sheet = held->workbook.sheets[reason.sheet];
             subject.not_read.push_back(workbook::sheet_a1(sheet.name, sheet.cells[reason.cell].address) +

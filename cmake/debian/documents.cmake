@@ -1,5 +1,5 @@
 # Run when the package is made: changelog.gz, which says what changed in gumcert, changelog.Debian.gz, which says what
-# the package was built from, and the notices of libraries that became part of the program: of headers, and of Ceres.
+# the package was built from, and the notices of libraries that became part of the program: of headers, of Ceres and of musl.
 file(MAKE_DIRECTORY ${doc_dir})
 configure_file(${SOURCE_DIR}/CHANGELOG.md ${doc_dir}/changelog COPYONLY)
 
@@ -24,7 +24,7 @@ execute_process(COMMAND ${GZIP} -9 --no-name --force ${doc_dir}/changelog ${doc_
                 COMMAND_ERROR_IS_FATAL ANY)
 
 foreach(library IN ITEMS libceres-dev libcli11-dev libeigen3-dev libkainjow-mustache-dev librandom123-dev libvalijson-dev
-                         nlohmann-json3-dev)
+                         musl-dev nlohmann-json3-dev)
     configure_file(/usr/share/doc/${library}/copyright ${doc_dir}/licences/${library} COPYONLY)
 endforeach()
 # libboost-dev is but a name for the package of one version, which has the headers and their notice.

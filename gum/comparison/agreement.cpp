@@ -350,6 +350,7 @@ std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
     // Correlated points exceed the limit together: they count as fewer, and each of these stands for several points.
     const double independent = std::clamp(std::round(effective_points), 1.0, static_cast<double>(points));
     using Up = boost::math::policies::policy<
+        boost::math::policies::promote_double<false>,  // ADR 0058
         boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;
     const boost::math::binomial_distribution<double, Up> above(independent, 1.0 - coverage_probability);
     const double limit = boost::math::quantile(above, 1.0 - k_chance_of_single_points);

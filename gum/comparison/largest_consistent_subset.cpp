@@ -35,7 +35,8 @@ struct Subset {
 };
 
 double critical_value(std::size_t members, double alpha) {
-    const boost::math::chi_squared_distribution<double> distribution(static_cast<double>(members) - 1.0);
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::chi_squared_distribution<double, InDouble> distribution(static_cast<double>(members) - 1.0);
     return boost::math::quantile(boost::math::complement(distribution, alpha));
 }
 

@@ -99,8 +99,9 @@ HomogeneityFactors homogeneity_factors(std::size_t items, std::size_t replicates
     constexpr double p = 0.05;
     const auto g = static_cast<double>(items);
     const auto m = static_cast<double>(replicates);
-    const boost::math::chi_squared_distribution<double> chi_square(g - 1.0);
-    const boost::math::fisher_f_distribution<double> f(g - 1.0, g * (m - 1.0));
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::chi_squared_distribution<double, InDouble> chi_square(g - 1.0);
+    const boost::math::fisher_f_distribution<double, InDouble> f(g - 1.0, g * (m - 1.0));
     return {.f1 = boost::math::quantile(boost::math::complement(chi_square, p)) / (g - 1.0),
             .f2 = (boost::math::quantile(boost::math::complement(f, p)) - 1.0) / m};
 }

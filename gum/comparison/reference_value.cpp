@@ -314,8 +314,9 @@ ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha)
     test.chi_square = least_squares(results, centred(results)).chi_square;
     test.degrees_of_freedom = static_cast<std::size_t>(results.x.size()) - 1;
     const auto nu = static_cast<double>(test.degrees_of_freedom);
-    test.critical_value =
-        boost::math::quantile(boost::math::complement(boost::math::chi_squared_distribution<double>(nu), alpha));
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::chi_squared_distribution<double, InDouble> distribution(nu);
+    test.critical_value = boost::math::quantile(boost::math::complement(distribution, alpha));
     test.p_value = chi_square_upper_tail(test.chi_square, nu);
     test.consistent = test.chi_square <= test.critical_value;
     test.birge_ratio = std::sqrt(test.chi_square / nu);

@@ -556,7 +556,8 @@ AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom) {
         refuse("GC-GUM-0005", "degrees of freedom of a standard deviation", text::shortest(degrees_of_freedom),
                "must not be greater than " + text::shortest(k_most_degrees_of_freedom), "Correct the number.");
     }
-    const boost::math::chi_squared_distribution<double> distribution(degrees_of_freedom);
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::chi_squared_distribution<double, InDouble> distribution(degrees_of_freedom);
     const double limit_square = boost::math::quantile(distribution, 0.9) / degrees_of_freedom;
     const double mean_square =
         chi_square_lower_tail(limit_square * degrees_of_freedom, degrees_of_freedom + 2.0) + 0.1 * limit_square;

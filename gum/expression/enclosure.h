@@ -10,8 +10,8 @@ namespace gumcert::gum {
 ///
 /// The four rules of arithmetic and the root are those of Boost.Interval, computed in the ordinary rounding mode and
 /// widened by one unit in the last place on either side: no rounding mode is changed, so nothing has to be put back and
-/// no compiler may move an operation past such a change. Functions of the C library are widened by k_library_ulps, more
-/// than their error is documented to be (glibc manual, "Errors in Math Functions": 2 ulp at most for those used here).
+/// no compiler may move an operation past such a change. Elementary functions are widened by k_library_ulps, more
+/// than their error was found to be (ADR 0058: 2 ulp at most for those used here).
 struct Enclosure {
     double low = 0.0, high = 0.0;
 

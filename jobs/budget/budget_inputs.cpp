@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "certificate/piece_roles.h"
 #include "gum/expression/name.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/rounding.h"
@@ -585,7 +586,8 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
             static constexpr std::array<std::string_view, 4> k_keys{"unit", "heading", "role", "stage"};
             const JsonObject object(document_, at, k_keys, problems_);
             unit = object.optional_string("unit");
-            column.role = object.optional_choice<std::string_view>("role", k_role_words).value_or("");
+            column.role = unit ? object.optional_choice<std::string_view>("role", k_role_words).value_or("")
+                               : object.optional_choice<std::string_view>("role", k_word_roles).value_or("");
             column.stage = object.optional_choice<std::string_view>("stage", k_stage_words).value_or("");
             if (const json* heading = object.find("heading"); heading != nullptr && heading->is_object()) {
                 read_localised(*heading, column.heading, false, {&document_, object.pointer("heading"), &problems_});
@@ -606,11 +608,14 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
             }
             column.printed_unit = gum::unit_for_people(column.unit);
         }
-        const auto role = std::find(certificate::k_quantity_roles.begin(), certificate::k_quantity_roles.end(), name);
-        if (column.role.empty() && role != certificate::k_quantity_roles.end()) {
+        const bool has_words = !unit && !is_limit(name);
+        const auto is_among = [&](const auto& roles) {
+            return std::find(roles.begin(), roles.end(), name) != roles.end();
+        };
+        if (column.role.empty() &&
+            (is_among(certificate::k_quantity_roles) || (has_words && is_among(certificate::k_piece_roles)))) {
             column.role = name;
         }
-        const bool has_words = !unit && !is_limit(name);
         const auto known = std::find_if(job.point_columns.begin(), job.point_columns.end(),
                                         [&](const certificate::PointColumn& c) { return c.name == name; });
         if (known != job.point_columns.end()) {  // of a section before
@@ -961,19 +966,30 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
         columns.push_back({.name = field.name, .input = index, .key = *known});
     }
     std::vector<std::string_view> wanted;
-    for (const FileColumn& column : columns) {
+    const auto is_of_standard = [&](const FileColumn& column, std::size_t input) {
+        return column.is_reference && column.input == input;
+    };
+    for (FileColumn& column : columns) {
         wanted.emplace_back(column.name);
-        const bool is_alone = column.is_reference && column.key != "standard" &&
-                              std::none_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
-                                  return other.is_reference && other.input == column.input && other.key == "standard";
-                              });
-        if (is_alone) {
+        if (!column.is_reference || !column.input) {
+            continue;
+        }
+        const bool names_standard = std::any_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
+            return is_of_standard(other, *column.input) && other.key == "standard";
+        });
+        if (names_standard) {
+            column.takes_standard = column.key == "standard";
+        } else if (laboratory_.is_stated_once(stated_[*column.input].name)) {
+            column.takes_standard = std::none_of(columns.begin(), columns.end(), [&](const FileColumn& other) {
+                return is_of_standard(other, *column.input) && other.takes_standard;
+            });
+        } else {
             const std::string standard = column.name.substr(0, column.name.rfind('.')) + ".standard";
             file->problems->refuse(
                 k_unknown_key, name + ":1",
                 "the column " + text::in_quotes(column.name) + " without " + text::in_quotes(standard),
-                "it says how a standard is used, and a row names the standard itself",
-                "add the column " + text::in_quotes(standard));
+                "it says how a standard is used, and the input or the row names the standard itself",
+                "name the standard in the input, or add the column " + text::in_quotes(standard));
             is_known = false;
         }
     }
@@ -1000,10 +1016,10 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             const CsvCell& cell = table->cell(row, c);
-            if (column.is_reference && column.key != "standard") {
+            if (column.is_reference && !column.takes_standard) {
                 continue;  // read with the standard
             }
-            if (cell.text.empty()) {
+            if (cell.text.empty() && (!column.is_reference || column.key == "standard")) {
                 file->problems->refuse(
                     k_empty_cell, table->where(cell),
                     "row " + std::to_string(row + 1) + " has no value in the column " + text::in_quotes(column.name),

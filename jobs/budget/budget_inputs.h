@@ -106,7 +106,8 @@ private:
         std::string_view key = {};
         std::optional<std::size_t> information = {};  ///< in BudgetJob::point_columns
         bool is_reading = false;
-        bool is_reference = false;  ///< to a standard of the laboratory: NAME.standard, NAME.at …
+        bool is_reference = false;    ///< to a standard of the laboratory: NAME.standard, NAME.at …
+        bool takes_standard = false;  ///< of these, the one that stands for all of its input
     };
     void read_columns(const JsonObject& points, BudgetJob& job);
     [[nodiscard]] std::optional<std::size_t> information(const std::string& name, BudgetJob& job);

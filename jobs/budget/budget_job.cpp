@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -62,9 +63,13 @@ private:
         }
         read_common(*root);
         const std::vector<JsonObject> parts = read_sections(*root);
+        if (!job_.sections.empty()) {
+            read_shared_equations(*root);
+        }
         for (std::size_t i = 0; i < parts.size(); ++i) {
             read_equations(parts[i], i);
         }
+        refuse_unused_equations();
         const std::optional<StatedCovariance> covariance = read_covariance(*root, *document_, files_, *problems_);
         BudgetInputs inputs(*document_, covariance, files_, laboratory, *problems_);
         inputs.read(*root);
@@ -158,7 +163,7 @@ private:
         if (sections == nullptr) {
             return {root};
         }
-        for (const char* key : {"model", "solve_for", "outputs", "points", "tables"}) {
+        for (const char* key : {"solve_for", "outputs", "points", "tables"}) {
             if (root.has(key)) {
                 root.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"sections\"",
                             "a job with sections has equations, results and points in them",
@@ -189,6 +194,16 @@ private:
                 model_is_whole_ = false;
                 continue;
             }
+            if (const auto kind = sections->at(name).find("kind"); kind != sections->at(name).end()) {
+                problems_->refuse(
+                    k_sections_of_other_kind, document_->where(child_pointer(pointer, "kind")),
+                    "a section of kind " + described(*kind),
+                    "sections are parts of a budget, with equations, results and points",
+                    "remove \"kind\" from a part of this budget; a job of another kind has a certificate of "
+                    "its own, or its results come in by \"gumcert import dcc\"");
+                model_is_whole_ = false;
+                continue;
+            }
             parts.emplace_back(*document_, pointer, keys_of<SectionStatement>(), *problems_);
             job_.sections.push_back({.name = name});
             certificate::LocalisedText& title = job_.section_titles.emplace_back();
@@ -204,11 +219,91 @@ private:
     void read_equations(const JsonObject& part, std::size_t section) {
         const std::size_t equations = job_.model.size();
         const std::size_t unknowns = job_.unknowns.size();
-        read_model(part);
+        std::vector<gum::EquationText> own = equations_of(part);
+        for (const std::size_t shared : shared_by(part, own)) {
+            job_.model.push_back(shared_[shared].text);
+            shared_[shared].is_used = true;
+        }
+        std::move(own.begin(), own.end(), std::back_inserter(job_.model));
         read_unknowns(part);
         if (!job_.sections.empty()) {
             job_.sections[section].equations = job_.model.size() - equations;
             job_.sections[section].unknowns = job_.unknowns.size() - unknowns;
+        }
+    }
+
+    /// Equations beside the sections: each section has those that its results rest on, as if they stood in it.
+    void read_shared_equations(const JsonObject& root) {
+        for (gum::EquationText& text : equations_of(root)) {
+            try {
+                gum::EquationNames names = gum::equation_names(text);
+                if (names.defines.empty()) {
+                    problems_->refuse(k_shared_equation, text.where, "an implicit equation beside the sections",
+                                      "an unknown is solved for in the section whose result it is",
+                                      "move it into the section, with its \"solve_for\"");
+                    continue;
+                }
+                shared_.push_back({std::move(text), std::move(names)});
+            } catch (const gum::DiagnosedError& error) {
+                refuse_as(error, "", *problems_);
+                model_is_whole_ = false;
+            }
+        }
+    }
+
+    /// Which of the shared equations a section has, in their order: what its own equations and its results name, and
+    /// what these name in turn.
+    [[nodiscard]] std::vector<std::size_t> shared_by(const JsonObject& part,
+                                                     const std::vector<gum::EquationText>& own) {
+        std::vector<std::string> wanted;
+        if (const json* outputs = part.find("outputs"); outputs != nullptr && outputs->is_object()) {
+            for (const auto& [name, output] : outputs->items()) {
+                wanted.push_back(gum::canonical_name(name));
+            }
+        }
+        for (const gum::EquationText& equation : own) {
+            try {
+                const gum::EquationNames names = gum::equation_names(equation);
+                wanted.insert(wanted.end(), names.uses.begin(), names.uses.end());
+                refuse_defined_twice(equation, names.defines);
+            } catch (const gum::DiagnosedError&) {
+                continue;  // refused with the model
+            }
+        }
+        std::set<std::size_t> found;
+        while (!wanted.empty()) {
+            const std::string name = std::move(wanted.back());
+            wanted.pop_back();
+            for (std::size_t i = 0; i < shared_.size(); ++i) {
+                if (shared_[i].names.defines == name && found.insert(i).second) {
+                    wanted.insert(wanted.end(), shared_[i].names.uses.begin(), shared_[i].names.uses.end());
+                }
+            }
+        }
+        return {found.begin(), found.end()};
+    }
+
+    void refuse_defined_twice(const gum::EquationText& equation, const std::string& name) {
+        const auto shared = std::find_if(shared_.begin(), shared_.end(), [&](const SharedEquation& s) {
+            return !name.empty() && s.names.defines == name;
+        });
+        if (shared != shared_.end()) {
+            problems_->refuse(k_name_of_two, equation.where,
+                              text::in_quotes(name) + " is defined here, and for all sections at " + shared->text.where,
+                              "a name stands for one quantity", "rename one of the two");
+            shared->is_used = true;  // nothing more is said of it
+            model_is_whole_ = false;
+        }
+    }
+
+    void refuse_unused_equations() {
+        for (const SharedEquation& shared : shared_) {
+            if (!shared.is_used) {
+                problems_->refuse(k_shared_equation, shared.text.where,
+                                  "no section uses " + text::in_quotes(shared.names.defines),
+                                  "equations beside the sections are those that sections share",
+                                  "remove it, or move it into the section whose result it is");
+            }
         }
     }
 
@@ -273,14 +368,16 @@ private:
                         "an input that is not used has no part in any uncertainty", "remove it, or complete the model");
     }
 
-    void read_model(const JsonObject& root) {
+    /// The key "model" of the job or of a section.
+    std::vector<gum::EquationText> equations_of(const JsonObject& root) {
+        std::vector<gum::EquationText> equations;
         const json* model = root.find("model");
         if (model == nullptr) {
-            return;
+            return equations;
         }
         const auto add = [&](const json& text, const std::string& where) {
             if (auto equation = equation_text_of(text, where, *problems_)) {
-                job_.model.push_back(std::move(*equation));
+                equations.push_back(std::move(*equation));
             } else {
                 model_is_whole_ = false;
             }
@@ -296,6 +393,7 @@ private:
                 add((*model)[i], document_->where(child_pointer(root.pointer("model"), i)));
             }
         }
+        return equations;
     }
 
     /// Members of an object, in the order of the file, each an object with some keys.
@@ -478,7 +576,13 @@ private:
     std::optional<JsonDocument> document_;
     BudgetStatement stated_;
     BudgetJob& job_ = stated_.job;
-    bool model_is_whole_ = true;  ///< equations, unknowns and outputs could be read
+    struct SharedEquation {
+        gum::EquationText text;
+        gum::EquationNames names;
+        bool is_used = false;
+    };
+    std::vector<SharedEquation> shared_;  ///< that sections have in common
+    bool model_is_whole_ = true;          ///< equations, unknowns and outputs could be read
 };
 
 }  // namespace

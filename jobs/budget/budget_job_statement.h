@@ -116,7 +116,7 @@ void describe_results(Archive& a, Struct& r) {
                     "unit": {"$ref": "#/definitions/name"},
                     "heading": {"$ref": "#/definitions/description"},
                     "role": {"enum": ["nominal", "setting", "reference", "indication", "measured_value", "error",
-                                      "deviation", "correction"]},
+                                      "deviation", "correction", "serial_number", "identification"]},
                     "stage": {"enum": ["as_found", "as_left"]}}}]}}}}]})",
         "1 to 100000 objects of numbers and of [budget_override](#budget_override); or an object with the name of "
         "a `file` or such a `list`, and `columns` of points that are no inputs",
@@ -151,8 +151,8 @@ void describe(Archive& a, BudgetStatement& r) {
     a.by_code("simultaneous", Several{Several{AnyText{}, 2}, 0}, "Names of inputs that were observed together.");
     describe_results(a, r);
     a.named("sections", r.sections,
-            "In place of model, solve_for, outputs, points and tables: several such parts, by name, that share inputs, "
-            "correlations and fits. Names of results differ between them.",
+            "In place of solve_for, outputs, points and tables: several such parts, by name, that share inputs, "
+            "correlations, fits and the equations of model beside them. Names of results differ between them.",
             {.least = 1, .most = k_most_sections});
     a.named("fits", r.fits, "Least-squares fits whose parameters are used like inputs.");
     a.part("reporting", r.job, "How numbers are reported.", [](auto& in, BudgetJob& job) {

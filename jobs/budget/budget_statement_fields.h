@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "certificate/piece_roles.h"
 #include "certificate/point_tables.h"
 #include "gum/quantity/distribution.h"
 #include "jobs/job_common_fields.h"
@@ -241,6 +243,13 @@ constexpr Words<std::string_view, n> words_of_quantities(const std::array<std::s
     return words;
 }
 inline constexpr auto k_role_words = words_of_quantities(certificate::k_quantity_roles);
+/// Of a column of points with words: what quantities are, and pieces of a set.
+inline constexpr auto k_word_roles = [] {
+    constexpr auto k_pieces = words_of_quantities(certificate::k_piece_roles);
+    Words<std::string_view, k_role_words.size() + k_pieces.size()> all{};
+    std::copy(k_pieces.begin(), k_pieces.end(), std::copy(k_role_words.begin(), k_role_words.end(), all.begin()));
+    return all;
+}();
 inline constexpr auto k_stage_words = words_of_quantities(certificate::k_quantity_stages);
 
 template <class Archive>

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/piece_roles.h"
 #include "certificate/point_limits.h"
 #include "certificate/result_names.h"
 #include "gum/rounding.h"
@@ -179,6 +180,7 @@ private:
         std::vector<std::string_view> known(names.begin(), names.end());
         known.insert(known.end(), k_of_results.begin(), k_of_results.end());
         known.insert(known.end(), certificate::k_quantity_roles.begin(), certificate::k_quantity_roles.end());
+        known.insert(known.end(), certificate::k_piece_roles.begin(), certificate::k_piece_roles.end());
         const auto nearest = nearest_word(name, known);
         problems_.refuse(
             k_table_column, where, text::in_quotes(name) + " is nothing that the points of this job have",

@@ -33,6 +33,12 @@ struct ComparisonResult : gum::ParticipantResult {
     std::string where;
 };
 
+/// A file that the job names as the budget of a participant, whether or not its result can be used.
+struct ParticipantBudget {
+    std::size_t participant = 0;
+    std::string file;
+};
+
 /// A result that a participant was to report and did not: an empty cell, or an entry without value.
 struct MissingResult {
     std::size_t participant = 0, item = 0, round = 0;
@@ -103,6 +109,7 @@ struct ComparisonJob : gum::ComparisonScheme {
     std::optional<MethodComparisonRequest> methods;
 
     bool names_released = false;  ///< names of participants may stand on documents, beside their ids
+    std::vector<ParticipantBudget> participant_budgets = {};
     RefusedItems refused_items = {};
     std::string organiser;  ///< of the comparison, for the report; "" without
     nlohmann::json document;

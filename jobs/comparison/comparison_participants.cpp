@@ -482,6 +482,9 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
     }
     read_audited(object, result);
     if (object.has("budget")) {
+        if (const json& file = *object.find("budget"); file.is_string()) {
+            reading_.job.participant_budgets.push_back({participant, file.get<std::string>()});
+        }
         if (item) {
             read_budget(object, result);
         }

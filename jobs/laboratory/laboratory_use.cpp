@@ -51,6 +51,73 @@ std::string stated_unit(const JsonDocument& job, const std::string& name) {
     return input != inputs->end() && input->is_object() ? text_in(*input, "unit") : std::string();
 }
 
+bool is_reference_key(std::string_view key) {
+    return std::find(k_reference_keys.begin(), k_reference_keys.end(), key) != k_reference_keys.end();
+}
+
+bool names_standard(const json& statement) {
+    return statement.is_object() && statement.contains("standard");
+}
+
+/// What a point states of an input whose standard the job names: where it is used.
+bool only_says_where(const json& statement) {
+    return statement.is_object() && !statement.empty() && !statement.contains("standard") &&
+           std::any_of(k_reference_keys.begin(), k_reference_keys.end(),
+                       [&](std::string_view key) { return statement.contains(key); });
+}
+
+/// Where points stand: a list in the job, or a file.
+struct PlaceOfPoints {
+    std::string list;  ///< JSON Pointer; "": none
+    std::string file;
+};
+
+/// Of the job, or of its sections.
+std::vector<PlaceOfPoints> places_of_points(const JsonDocument& job) {
+    std::vector<PlaceOfPoints> places;
+    const auto add = [&](const json& part, const std::string& pointer) {
+        const auto points = part.is_object() ? part.find("points") : part.end();
+        if (!part.is_object() || points == part.end()) {
+            return;
+        }
+        const std::string here = child_pointer(pointer, "points");
+        if (points->is_array()) {
+            places.push_back({.list = here, .file = ""});
+        } else if (points->is_object() && points->contains("list") && (*points)["list"].is_array()) {
+            places.push_back({.list = child_pointer(here, "list"), .file = ""});
+        } else if (std::string file = text_in(*points, "file");
+                   points->is_object() && !file.empty() && !JobFiles::file_name_objection(file)) {
+            places.push_back({.list = "", .file = std::move(file)});
+        }
+    };
+    add(job.value, "");
+    if (const auto sections = job.value.find("sections"); sections != job.value.end() && sections->is_object()) {
+        for (const std::string& name : keys_in_order(job, "/sections")) {
+            add((*sections)[name], child_pointer("/sections", name));
+        }
+    }
+    return places;
+}
+
+/// Whether points say where the standard of an input is used, and not which one it is.
+bool says_where(const JsonDocument& job, const PlaceOfPoints& place, const std::string& input, const JobFiles& files) {
+    if (!place.list.empty()) {
+        const json& list = job.value.at(json::json_pointer(place.list));
+        return std::any_of(list.begin(), list.end(), [&](const json& point) {
+            return point.is_object() && point.contains(input) && only_says_where(point[input]);
+        });
+    }
+    bool any = false;
+    for (const CsvHeaderField& field : csv_header(files.peek(place.file).value_or(""))) {
+        const auto [of_input, key] = LaboratoryUse::reference_column(field.name);
+        if (of_input == input && key == "standard") {
+            return false;
+        }
+        any = any || (of_input == input && !key.empty());
+    }
+    return any;
+}
+
 std::string row_pointer(std::size_t row, const std::string& input) {
     return child_pointer(child_pointer("/points", row), input);
 }
@@ -146,76 +213,159 @@ void LaboratoryUse::fill_inputs(JsonDocument& job) {
     if (inputs == job.value.end() || !inputs->is_object()) {
         return;
     }
-    const auto refers = [](const json& statement) { return statement.is_object() && statement.contains("standard"); };
+    const std::vector<PlaceOfPoints> places = places_of_points(job);
     for (const std::string& name : keys_in_order(job, "/inputs")) {
-        if (refers((*inputs)[name])) {
+        if (!names_standard((*inputs)[name])) {
+            continue;
+        }
+        if (std::any_of(places.begin(), places.end(),
+                        [&](const PlaceOfPoints& p) { return says_where(job, p, name, files_); })) {
+            state_once(job, name);
+        } else {
             fill_statement(job, child_pointer("/inputs", name), name, text_in((*inputs)[name], "unit"), problems_);
         }
     }
-    const auto points = job.value.find("points");
-    for (std::size_t i = 0; points != job.value.end() && points->is_array() && i < points->size(); ++i) {
-        if (!(*points)[i].is_object()) {
-            continue;
-        }
-        const std::string pointer = child_pointer("/points", i);
-        for (const std::string& name : keys_in_order(job, pointer)) {
-            if (refers((*points)[i][name])) {
-                fill_statement(job, child_pointer(pointer, name), name, stated_unit(job, name), problems_);
-            }
+    for (const PlaceOfPoints& place : places) {
+        if (!place.list.empty()) {
+            fill_points(job, place.list);
         }
     }
     warn_of_shared_standards(job);
 }
 
+void LaboratoryUse::state_once(JsonDocument& job, const std::string& input) {
+    const std::string pointer = child_pointer("/inputs", input);
+    json& statement = job.value.at(json::json_pointer(pointer));
+    const StandardRecord* const record =
+        standard_of(statement["standard"], {&job, child_pointer(pointer, "standard"), &problems_});
+    const std::optional<StandardUse> use =
+        record != nullptr ? read_use(job, statement, pointer, problems_) : std::nullopt;
+    const std::optional<std::string> take = read_take(job, statement, pointer, problems_);
+    if (!use || !take) {
+        discard(statement);
+        return;
+    }
+    if (!statement.contains("unit")) {
+        const std::string& unit = record->calibrations.back().results.front().unit;
+        statement["unit"] = *take == "deviation" ? gum::unit_of_difference(unit) : unit;
+    }
+    json& kept = once_[input];
+    for (const auto& [key, value] : statement.items()) {
+        if (is_reference_key(key) || key == "components") {
+            kept[key] = value;
+        }
+    }
+    for (const auto& [key, value] : kept.items()) {
+        statement.erase(key);
+    }
+    note_use(record->id);
+    inputs_of_[record->id].push_back(input);
+}
+
+void LaboratoryUse::fill_points(JsonDocument& job, const std::string& list) {
+    const std::size_t points = job.value.at(json::json_pointer(list)).size();
+    for (std::size_t i = 0; i < points; ++i) {
+        const std::string point = child_pointer(list, i);
+        if (!job.value.at(json::json_pointer(point)).is_object()) {
+            continue;
+        }
+        for (const std::string& name : keys_in_order(job, point)) {
+            const std::string pointer = child_pointer(point, name);
+            json& statement = job.value.at(json::json_pointer(pointer));
+            if (const auto once = once_.find(name); once != once_.end() && only_says_where(statement)) {
+                const text::Place at = job.places[pointer];
+                for (const auto& [key, value] : once->second.items()) {
+                    if (!statement.contains(key)) {
+                        statement[key] = value;
+                        place_below(job, child_pointer(pointer, key), value, at);
+                    }
+                }
+            }
+            if (names_standard(statement)) {
+                fill_statement(job, pointer, name, stated_unit(job, name), problems_);
+            }
+        }
+    }
+}
+
 void LaboratoryUse::fill_rows(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
                               ProblemList& problems) {
     rows_.clear();
-    for (std::size_t of_standard = 0; of_standard < columns.size(); ++of_standard) {
-        const auto [input, key] = reference_column(columns[of_standard]);
-        if (key != "standard") {
+    std::vector<std::string> inputs;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto [of_input, key] = reference_column(columns[c]);
+        const std::string input(of_input);
+        if (key.empty() || (key != "standard" && !is_stated_once(input)) ||
+            std::find(inputs.begin(), inputs.end(), input) != inputs.end()) {
             continue;
         }
-        if (!folder_) {
-            problems.refuse(k_laboratory_missing, table.where(table.cell(0, of_standard)),
-                            "the standard " + text::in_quotes(table.cell(0, of_standard).text) + ", and no laboratory",
+        if (!folder_) {  // an input that the job states is refused without a folder
+            problems.refuse(k_laboratory_missing, table.where(table.cell(0, c)),
+                            "the standard " + text::in_quotes(table.cell(0, c).text) + ", and no laboratory",
                             "standards stand in the register of the laboratory",
                             "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
             continue;
         }
-        const std::string unit = stated_unit(job, std::string(input));
+        inputs.push_back(input);
+    }
+    for (const std::string& input : inputs) {
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            JsonDocument& document = rows_[{row, std::string(input)}];
-            const std::string pointer = row_pointer(row, std::string(input));
-            document.file = problems.file();
-            document.is_table = true;
-            json statement = json::object();
-            bool is_read = !table.cell(row, of_standard).text.empty();
-            for (std::size_t c = 0; c < columns.size(); ++c) {
-                const auto [of_input, word] = reference_column(columns[c]);
-                const CsvCell& cell = table.cell(row, c);
-                if (of_input != input || word.empty() || cell.text.empty()) {
-                    continue;  // an empty cell says nothing
-                }
-                document.places[child_pointer(pointer, word)] = {cell.line, cell.column};
-                if (word == "at") {
-                    const std::optional<double> number = table.number(row, c, {});
-                    is_read = is_read && number;
-                    statement[std::string(word)] = number.value_or(0.0);
-                } else {
-                    const auto name = table.name(row, c);
-                    is_read = is_read && name;
-                    statement[std::string(word)] = std::string(name.value_or(""));
-                }
-            }
-            document.places[pointer] = document.places[child_pointer(pointer, "standard")];
-            document.value = json{{"points", {{std::to_string(row), {{std::string(input), statement}}}}}};
-            if (is_read) {
-                fill_statement(document, pointer, std::string(input), unit, problems);
-            }
-            if (!is_read || document.value.at(json::json_pointer(pointer)).is_discarded()) {
-                rows_.erase({row, std::string(input)});
+            fill_row(job, table, columns, row, input, problems);
+        }
+    }
+}
+
+void LaboratoryUse::fill_row(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
+                             std::size_t row, const std::string& input, ProblemList& problems) {
+    JsonDocument document;
+    const std::string pointer = row_pointer(row, input);
+    document.file = problems.file();
+    document.is_table = true;
+    json statement = json::object();
+    std::optional<text::Place> first;  // of the cells that say something of the standard
+    std::optional<text::Place> of_standard;
+    bool is_read = true;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto [of_input, word] = reference_column(columns[c]);
+        if (of_input != input || word.empty()) {
+            continue;
+        }
+        const CsvCell& cell = table.cell(row, c);
+        const text::Place here{cell.line, cell.column};
+        first = first ? first : here;
+        if (word == "standard") {
+            of_standard = here;
+            is_read = is_read && !cell.text.empty();  // refused as an empty cell
+        }
+        if (cell.text.empty()) {
+            continue;  // says nothing
+        }
+        document.places[child_pointer(pointer, word)] = here;
+        if (word == "at") {
+            const std::optional<double> number = table.number(row, c, {});
+            is_read = is_read && number;
+            statement[std::string(word)] = number.value_or(0.0);
+        } else {
+            const auto name = table.name(row, c);
+            is_read = is_read && name;
+            statement[std::string(word)] = std::string(name.value_or(""));
+        }
+    }
+    document.places[pointer] = of_standard ? *of_standard : first.value_or(text::Place{});
+    if (const auto once = once_.find(input); once != once_.end() && !of_standard) {
+        for (const auto& [key, value] : once->second.items()) {
+            if (!statement.contains(key)) {
+                statement[key] = value;
+                place_below(document, child_pointer(pointer, key), value, document.places[pointer]);
             }
         }
+    }
+    document.value = json{{"points", {{std::to_string(row), {{input, std::move(statement)}}}}}};
+    if (is_read) {
+        fill_statement(document, pointer, input, stated_unit(job, input), problems);
+    }
+    if (is_read && !document.value.at(json::json_pointer(pointer)).is_discarded()) {
+        rows_.emplace(std::pair(row, input), std::move(document));
     }
 }
 
@@ -236,55 +386,70 @@ std::span<const std::string_view> LaboratoryUse::reference_keys() {
     return k_reference_keys;
 }
 
-void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
-                                   const std::string& unit_of_input, ProblemList& problems) {
-    json& statement = job.value.at(json::json_pointer(pointer));
-    const CertificatePlace place{&job, child_pointer(pointer, "standard"), &problems};
-    const json id = statement["standard"];
+const StandardRecord* LaboratoryUse::standard_of(const json& id, const CertificatePlace& place) {
     if (!id.is_string()) {
         refuse_type(id, "the identification of a standard", place);
-        discard(statement);
-        return;
+        return nullptr;
     }
     const auto& name = id.get_ref<const std::string&>();
-    const bool is_point = pointer.starts_with("/points/");
     if (!folder_) {
         place.refuse(k_laboratory_missing, "the standard " + text::in_quotes(name) + ", and no laboratory",
                      "standards stand in the register of the laboratory",
                      "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
-    } else if (!LaboratoryFolder::is_identification(name)) {
+        return nullptr;
+    }
+    if (!LaboratoryFolder::is_identification(name)) {
         place.refuse(k_laboratory_id, text::in_quotes(name),
                      "an identification is the name of a file: letters, digits, '-', '_' and '.'",
                      "name the standard as its file is named, without .json");
+        return nullptr;
     }
-    const StandardRecord* record =
-        folder_ && LaboratoryFolder::is_identification(name) ? folder_->standard(name) : nullptr;
+    return folder_->standard(name);
+}
+
+std::optional<std::string> LaboratoryUse::read_take(const JsonDocument& job, const json& statement,
+                                                    const std::string& pointer, ProblemList& problems) {
+    if (!statement.contains("take")) {
+        return "";
+    }
+    const CertificatePlace at{&job, child_pointer(pointer, "take"), &problems};
+    if (!statement["take"].is_string()) {
+        refuse_type(statement["take"], "a text", at);
+        return std::nullopt;
+    }
+    std::string take = statement["take"].get<std::string>();
+    return acceptable_word(take, {"value", "deviation"}, at) ? std::optional(std::move(take)) : std::nullopt;
+}
+
+void LaboratoryUse::note_use(const std::string& standard) {
+    if (std::find(used_.begin(), used_.end(), standard) == used_.end()) {
+        used_.push_back(standard);
+    }
+}
+
+void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
+                                   const std::string& unit_of_input, ProblemList& problems) {
+    json& statement = job.value.at(json::json_pointer(pointer));
+    const CertificatePlace place{&job, child_pointer(pointer, "standard"), &problems};
+    const StandardRecord* const record = standard_of(statement["standard"], place);
+    const bool is_point = !pointer.starts_with("/inputs/");
     const std::optional<StandardUse> use =
         record != nullptr ? read_use(job, statement, pointer, problems) : std::nullopt;
-    const std::string take = text_in(statement, "take");
-    bool is_accepted = use.has_value();
-    if (statement.contains("take")) {
-        const CertificatePlace at{&job, child_pointer(pointer, "take"), &problems};
-        if (!statement["take"].is_string()) {
-            refuse_type(statement["take"], "a text", at);
-            is_accepted = false;
-        } else {
-            is_accepted = acceptable_word(take, {"value", "deviation"}, at) && is_accepted;
-        }
-    }
+    const std::optional<std::string> take = read_take(job, statement, pointer, problems);
+    const bool is_accepted = use && take;
+    // The unit of an input that points state is in the job: 1 when left out.
+    const std::string unit = is_point && unit_of_input.empty() ? "1" : unit_of_input;
     std::optional<json> components =
-        is_accepted ? components_of(*record, *use, unit_of_input, take == "deviation", place) : std::nullopt;
+        is_accepted ? components_of(*record, *use, unit, *take == "deviation", place) : std::nullopt;
     if (!components) {
         discard(statement);
         return;
     }
     const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
-    facts_.uses.push_back({name, input, word_of(verdict.answer), verdict.because});
-    if (std::find(used_.begin(), used_.end(), name) == used_.end()) {
-        used_.push_back(name);
-    }
+    facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because});
+    note_use(record->id);
     if (!is_point) {
-        inputs_of_[name].push_back(input);
+        inputs_of_[record->id].push_back(input);
     }
     const auto found = job.places.find(place.pointer);
     const text::Place at = found == job.places.end() ? text::Place{} : found->second;
@@ -757,9 +922,10 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         if (record == nullptr) {
             facts_.not_registered.push_back(id);
             if (!entry.contains("name")) {
-                place.below(pointer).refuse(k_laboratory_id, text::in_quotes(id) + " is not in the register",
-                                            "a standard that is named only stands in standards/" + id + ".json",
-                                            "add it to the register, or write the standard out");
+                place.below(pointer).refuse(
+                    k_laboratory_id, text::in_quotes(id) + " is not in the register",
+                    "a standard that is named only stands in standards/" + text::visible(id) + ".json",
+                    "add it to the register, or write the standard out");
                 discard(entry);
             }
             continue;
@@ -792,17 +958,18 @@ std::optional<certificate::LaboratoryRegister> register_of_job(const FileSource&
     LaboratoryUse use(files, *document, *file.problems);
     JsonDocument filled = *document;
     use.fill_inputs(filled);
-    if (const auto points = document->value.find("points");
-        points != document->value.end() && points->is_object() && points->contains("file")) {
-        if (const std::optional<JobFiles::File> table_file = files.open(text_in(*points, "file"))) {
-            std::vector<CsvHeaderField> header = csv_header(table_file->bytes);
-            std::vector<std::string_view> columns;
-            for (const CsvHeaderField& field : header) {
-                columns.emplace_back(field.name);
-            }
-            if (const auto table = read_csv_table(table_file->bytes, columns, {}, *table_file->problems)) {
-                use.fill_rows(*document, *table, columns, *table_file->problems);
-            }
+    for (const PlaceOfPoints& place : places_of_points(*document)) {
+        const std::optional<JobFiles::File> table_file = place.file.empty() ? std::nullopt : files.open(place.file);
+        if (!table_file) {
+            continue;
+        }
+        std::vector<CsvHeaderField> header = csv_header(table_file->bytes);
+        std::vector<std::string_view> columns;
+        for (const CsvHeaderField& field : header) {
+            columns.emplace_back(field.name);
+        }
+        if (const auto table = read_csv_table(table_file->bytes, columns, {}, *table_file->problems)) {
+            use.fill_rows(filled, *table, columns, *table_file->problems);
         }
     }
     (void)read_certificate(files, *document, *file.problems, &use);

@@ -33,9 +33,11 @@ public:
     /// \param job  the same document
     void fill_inputs(JsonDocument& job);
 
+    /// Whether the job names the standard of an input once, and its points say where it is used.
+    [[nodiscard]] bool is_stated_once(const std::string& input) const { return once_.contains(input); }
     /// What the rows of a table of points take from the register: columns NAME.standard and, as in an input, NAME.at,
     /// NAME.range … An empty cell says nothing. What is wrong goes to the problems of the table.
-    /// \param job      for the units of the inputs
+    /// \param job      after fill_inputs(), for the units of the inputs
     /// \param columns  all that the table was asked for, in its order
     void fill_rows(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
                    ProblemList& problems);
@@ -57,6 +59,16 @@ public:
 private:
     using Json = nlohmann::json;
 
+    /// Keeps what the job states of an input whose points say where it is used, and leaves the input to them.
+    void state_once(JsonDocument& job, const std::string& input);
+    void fill_points(JsonDocument& job, const std::string& list);
+    void fill_row(const JsonDocument& job, const CsvTable& table, std::span<const std::string_view> columns,
+                  std::size_t row, const std::string& input, ProblemList& problems);
+    [[nodiscard]] const laboratory::StandardRecord* standard_of(const Json& id, const CertificatePlace& place);
+    void note_use(const std::string& standard);
+    /// "" where it is left out; nothing where it was refused.
+    [[nodiscard]] static std::optional<std::string> read_take(const JsonDocument& job, const Json& statement,
+                                                              const std::string& pointer, ProblemList& problems);
     void fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
                         const std::string& unit_of_input, ProblemList& problems);
     [[nodiscard]] std::optional<laboratory::StandardUse> read_use(const JsonDocument& job, const Json& statement,
@@ -89,6 +101,7 @@ private:
     std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
     std::map<std::string, const laboratory::CalibrationResult*> line_of_;  ///< the first line that an input takes
     std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;     ///< by row and input
+    std::map<std::string, Json> once_;  ///< by input: standard, how it is used, and components, as the job states them
 };
 
 /// What the register says of a job that was read and accepted; none where the job names no laboratory.

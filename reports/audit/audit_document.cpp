@@ -28,6 +28,7 @@ public:
 
     void build() {
         subject();
+        limits();
         if (!file_.results.empty()) {
             const AuditedResultView& result = file_.results[file_.worst];
             equation(result);
@@ -89,6 +90,17 @@ private:
             builder_.paragraph(words_("no_results"));
         } else if (file_.results.size() > 1) {
             builder_.paragraph(words_.filled("worst_of", {{"count", std::to_string(file_.results.size())}}));
+        }
+    }
+
+    void limits() {
+        const std::vector<AuditSentence> sentences = words_.limits(file_);
+        if (sentences.empty()) {
+            return;
+        }
+        section("not_looked_at");
+        for (const AuditSentence& sentence : sentences) {
+            builder_.paragraph(sentence.text);
         }
     }
 
@@ -297,7 +309,7 @@ private:
             table("not-checked", words_("not_checked"), {{words_("rule")}, {words_("what")}, {words_("because")}},
                   lines);
         }
-        if (!file_.not_read.empty()) {
+        if (!all_is_named_first(file_)) {
             section("not_read");
             for (const std::string& sentence : file_.not_read) {
                 builder_.paragraph(sentence);
@@ -313,6 +325,12 @@ std::string audit_as_pdf(const AuditView& view, const RenderAssets& assets) {
     const Wording wording = read_wording(one_language);
     const AuditWords words(wording);
     CertificateBuilder builder(wording);
+    if (const std::vector<AuditSentence> unaudited = words.unaudited(view); !unaudited.empty()) {
+        builder.section("unaudited", words("unaudited"));
+        for (const AuditSentence& sentence : unaudited) {
+            builder.paragraph(sentence.text);
+        }
+    }
     for (std::size_t i = 0; i < view.files.size(); ++i) {
         FileSections(view.files[i], view, words, builder, i + 1).build();
     }

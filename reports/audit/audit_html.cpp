@@ -43,6 +43,15 @@ json said(const std::string& english, const AuditWords& words) {
                                  : once({{"text", sentence.text}, {"english", once_if(sentence.english)}});
 }
 
+/// A list of sentences, once, or not at all where there are none.
+json listed(const std::vector<AuditSentence>& sentences) {
+    json lines = json::array();
+    for (const AuditSentence& sentence : sentences) {
+        lines.push_back({{"text", sentence.text}, {"english", once_if(sentence.english)}});
+    }
+    return sentences.empty() ? json::array() : once({{"lines", std::move(lines)}});
+}
+
 void add(json& facts, const std::string& label, const std::string& value) {
     if (!value.empty()) {
         facts.push_back({{"label", label}, {"value", value}});
@@ -65,6 +74,7 @@ public:
                     {"kind", words_.file_kind(file_.kind)},
                     {"sha256", one_text(file_.sha256)},
                     {"counts", counts()},
+                    {"limits", listed(words_.limits(file_))},
                     {"subject", subject()},
                     {"result", json::array()},
                     {"no_result", once_if(file_.results.empty())},
@@ -560,14 +570,14 @@ private:
     }
 
     json not_read() const {
-        if (file_.not_read.empty()) {
+        if (all_is_named_first(file_)) {
             return json::array();
         }
-        json lines = json::array();
+        std::vector<AuditSentence> all;
         for (const std::string& sentence : file_.not_read) {
-            lines.push_back({{"text", sentence}});
+            all.push_back(words_.sentence(sentence));
         }
-        return once({{"lines", std::move(lines)}});
+        return listed(all);
     }
 };
 
@@ -614,6 +624,7 @@ std::string audit_as_html(const AuditView& view, const RenderAssets& assets) {
                                : words.filled("title_of_several", {{"count", std::to_string(view.files.size())}})},
                  {"several_files", once_if(view.files.size() > 1)},
                  {"program", one_text(view.program)},
+                 {"unaudited", listed(words.unaudited(view))},
                  {"overview", overview(view, words)},
                  {"files", json::array()}};
     for (std::size_t i = 0; i < view.files.size(); ++i) {

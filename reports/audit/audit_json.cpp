@@ -112,6 +112,9 @@ json file_json(const AuditedFileView& file, const AuditView& view) {
                                     {"nu_eff", interval(result.nu_eff)},
                                     {"k", interval(result.k)},
                                     {"U", interval(result.U)}}}});
+        if (result.sampled_shares) {
+            all["results"].back()["sampled_shares"] = true;
+        }
     }
     if (!file.results.empty()) {
         const json& worst = all["results"][file.worst];
@@ -127,6 +130,18 @@ json file_json(const AuditedFileView& file, const AuditView& view) {
         all["not_checked"].push_back({{"id", one.id}, {"because", one.because}});
     }
     return all;
+}
+
+const char* name_of(UnauditedFile::Kind kind) {
+    switch (kind) {
+        case UnauditedFile::Kind::refused:
+            return "refused";
+        case UnauditedFile::Kind::in_record:
+            return "in_record";
+        case UnauditedFile::Kind::other_kind:
+            return "other_kind";
+    }
+    return "";
 }
 
 /// The text of one file as it stands in the array of all: two blanks deeper, without LF at its end.
@@ -149,6 +164,10 @@ std::string audit_as_json(const AuditView& view, const TaskRunner& run) {
     json all = view.files.empty() ? json::object() : file_json(view.files[view.worst], view);
     all["schema"] = "gumcert/audit/1";
     all["program"] = view.program;
+    for (const UnauditedFile& one : view.unaudited) {
+        all["unaudited"].push_back(
+            {{"file", one.file}, {"why", name_of(one.kind)}, {"because", text_or_null(one.because)}});
+    }
     if (view.files.size() < 2) {
         return gumcert::json::canonical_json(all);
     }

@@ -129,6 +129,18 @@ json result_json(const AuditFindingView& finding, std::size_t file, const AuditV
     return entry;
 }
 
+std::string why(const UnauditedFile& file) {
+    switch (file.kind) {
+        case UnauditedFile::Kind::refused:
+            return file.because;
+        case UnauditedFile::Kind::in_record:
+            return file.file + ": evaluated again for the record " + file.because + ", which was made of it";
+        case UnauditedFile::Kind::other_kind:
+            return file.file + ": of no kind that an audit reads";
+    }
+    return "";
+}
+
 }  // namespace
 
 std::string audit_as_sarif(const AuditView& view, std::span<const audit::Rule> rules) {
@@ -155,6 +167,14 @@ std::string audit_as_sarif(const AuditView& view, std::span<const audit::Rule> r
         for (const std::string& sentence : file.not_read) {
             notes.push_back({{"level", "warning"}, {"message", message(file.name + ": " + sentence)}});
         }
+        if (file.sampled_shares) {
+            notes.push_back({{"level", "note"},
+                             {"message", message(file.name + ": shares are means over random orders of corrections")}});
+        }
+    }
+    for (const UnauditedFile& one : view.unaudited) {
+        notes.push_back({{"level", one.kind == UnauditedFile::Kind::in_record ? "note" : "warning"},
+                         {"message", message(why(one))}});
     }
     const std::size_t blank = view.program.find(' ');
     json driver = {{"name", blank == std::string::npos ? "gumcert" : view.program.substr(0, blank)},

@@ -144,6 +144,14 @@ std::string not_checked_of(const AuditedFileView& file, const AuditWords& words,
     return out;
 }
 
+std::string list_of(const std::string& heading, const std::vector<AuditSentence>& sentences) {
+    std::string out;
+    for (const AuditSentence& sentence : sentences) {
+        out += paragraph_of("  ", sentence.text);
+    }
+    return out.empty() ? "" : "\n" + heading + "\n" + out;
+}
+
 std::string file_text(const AuditedFileView& file, const AuditWords& words, bool verbose) {
     std::string out = paragraph_of("", file.name + " (" + words.file_kind(file.kind) + ")");
     out += paragraph_of("  ", counts_of(file, words));
@@ -158,6 +166,7 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
             out += paragraph_of("  ", words.filled("worst_of", {{"count", std::to_string(file.results.size())}}));
         }
     }
+    out += list_of(words("not_looked_at"), words.limits(file));
     out += "\n" + words("findings") + "\n";
     if (file.findings.empty()) {
         out += paragraph_of("  ", words("no_findings"));
@@ -166,7 +175,7 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
         out += finding_text(file.findings[i], i + 1, file, words);
     }
     out += questions_of(file, words);
-    if (!file.not_read.empty()) {
+    if (!all_is_named_first(file)) {
         out += "\n" + words("not_read") + "\n";
         for (const std::string& sentence : file.not_read) {
             out += paragraph_of("  ", sentence);
@@ -179,7 +188,8 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
 
 std::string audit_as_text(const AuditView& view, const Wording& wording, bool verbose) {
     const AuditWords words(wording);
-    std::string out;
+    std::string out = list_of(words("unaudited"), words.unaudited(view));
+    out.erase(0, out.empty() ? 0 : 1);  // nothing stands above it
     for (const AuditedFileView& file : view.files) {
         out += (out.empty() ? "" : "\n") + file_text(file, words, verbose);
     }

@@ -435,57 +435,6 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file, const audit::A
     return answers;
 }
 
-AuditedFileView file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
-                          const std::vector<PrintedWaiver>& waivers) {
-    AuditedFileView file;
-    file.name = printable(report.subject.name);
-    file.kind = name_of(report.subject.kind);
-    if (report.subject.certificate) {
-        const certificate::CertificateData& data = report.subject.certificate->data;
-        if (data.accreditation) {
-            for (const certificate::ScopeEntry& entry : data.accreditation->scope) {
-                file.scope.push_back(scope_line(entry));
-            }
-        }
-        file.method = printable(data.method.identification) +
-                      (data.method.version.empty() ? "" : " (" + printable(data.method.version) + ")");
-    }
-    for (const audit::AuditedResult& result : report.results) {
-        file.results.push_back(result_view(result, report.subject.budgets[result.budget]));
-    }
-    for (std::size_t i = 1; i < file.results.size(); ++i) {
-        file.worst = rank_of(file.results[i]) > rank_of(file.results[file.worst]) ? i : file.worst;
-    }
-    const ResultOfBudget result_of = results_by_budget(report);
-    for (const audit::AuditFinding& finding : report.findings) {
-        file.findings.push_back(finding_view(finding, report, result_of, rules, waivers));
-        ++file.counts[3 - static_cast<std::size_t>(finding.severity)];
-        const std::string& question = file.findings.back().question;
-        if (question.empty()) {
-            continue;
-        }
-        const auto asked = std::find_if(file.questions.begin(), file.questions.end(),
-                                        [&question](const QuestionView& one) { return one.question == question; });
-        if (asked == file.questions.end()) {
-            file.questions.push_back({.question = question, .findings = {file.findings.size() - 1}});
-        } else {
-            asked->findings.push_back(file.findings.size() - 1);
-        }
-    }
-    tie_findings_to_results(file);
-    for (const audit::RuleNotChecked& one : report.not_checked) {
-        const audit::Rule* rule = rule_of(one.rule, rules);
-        file.not_checked.push_back({.id = printable(one.rule),
-                                    .title = rule == nullptr ? "" : std::string(rule->title),
-                                    .because = printable(one.because)});
-    }
-    file.linearity = linearity_of(file, report, rules);
-    for (const std::string& sentence : report.subject.not_read) {
-        file.not_read.push_back(printable(sentence));
-    }
-    return file;
-}
-
 /// The gravest finding, 0 for none; then the worst result.
 std::tuple<std::size_t, bool, double> rank_of(const AuditedFileView& file) {
     std::size_t gravest = 0;
@@ -494,6 +443,16 @@ std::tuple<std::size_t, bool, double> rank_of(const AuditedFileView& file) {
     }
     const auto [turns, change] = file.results.empty() ? std::pair(false, 0.0) : rank_of(file.results[file.worst]);
     return {gravest, turns, change};
+}
+
+/// The position of a waiver among those of others, to which it is added where it is not there yet.
+std::size_t add_waiver(PrintedWaiver waiver, std::vector<PrintedWaiver>& waivers) {
+    const auto same = std::find(waivers.begin(), waivers.end(), waiver);
+    if (same != waivers.end()) {
+        return static_cast<std::size_t>(same - waivers.begin());
+    }
+    waivers.push_back(std::move(waiver));
+    return waivers.size() - 1;
 }
 
 }  // namespace
@@ -532,27 +491,92 @@ void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(st
     }
 }
 
-AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
-                          const AuditContext& context, const TaskRunner& run) {
-    AuditView view;
-    view.program = printable(context.program);
-    for (const audit::AuditReport& report : reports) {
-        for (const certificate::Waiver& waiver : report.subject.waivers) {
-            PrintedWaiver printed = printed_waiver(waiver);
-            if (std::find(view.waivers.begin(), view.waivers.end(), printed) == view.waivers.end()) {
-                view.waivers.push_back(std::move(printed));
+AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
+                               const std::string& sha256) {
+    AuditedFileView file;
+    file.sha256 = printable(sha256);
+    for (const certificate::Waiver& waiver : report.subject.waivers) {
+        add_waiver(printed_waiver(waiver), file.waivers);
+    }
+    file.name = printable(report.subject.name);
+    file.kind = name_of(report.subject.kind);
+    if (report.subject.certificate) {
+        const certificate::CertificateData& data = report.subject.certificate->data;
+        if (data.accreditation) {
+            for (const certificate::ScopeEntry& entry : data.accreditation->scope) {
+                file.scope.push_back(scope_line(entry));
             }
         }
+        file.method = printable(data.method.identification) +
+                      (data.method.version.empty() ? "" : " (" + printable(data.method.version) + ")");
     }
-    view.files.resize(reports.size());
-    run_tasks(run, reports.size(), [&](std::size_t i) {
-        view.files[i] = file_view(reports[i], rules, view.waivers);
-        view.files[i].sha256 = i < context.digests.size() ? printable(context.digests[i]) : "";
-    });
-    for (std::size_t i = 0; i < reports.size(); ++i) {
+    for (const audit::AuditedResult& result : report.results) {
+        file.results.push_back(result_view(result, report.subject.budgets[result.budget]));
+        file.sampled_shares = file.sampled_shares || result.sampled_shares;
+    }
+    for (std::size_t i = 1; i < file.results.size(); ++i) {
+        file.worst = rank_of(file.results[i]) > rank_of(file.results[file.worst]) ? i : file.worst;
+    }
+    const ResultOfBudget result_of = results_by_budget(report);
+    for (const audit::AuditFinding& finding : report.findings) {
+        file.findings.push_back(finding_view(finding, report, result_of, rules, file.waivers));
+        ++file.counts[3 - static_cast<std::size_t>(finding.severity)];
+        const std::string& question = file.findings.back().question;
+        if (question.empty()) {
+            continue;
+        }
+        const auto asked = std::find_if(file.questions.begin(), file.questions.end(),
+                                        [&question](const QuestionView& one) { return one.question == question; });
+        if (asked == file.questions.end()) {
+            file.questions.push_back({.question = question, .findings = {file.findings.size() - 1}});
+        } else {
+            asked->findings.push_back(file.findings.size() - 1);
+        }
+    }
+    tie_findings_to_results(file);
+    for (const audit::RuleNotChecked& one : report.not_checked) {
+        const audit::Rule* rule = rule_of(one.rule, rules);
+        file.not_checked.push_back({.id = printable(one.rule),
+                                    .title = rule == nullptr ? "" : std::string(rule->title),
+                                    .because = printable(one.because)});
+    }
+    file.linearity = linearity_of(file, report, rules);
+    for (const std::string& sentence : report.subject.not_read) {
+        file.not_read.push_back(printable(sentence));
+    }
+    return file;
+}
+
+AuditView make_audit_view(std::vector<AuditedFileView> files, const AuditContext& context) {
+    AuditView view;
+    view.program = printable(context.program);
+    view.files = std::move(files);
+    for (AuditedFileView& file : view.files) {
+        std::vector<std::size_t> position_of;
+        for (PrintedWaiver& waiver : file.waivers) {
+            position_of.push_back(add_waiver(std::move(waiver), view.waivers));
+        }
+        file.waivers.clear();
+        for (AuditFindingView& finding : file.findings) {
+            finding.waiver = finding.waiver ? std::optional(position_of[*finding.waiver]) : std::nullopt;
+        }
+    }
+    for (std::size_t i = 0; i < view.files.size(); ++i) {
         view.worst = rank_of(view.files[i]) > rank_of(view.files[view.worst]) ? i : view.worst;
     }
+    for (const UnauditedFile& one : context.unaudited) {
+        view.unaudited.push_back({.kind = one.kind, .file = printable(one.file), .because = printable(one.because)});
+    }
     return view;
+}
+
+AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
+                          const AuditContext& context, const TaskRunner& run) {
+    std::vector<AuditedFileView> files(reports.size());
+    run_tasks(run, reports.size(), [&](std::size_t i) {
+        files[i] = make_file_view(reports[i], rules, i < context.digests.size() ? context.digests[i] : "");
+    });
+    return make_audit_view(std::move(files), context);
 }
 
 }  // namespace gumcert::reports

@@ -25,10 +25,22 @@ struct PrintedWaiver {
     friend bool operator==(const PrintedWaiver&, const PrintedWaiver&) = default;
 };
 
+/// A file that somebody asked to audit, and that has no audit: every form says so where it begins.
+struct UnauditedFile {
+    enum class Kind {
+        refused,    ///< because: why
+        in_record,  ///< a job that was evaluated again for the record that was made of it; because: the record
+        other_kind  ///< of a folder, and nothing that an audit reads
+    };
+    Kind kind = Kind::refused;
+    std::string file = {}, because = {};
+};
+
 /// What the caller knows beside the reports.
 struct AuditContext {
     std::string program = {};               ///< "gumcert 0.1.0"
     std::vector<std::string> digests = {};  ///< SHA-256 of the files, in the order of the reports; empty: not printed
+    std::vector<UnauditedFile> unaudited = {};
 };
 
 struct PrintedOutcome {
@@ -126,7 +138,7 @@ struct AuditFindingView {
     std::vector<std::size_t> results;  ///< that it touches: positions in AuditedFileView::results
     std::optional<EffectView> effect;
     std::optional<MissingTermView> missing_term;
-    std::optional<std::size_t> waiver;  ///< position in AuditView::waivers
+    std::optional<std::size_t> waiver;  ///< position in the waivers of its file; in a view of several in those of all
 };
 
 struct NotCheckedView {
@@ -161,6 +173,8 @@ struct AuditedFileView {
     std::vector<NotCheckedView> not_checked;
     std::vector<std::string> not_read;
     std::vector<QuestionView> questions;
+    std::vector<PrintedWaiver> waivers;  ///< of this file; in a view of several those of all stand in AuditView
+    bool sampled_shares = false;         ///< of one of its results
 };
 
 struct AuditView {
@@ -168,6 +182,7 @@ struct AuditView {
     std::vector<AuditedFileView> files;
     std::size_t worst = 0;               ///< of `files`
     std::vector<PrintedWaiver> waivers;  ///< of all files, each once
+    std::vector<UnauditedFile> unaudited;
 };
 
 /// "critical", "major", "minor", "information": the order of AuditedFileView::counts.
@@ -181,12 +196,19 @@ inline constexpr std::array<const char*, 4> k_audit_severities{"critical", "majo
 using TaskRunner = std::function<void(std::size_t n, const std::function<void(std::size_t)>& task)>;
 void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(std::size_t)>& task);
 
+/// The view of one file alone: many of them are made before they are put together, and their reports need not be kept.
+/// \param rules   for titles and clauses: those that the audit was made with
+/// \param sha256  of the file; "" where it is not printed
+[[nodiscard]] AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
+                                             const std::string& sha256 = "");
+
 /// The view of the audits of one file or of a folder.
 ///
 /// The worst result of a file is the one that the corrections change most: a verdict or |E_n| > 1 that turns counts
 /// before U, then the largest relative change of U, then the first. The worst file is the one with the gravest finding,
 /// then by its worst result.
-/// \param reports  one or more, in the order in which they are shown
+/// \param files    one or more, in the order in which they are shown
+[[nodiscard]] AuditView make_audit_view(std::vector<AuditedFileView> files, const AuditContext& context);
 /// \param rules    for titles and clauses: those that the audits were made with
 [[nodiscard]] AuditView make_audit_view(std::span<const audit::AuditReport> reports, std::span<const audit::Rule> rules,
                                         const AuditContext& context, const TaskRunner& run = {});

@@ -1,6 +1,18 @@
 #include "reports/audit/audit_words.h"
 
+#include <algorithm>
+
 namespace gumcert::reports {
+namespace {
+
+constexpr std::size_t k_named_first = 6;   // of what could not be understood
+constexpr std::size_t k_files_named = 12;  // of those that no audit reads
+
+}  // namespace
+
+bool all_is_named_first(const AuditedFileView& file) {
+    return file.not_read.size() <= k_named_first;
+}
 
 std::string enumerated(const std::vector<std::string>& names) {
     std::string text;
@@ -130,6 +142,51 @@ std::string AuditWords::contributor_text(const ContributorView& contributor, con
                                           : filled("zero_because", {{"reason", contributor.reason}});
     }
     return with_unit(contributor.contribution_text, unit) + " (" + number(contributor.share_percent) + " %)";
+}
+
+std::vector<AuditSentence> AuditWords::limits(const AuditedFileView& file) const {
+    std::vector<AuditSentence> all;
+    for (std::size_t i = 0; i < std::min(file.not_read.size(), k_named_first); ++i) {
+        all.push_back(sentence(file.not_read[i]));
+    }
+    if (!all_is_named_first(file)) {
+        all.push_back(
+            {.text = filled("more_limits", {{"count", std::to_string(file.not_read.size() - k_named_first)}})});
+    }
+    if (!file.not_checked.empty()) {
+        all.push_back({.text = filled("rules_not_checked", {{"count", std::to_string(file.not_checked.size())}})});
+    }
+    if (file.sampled_shares) {
+        all.push_back({.text = (*this)("sampled")});
+    }
+    return all;
+}
+
+std::vector<AuditSentence> AuditWords::unaudited(const AuditView& view) const {
+    std::vector<AuditSentence> all;
+    std::vector<std::string> of_other_kinds;
+    for (const UnauditedFile& one : view.unaudited) {
+        switch (one.kind) {
+            case UnauditedFile::Kind::refused:
+                all.push_back({.text = one.because, .english = language() != "en"});
+                break;
+            case UnauditedFile::Kind::in_record:
+                all.push_back({.text = filled("unaudited_in_record", {{"file", one.file}, {"record", one.because}})});
+                break;
+            case UnauditedFile::Kind::other_kind:
+                of_other_kinds.push_back(one.file);
+                break;
+        }
+    }
+    if (!of_other_kinds.empty()) {
+        const std::size_t count = of_other_kinds.size();
+        if (count > k_files_named) {
+            of_other_kinds.resize(k_files_named);
+            of_other_kinds.push_back("… (" + std::to_string(count) + ")");
+        }
+        all.push_back({.text = filled("unaudited_other_kind", {{"files", enumerated(of_other_kinds)}})});
+    }
+    return all;
 }
 
 }  // namespace gumcert::reports

@@ -14,6 +14,9 @@ struct AuditSentence {
     bool english = false;
 };
 
+/// Whether limits() names everything that could not be understood; else the whole list stands at the end of the file.
+[[nodiscard]] bool all_is_named_first(const AuditedFileView& file);
+
 /// "a; b; c".
 [[nodiscard]] std::string enumerated(const std::vector<std::string>& names);
 
@@ -58,6 +61,11 @@ public:
     [[nodiscard]] std::string method(const AuditedFileView& file, const AuditedResultView& result) const;
     /// A sentence of a rule: in the language where the catalogue of sentences has it.
     [[nodiscard]] AuditSentence sentence(const std::string& english) const;
+    /// What of a file the audit did not look at, for the place where a form begins: what could not be understood, as far as
+    /// all_is_named_first() says, rules that were not checked, shares that are sampled.
+    [[nodiscard]] std::vector<AuditSentence> limits(const AuditedFileView& file) const;
+    /// Files that have no audit, and why.
+    [[nodiscard]] std::vector<AuditSentence> unaudited(const AuditView& view) const;
     /// A number with what a contributor is: "0.012 µm (3.1 %)", or why there is none.
     [[nodiscard]] std::string contributor_text(const ContributorView& contributor, const std::string& unit) const;
 

@@ -118,6 +118,56 @@ void core_data(DccWriter& w) {
     w.xml.close();
 }
 
+/// "Nominal value 0.5 mm"
+Text nominal_value(DccWriter& w, const SetPiece::Nominal& nominal) {
+    const Wording& words = w.words();
+    const Text heading = nominal.heading.empty() ? words("point_table", "nominal") : words.localised(nominal.heading);
+    return heading + " " + words.number(nominal.printed) +
+           (nominal.printed_unit.empty() ? "" : " " + nominal.printed_unit);
+}
+
+/// A gauge block of a set, a weight: what the points say of it. What the set has in common stands at the set.
+void piece_of_set(DccWriter& w, const SetPiece& piece, bool has_number_of_customer) {
+    const Wording& words = w.words();
+    const Text serial_number = words("dcc", "serial_number");
+    const Text identified = words("dcc", "identification");
+    w.xml.open("dcc:item", {{"id", piece.id}});
+    w.text("dcc:name", piece.nominal                 ? nominal_value(w, *piece.nominal)
+                       : piece.serial_number.empty() ? identified + (" " + piece.identification)
+                                                     : serial_number + (" " + piece.serial_number));
+    w.xml.open("dcc:identifications");
+    if (!piece.serial_number.empty()) {
+        identification(w, "manufacturer", piece.serial_number, serial_number, "serial_number");
+    }
+    if (!piece.identification.empty()) {
+        identification(w, has_number_of_customer ? "customer" : "calibrationLaboratory", piece.identification,
+                       identified, "identification");
+    }
+    w.xml.close();
+    if (piece.nominal) {
+        w.xml.open("dcc:itemQuantities");
+        write_plain_quantity(w, {.element = "dcc:itemQuantity",
+                                 .name = words("point_table", "nominal"),
+                                 .ref_type = w.ref_types()("role_nominal"),
+                                 .value = required_d_si_number(piece.nominal->printed, "nominal value"),
+                                 .unit = piece.nominal->unit});
+        w.xml.close();
+    }
+    w.xml.close();
+}
+
+void pieces_of_set(DccWriter& w, const std::string& item, bool has_numbers_of_customer) {
+    const std::vector<SetPiece> pieces = w.pieces().of_item(item);
+    if (pieces.empty()) {
+        return;
+    }
+    w.xml.open("dcc:subItems");
+    for (const SetPiece& piece : pieces) {
+        piece_of_set(w, piece, has_numbers_of_customer);
+    }
+    w.xml.close();
+}
+
 void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
     w.xml.open("dcc:item", {{"id", id}});
@@ -154,6 +204,7 @@ void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
         identification(w, "other", w.not_stated().first(), {}, "identification");
     }
     w.xml.close();
+    pieces_of_set(w, id, stated_by_customer("identification"));
     w.xml.close();
 }
 

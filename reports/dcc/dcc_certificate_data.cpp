@@ -254,11 +254,6 @@ certificate::CertificateData certificate_data_of(const XmlElement& root) {
     read_persons(below(administrative, {"dcc:respPersons"}), data.persons);
     for (const DccStatement& statement : statements_of(root)) {
         const std::string kind = in_small(statement.ref_type);
-        if (has_any_word(kind, {"remark", "bemerkung"}) && !statement.declaration.empty()) {
-            data.remarks.emplace_back(statement.declaration);
-        } else if (has_any_word(kind, {"opinion"}) && !statement.declaration.empty()) {
-            data.opinions.push_back({.text = statement.declaration, .basis = {}, .author = {}});
-        }
         if (!data.accreditation && kind.find("accreditation") != std::string::npos) {
             data.accreditation = certificate::Accreditation{};
             data.accreditation->body = statement.declaration;

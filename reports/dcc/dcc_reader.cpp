@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <span>
@@ -40,6 +41,8 @@ struct Context {
     std::string role = "result";
     std::string result, result_en;  ///< name of what it is part of, as it stands and for the job language
     std::size_t table = 0;
+    /// That the next element around it refers to: one for all rows, or one a row. Null: none.
+    std::shared_ptr<const std::vector<std::size_t>> items;
 };
 
 bool is_name_character(char c) {
@@ -203,7 +206,11 @@ void add_statement(const ImportedNumber& stated, ImportedNumber& number) {
 
 class Reader {
 public:
-    Reader(std::string file, ImportedCertificate& out) : file_(std::move(file)), out_(out) {}
+    Reader(std::string file, ImportedCertificate& out) : file_(std::move(file)), out_(out) {
+        for (std::size_t i = 0; i < out.items.size(); ++i) {
+            item_of_id_.emplace(out.items[i].id, i);
+        }
+    }
 
     void walk(const XmlElement& element, Context context);
 
@@ -233,6 +240,7 @@ private:
     void add_rows(const XmlElement& quantity, const Context& context, const Form& main,
                   const std::vector<const Form*>& others, const std::string& note);
     [[nodiscard]] static std::string base_name(const XmlElement& quantity, const Context& context, const Form& form);
+    [[nodiscard]] std::vector<std::size_t> items_of(const XmlElement& element) const;
     [[nodiscard]] std::string free_name(const std::string& base, const std::string& result, std::size_t rows);
 
     std::vector<Form> forms_of(const XmlElement& element);
@@ -253,6 +261,7 @@ private:
     std::map<std::pair<std::string, std::size_t>, std::size_t> next_version_;  ///< of words for so many rows
     std::set<std::string, std::less<>> unknown_units_;                         // each one is remarked once
     std::size_t tables_ = 0;
+    std::map<std::string, std::size_t, std::less<>> item_of_id_;  ///< in ImportedCertificate::items
 };
 
 void Reader::unit(const std::string& d_si, const XmlElement& at, ImportedNumber& number) {
@@ -578,6 +587,9 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
         if (main.list) {
             imported.row = row;
         }
+        if (context.items && (context.items->size() == 1 || context.items->size() == rows)) {
+            imported.about = (*context.items)[context.items->size() == 1 ? 0 : row];
+        }
         for (const Form* other : others) {
             imported.also.push_back(other->numbers[row]);
         }
@@ -625,6 +637,22 @@ void Reader::add_position(const XmlElement& coordinate, const Context& context) 
     add_rows(coordinate, inner, real(coordinate), {}, "");
 }
 
+/// The items that an element refers to. Empty where it refers to something else, or where there is one item only.
+std::vector<std::size_t> Reader::items_of(const XmlElement& element) const {
+    std::vector<std::size_t> found;
+    if (out_.items.size() < 2) {
+        return found;
+    }
+    for (const std::string& id : xml_list(element.attribute("refId"))) {
+        const auto item = item_of_id_.find(id);
+        if (item == item_of_id_.end()) {
+            return {};
+        }
+        found.push_back(item->second);
+    }
+    return found;
+}
+
 void Reader::walk(const XmlElement& element, Context context) {
     static constexpr std::array<std::pair<const char*, const char*>, 7> k_roles{
         {{"dcc:influenceCondition", "influence_condition"},
@@ -651,13 +679,16 @@ void Reader::walk(const XmlElement& element, Context context) {
         context.result = first_content(name);
         context.result_en = content_in(name, "en");
     }
+    if (std::vector<std::size_t> items = items_of(element); !items.empty()) {
+        context.items = std::make_shared<const std::vector<std::size_t>>(std::move(items));
+    }
     if (element.child("si:value") != nullptr) {
         add_position(element, context);
         return;
     }
     if (element.child("si:valueXMLList") != nullptr) {  // dcc:relativeUncertaintyXmlList
-        add_rows(element, {context.role, context.result, "relative_uncertainty", 0}, xml_list_of_reals(element), {},
-                 "a relative uncertainty of the quantity before");
+        add_rows(element, {context.role, context.result, "relative_uncertainty", 0, nullptr},
+                 xml_list_of_reals(element), {}, "a relative uncertainty of the quantity before");
         return;
     }
     add_quantity(element, context);
@@ -695,6 +726,29 @@ std::string state_of(const XmlElement& root, const std::string& identifier) {
     return state;
 }
 
+std::vector<ImportedItem> items_of(const XmlElement& root) {
+    constexpr std::size_t k_most_identifications = 4;  // of one item: every number about it repeats them
+    std::vector<ImportedItem> items;
+    for_each_element(root, [&](const XmlElement& e) {
+        if (e.name != "dcc:item" || e.attribute("id").empty()) {
+            return;
+        }
+        ImportedItem& item = items.emplace_back();
+        item.id = e.attribute("id");
+        item.name = first_content(e.child("dcc:name"));
+        if (const XmlElement* const all = e.child("dcc:identifications"); all != nullptr) {
+            for (const XmlElement* one : all->children_named("dcc:identification")) {
+                if (item.identifications.size() == k_most_identifications) {
+                    return;
+                }
+                const std::string called = first_content(one->child("dcc:name"));
+                item.identifications.push_back((called.empty() ? "" : called + " ") + one->child_text("dcc:value"));
+            }
+        }
+    });
+    return items;
+}
+
 std::string trimmed_or_empty(const XmlElement* element) {
     return element == nullptr ? "" : element->trimmed();
 }
@@ -712,6 +766,7 @@ ImportedCertificate certificate_of(const XmlElement& root, std::string_view byte
     out.item = first_content(descend(administrative, {"dcc:items", "dcc:item", "dcc:name"}));
     out.sha256 = encoding::sha256(bytes);
     out.state = state_of(root, out.identifier);
+    out.items = items_of(root);
     Reader reader(file, out);
     reader.walk(root, {});
     return out;

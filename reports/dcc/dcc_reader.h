@@ -34,7 +34,9 @@ struct ImportedQuantity : ImportedNumber {
     /// "statement", "equipment", "method", "item", "location"
     std::string role = "result";
     std::optional<std::size_t> row;  ///< in a list, from 0
-    std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
+    /// What the number is about, where the document has several items and refers to one: in ImportedCertificate::items
+    std::optional<std::size_t> about;
+    std::size_t table = 0;  ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
     /// dcc:conformity of its row ("pass", "fail", "conditionalPass" …), the first that is not "noPass"; "" without one
@@ -50,12 +52,20 @@ struct ImportedWords {
     std::vector<std::string> words;  ///< one a row
 };
 
+/// An item of a certificate, or a piece of a set.
+struct ImportedItem {
+    std::string id;  ///< attribute
+    std::string name;
+    std::vector<std::string> identifications;  ///< "Serial number 40210": as they are called, and their values
+};
+
 struct ImportedCertificate {
     std::string schema_version;  ///< "3.3.0"
     std::string identifier, laboratory, item, issued, performed_from, performed_to;
     std::string sha256;  ///< of the file
     /// "draft" or "specimen" where the document says that it is one, else ""
     std::string state;
+    std::vector<ImportedItem> items;  ///< those with an id, pieces of sets among them
     std::vector<ImportedQuantity> quantities;
     std::vector<ImportedWords> words;
     std::vector<gum::Diagnostic> remarks;

@@ -366,8 +366,9 @@ void point_column(DccWriter& w, const certificate::PointColumn& column) {
     const Text name = heading_of(column, w.words());
     const std::string known = column.role.empty() ? "" : w.ref_types()("role_" + column.role);
     const std::string own = "gumcert_" + as_token(column.name);
+    const std::string ref_type = known.empty() ? own : known + " " + own;
     if (std::none_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); })) {
-        words_quantity(w, name, own, column.printed);
+        words_quantity(w, name, ref_type, column.printed);
         return;
     }
     std::vector<std::string> entries;
@@ -376,7 +377,7 @@ void point_column(DccWriter& w, const certificate::PointColumn& column) {
         entries.push_back(!column.values[i] || printed != k_nothing ? printed : d_si_number(*column.values[i]));
     }
     write_plain_list(w, {.name = name,
-                         .ref_type = known.empty() ? own : known + " " + own,
+                         .ref_type = ref_type,
                          .values = entries,
                          .unit = column.unit.empty() ? "1" : column.unit,
                          .stage = column.stage});
@@ -397,16 +398,29 @@ Text heading(const Text& caption, std::size_t languages) {
     return Text(std::move(all));
 }
 
+std::vector<std::string> each_once(const std::vector<std::string>& ids) {
+    std::vector<std::string> once;
+    for (const std::string& id : ids) {
+        if (std::find(once.begin(), once.end(), id) == once.end()) {
+            once.push_back(id);
+        }
+    }
+    return once;
+}
+
 void table(DccWriter& w, const CertifiedTable& t) {
     const Wording& words = w.words();
     const std::string known = w.ref_types()("table_" + t.id);
-    w.xml.open("dcc:result", {{"refType", known.empty() ? w.ref_types()("table_results") : known}});
+    const std::vector<std::string> of_rows =
+        t.argument ? w.pieces().of_rows(t.argument->printed) : std::vector<std::string>();
+    w.xml.open("dcc:result", {{"refId", full_list(each_once(of_rows))},
+                              {"refType", known.empty() ? w.ref_types()("table_results") : known}});
     const Text caption = t.layout                        ? layout_caption(*t.layout, words)
                          : words.has("table_name", t.id) ? words("table_name", t.id)
                                                          : words.filled("table_name", "other", {{"name", t.id}});
     w.text("dcc:name", heading(caption, words.languages().size()));
     w.xml.open("dcc:data");
-    w.xml.open("dcc:list");
+    w.xml.open("dcc:list", {{"refId", full_list(of_rows)}});
     if (t.argument) {
         argument(w, *t.argument);
     }

@@ -23,7 +23,7 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-bool is_blank(char c) {
+bool is_blank_character(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
@@ -216,7 +216,7 @@ bool is_duration(std::string_view text) {
 
 bool is_base64(std::string_view text) {
     std::string letters;
-    std::copy_if(text.begin(), text.end(), std::back_inserter(letters), [](char c) { return !is_blank(c); });
+    std::copy_if(text.begin(), text.end(), std::back_inserter(letters), [](char c) { return !is_blank_character(c); });
     const std::size_t end = std::min(letters.find('='), letters.size());
     const bool alphabet = std::all_of(letters.begin(), letters.begin() + static_cast<std::ptrdiff_t>(end), [](char c) {
         return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '/';
@@ -257,7 +257,8 @@ bool is_code(std::string_view text, char first, char last) {
 }
 
 bool is_word(std::string_view text, int version) {
-    return version < k_version_3_2 || (!text.empty() && !is_blank(text.front()) && !is_blank(text.back()));
+    return version < k_version_3_2 ||
+           (!text.empty() && !is_blank_character(text.front()) && !is_blank_character(text.back()));
 }
 
 struct TextType {

@@ -85,6 +85,7 @@ DccWriter::DccWriter(const EvaluationRecord& record, const Wording& words, const
     for (const std::string& language : words.languages()) {
         languages_.push_back(iso_639_1(language));
     }
+    pieces_ = SetPieces(record, [this](const std::string& section) { return item_id(section); });
 }
 
 void DccWriter::enter_section(const std::string& section) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reports/dcc/dcc_pieces.h"
 #include "reports/dcc/ref_types.h"
 #include "reports/dcc/xml_document.h"
 #include "reports/record/evaluation_record.h"
@@ -31,6 +32,8 @@ public:
     void enter_section(const std::string& section);
     /// The id of the item that a section is about: its own, or that of the certificate.
     [[nodiscard]] std::string item_id(const std::string& section) const;
+    /// Pieces of the sets among the items.
+    [[nodiscard]] const SetPieces& pieces() const { return pieces_; }
     [[nodiscard]] bool is_specimen() const { return data_.status == "specimen"; }
     /// True where values are marked as within or outside of the scope of accreditation.
     [[nodiscard]] bool has_scope() const { return data_.status == "accredited" && data_.accreditation.has_value(); }
@@ -68,6 +71,7 @@ private:
         std::vector<certificate::CertifiedTable> tables;
     };
     std::optional<Section> section_;
+    SetPieces pieces_;
     std::vector<std::string> languages_;  ///< ISO 639-1
 };
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gumcert::reports {
@@ -25,6 +26,10 @@ namespace gumcert::reports {
 /// What stands on every page of a document, whatever the template does: the number of the certificate, its mark while it is
 /// a draft or a specimen, and the digest of templates that were changed.
 [[nodiscard]] std::vector<std::string> texts_of_every_page(const nlohmann::json& view);
+
+/// \throws gum::NoResultError  GC-REPORT-0032 where the head that a document prints does not stand among its bytes
+/// \param form  "HTML", "PDF"
+void require_head(std::string_view document, const char* form, const RenderAssets& assets);
 
 /// budget_report_view() in the languages of the document.
 /// \throws gum::InputError  GC-REPORT-0042 of the record of a comparison

@@ -3,9 +3,11 @@
 #include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/pdf_page_texts.h"
+#include "reports/forms/qr_code.h"
 #include "reports/forms/render.h"
 #include "reports/forms/typeset_drawing.h"
 #include "reports/forms/typeset_html.h"
+#include "reports/view/certificate_builder.h"
 #include "reports/view/certificate_view.h"
 #include "reports/wording.h"
 
@@ -86,6 +88,26 @@ nlohmann::json with_template_mark(nlohmann::json view, const Wording& words, con
     return view;
 }
 
+/// With the head of an archive at its end, in words and as a QR code.
+nlohmann::json with_head_of_archive(nlohmann::json view, const Wording& words, const RenderAssets& assets) {
+    view["head_code"] = nlohmann::json::array();
+    if (!assets.head) {
+        return view;
+    }
+    constexpr double k_side = 84.0;  // pixels of 1/96 inch: 22 mm
+    const HeadToPrint& head = *assets.head;
+    const auto say = [&](const char* sentence, const Wording::Values& values) {
+        const Text text = words.filled("document", sentence, values);
+        view["closing"].push_back({{"text", text.first()}, {"also", also(text, words.languages())}});
+    };
+    say("archive_head", {{"entries", head.entries}, {"digits", head.digits}});
+    if (!head.check_at.empty()) {
+        say("archive_check", {{"where", head.check_at}});
+    }
+    view["head_code"].push_back({{"text", head.mark}, {"svg", svg_of(qr_code(head.mark), 0.0, 0.0, k_side)}});
+    return view;
+}
+
 /// A page is one file that the browser breaks into pages: what each of them needs is in it, or there is no document.
 void require_texts(const std::string& html, const nlohmann::json& view) {
     std::vector<gum::Diagnostic> missing;
@@ -125,12 +147,21 @@ std::string view_as_html(nlohmann::json view, const RenderAssets& assets) {
 }
 
 std::string render_html(const EvaluationRecord& record, const RenderAssets& assets) {
-    return view_as_html(view_of_document(record, assets), assets);
+    std::string html = view_as_html(view_of_document(record, assets), assets);
+    require_head(html, "HTML", assets);
+    return html;
+}
+
+void require_head(std::string_view document, const char* form, const RenderAssets& assets) {
+    if (assets.head && document.find(assets.head->mark) == std::string_view::npos) {
+        throw gum::NoResultError(missing_on_a_page(form, assets.head->mark));
+    }
 }
 
 nlohmann::json view_of_document(const EvaluationRecord& record, const RenderAssets& assets) {
     const Wording words = read_wording(assets, record);
-    return with_template_mark(certificate_view(record, words, assets.kinds), words, assets);
+    return with_head_of_archive(with_template_mark(certificate_view(record, words, assets.kinds), words, assets), words,
+                                assets);
 }
 
 std::vector<std::string> texts_of_every_page(const nlohmann::json& view) {

@@ -122,7 +122,9 @@ std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
 
 std::string render_pdf(const EvaluationRecord& record, const RenderAssets& assets, const std::string& dcc,
                        PdfWorker* worker) {
-    return set_by(worker, view_of_document(record, assets), assets, dcc);
+    std::string pdf = set_by(worker, view_of_document(record, assets), assets, dcc);
+    require_head(pdf, "PDF", assets);
+    return pdf;
 }
 
 std::string render_budget_report_pdf(const EvaluationRecord& record, const RenderAssets& assets, PdfWorker* worker) {

@@ -8,11 +8,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace gumcert::reports {
+
+/// A head of an archive that certificates print, so that whoever holds one can ask for the log behind it
+/// (docs/adr/0059-the-head-on-the-certificate.md).
+struct HeadToPrint {
+    std::string entries;   ///< how many the log had
+    std::string digits;    ///< the short form, for people
+    std::string mark;      ///< what the QR code holds; it stands among the bytes of the document
+    std::string check_at;  ///< where it can be checked: an address, a telephone number; "" without
+};
 
 /// Where the renderers find what they need. The caller knows the folders; nothing is searched for.
 struct RenderAssets {
@@ -27,6 +37,7 @@ struct RenderAssets {
     /// The first digits of template_digest() where the templates are not those of the release; "": they are. Documents
     /// say it on every page.
     std::string changed_templates = {};
+    std::optional<HeadToPrint> head = {};  ///< certificates and reports as HTML, PDF and text print it at their end
     std::chrono::seconds pdf_time_limit{60};
     std::uint64_t pdf_memory_limit = std::uint64_t{4} << 30U;  ///< of the process that sets pages, [byte]
     std::span<const DocumentKind> kinds = document_kinds();    ///< what records of each kind show
@@ -34,6 +45,7 @@ struct RenderAssets {
 };
 
 /// The certificate as one HTML file: style and plots inside, no scripts, nothing to load.
+/// \throws gum::NoResultError  GC-REPORT-0032 where a template leaves out the head that is to be printed
 /// \throws gum::StorageError if a template is missing or damaged
 [[nodiscard]] std::string render_html(const EvaluationRecord& record, const RenderAssets& assets);
 

@@ -215,7 +215,7 @@ CertifiedTable table_of_group(const EvaluationRecord& record, const certificate:
     layout.group = group;
     if (const auto groups = column_of(request.group_by); groups != points.columns.end()) {
         layout.group_heading = groups->heading.empty() ? certificate::LocalisedText(groups->name) : groups->heading;
-        layout.group_role = groups->heading.empty() ? groups->name : "";
+        layout.group_role = !groups->heading.empty() ? "" : groups->role.empty() ? groups->name : groups->role;
     }
     layout.shown = request.columns;
     layout.plot = request.plot;

@@ -342,6 +342,12 @@ void describe(Archive& a, Struct& r) {
     a("issued", r.issued);
 }
 
+template <class Archive, certificate::Described<BudgetFile> Struct>
+void describe(Archive& a, Struct& r) {
+    a("participant", r.participant);
+    a("file", r.file);
+}
+
 template <class Archive, certificate::Described<Comparison> Struct>
 void describe(Archive& a, Struct& r) {
     a("reference_name", r.reference_name);
@@ -368,6 +374,7 @@ void describe(Archive& a, Struct& r) {
     a.added("items_without_result", r.items_without_result);
     a.added("languages", r.languages);
     a.added("names_released", r.names_released);
+    a.added("budget_files", r.budget_files);
     a.added("score_probability", r.score_probability, certificate::NumberRule::probability);
     a.added("participants", r.participants);
     a.added("vectors", r.vectors);

@@ -456,6 +456,13 @@ struct ComparisonIssuer {
     std::string issued;  ///< "2026-11-21"
 };
 
+/// The file that is the budget of a laboratory. Its name tells whose it is, so documents that must not name laboratories
+/// print the code in its place.
+struct BudgetFile {
+    std::string participant;  ///< code of the laboratory
+    std::string file;         ///< as the job names it
+};
+
 struct Comparison {
     std::string reference_name;
     std::vector<double> contact_point_mm;
@@ -482,6 +489,7 @@ struct Comparison {
     std::vector<ItemWithoutResult> items_without_result = {};
     std::vector<std::string> languages = {};  ///< that the job asks for, the binding one first
     bool names_released = false;              ///< documents may show names beside the codes of the laboratories
+    std::vector<BudgetFile> budget_files = {};
     double score_probability = 0.9545;        ///< coverage probability of the U that E_n takes
     std::vector<ParticipantSummary> participants = {};
     std::vector<VectorScore> vectors = {};

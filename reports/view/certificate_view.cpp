@@ -1,5 +1,6 @@
 #include "reports/view/certificate_view.h"
 
+#include "certificate/dates.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/printable_text.h"
 #include "reports/view/budget_report_sections.h"
@@ -14,7 +15,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -48,17 +49,8 @@ std::map<std::string, std::string> confidential_budgets(const EvaluationRecord& 
     if (!record.comparison || record.comparison->form != "laboratories" || record.comparison->names_released) {
         return codes;
     }
-    const nlohmann::json job = nlohmann::json::parse(record.job_json, nullptr, false);
-    for (const auto& [list, code] : {std::pair("participants", "id"), std::pair("results", "participant")}) {
-        if (!job.is_object() || !job.contains(list) || !job[list].is_array()) {
-            continue;
-        }
-        for (const nlohmann::json& one : job[list]) {
-            const bool named = one.is_object() && one.contains(code) && one[code].is_string();
-            if (named && one.contains("budget") && one["budget"].is_string()) {
-                codes.emplace(one["budget"].get<std::string>(), one[code].get<std::string>());
-            }
-        }
+    for (const BudgetFile& budget : record.comparison->budget_files) {
+        codes.emplace(budget.file, budget.participant);
     }
     return codes;
 }
@@ -139,22 +131,14 @@ void annexes(CertificateBuilder& builder, const Wording& words, const Evaluation
 /// "2026-11-21" as {year, month, day} without leading zeros; 1970-01-01 where no date is stated, because PDF/A demands
 /// one and that of the computer would change the bytes with every run.
 json date_of_creation(const EvaluationRecord& record) {
-    std::array<int, 3> parts = {1970, 1, 1};
     const std::string date = record.certificate                               ? record.certificate->data.dates.issued
                              : record.comparison && record.comparison->issuer ? record.comparison->issuer->issued
                                                                               : "";
-    if (date.size() == 10 && date[4] == '-' && date[7] == '-') {
-        std::array<int, 3> read = {};
-        const auto digits = [&](std::size_t from, std::size_t count, int& v) {
-            const char* const end = date.data() + from + count;
-            const auto [last, error] = std::from_chars(date.data() + from, end, v);
-            return error == std::errc() && last == end && v > 0;
-        };
-        if (digits(0, 4, read[0]) && digits(5, 2, read[1]) && digits(8, 2, read[2]) && read[1] <= 12 && read[2] <= 31) {
-            parts = read;
-        }
-    }
-    return {{"year", std::to_string(parts[0])}, {"month", std::to_string(parts[1])}, {"day", std::to_string(parts[2])}};
+    const std::chrono::year_month_day day =
+        certificate::calendar_date(date).value_or(std::chrono::year(1970) / std::chrono::January / 1);
+    return {{"year", std::to_string(static_cast<int>(day.year()))},
+            {"month", std::to_string(static_cast<unsigned>(day.month()))},
+            {"day", std::to_string(static_cast<unsigned>(day.day()))}};
 }
 
 json pages(const Wording& words) {

@@ -6,8 +6,9 @@
 //   archive_driver write FILE WHO COUNT                 drafts COUNT certificates, and says of each one when it is kept
 //   archive_driver number FILE WHO COUNT                takes COUNT numbers, and prints them
 //   archive_driver migrate FROM TO                      a new archive with the same log
-//   archive_driver fill FILE COUNT RECORD               a new archive with COUNT drafts, each durable by itself: of RECORD, with
-//                                                       its number in place of "EX-2026-0042"
+//   archive_driver fill FILE COUNT RECORD [issued]      a new archive with COUNT drafts, each durable by itself: of RECORD, with
+//                                                       its number in place of "EX-2026-0042" where that stands in it, else
+//                                                       with blanks behind it by which records differ; or issued ones
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -97,7 +98,7 @@ int write(const std::vector<std::string>& words) {
 
 int migrate(const std::vector<std::string>& words) {
     const auto from = open_store(words.at(1), Access::read_only);
-    (void)replay_into(*from, words.at(2));
+    (void)replay_into(*from, words.at(2), list_again);
     return 0;
 }
 
@@ -119,14 +120,29 @@ int fill(const std::vector<std::string>& words) {
     const std::string number = "EX-2026-0042";
     test::Clock clock;
     const Request request{.actor = "A. Author", .at = clock.next(), .request_key = "", .why = ""};
+    Request reader = request;
+    reader.actor = "R. Reviewer";
     const auto store = create_store(words.at(1), first_entry({}, "gumcert of the tests", "nonce", request));
     Archive archive(*store);
+    const bool is_issued = words.size() > 4;
+    const bool has_number = record.find(number) != std::string::npos;
     for (int i = 0; i < std::stoi(words.at(2)); ++i) {
         Draft draft{.number = "L-" + std::to_string(i), .item = "gauge", .record = record, .documents = {}};
         for (std::size_t at = draft.record.find(number); at != std::string::npos; at = draft.record.find(number, at)) {
             draft.record.replace(at, number.size(), draft.number);
         }
+        for (int bits = i; !has_number && bits > 0; bits /= 2) {
+            draft.record += bits % 2 == 0 ? ' ' : '\n';
+        }
+        if (is_issued) {
+            draft.documents.push_back({"certificate.pdf", "application/pdf", "%PDF-1.7 " + draft.number});
+        }
         (void)archive.draft(draft, request);
+        for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+            if (is_issued) {
+                (void)archive.advance(draft.number, kind, reader);
+            }
+        }
     }
     return 0;
 }

@@ -62,7 +62,8 @@ def stored(path):
     database.text_factory = bytes
     try:
         return (database.execute("SELECT * FROM log ORDER BY seq").fetchall(),
-                database.execute("SELECT * FROM content ORDER BY sha256").fetchall())
+                database.execute("SELECT * FROM content ORDER BY sha256").fetchall(),
+                database.execute("SELECT * FROM listed ORDER BY certificate").fetchall())
     except (sqlite3.Error, OverflowError, UnicodeDecodeError):
         return None
     finally:
@@ -95,6 +96,25 @@ def rewrite(database, log, renumber=True):
         as_bytes = {k: v if k == "seq" else v if isinstance(v, bytes) else (v or "").encode() for k, v in entry.items()}
         entry["hash"] = prev = verify_archive.entry_hash(as_bytes)
         database.execute(f"INSERT INTO log({', '.join(FIELDS)}) VALUES({', '.join('?' * len(FIELDS))})", [entry[f] for f in FIELDS])
+
+
+def prints_heads(path):
+    """Whether documents in an archive print heads of it: they may show what else nobody can know."""
+    database = sqlite3.connect(path)
+    try:
+        return any(verify_archive.PRINTED_HEAD.search(data) for (data,) in database.execute("SELECT bytes FROM content"))
+    finally:
+        database.close()
+
+
+def list_again(database):
+    """What lists say, made of the log as it is."""
+    rules = verify_archive.Rules()
+    for entry in entries(database):
+        rules.accept({k: v if k == "seq" else v if isinstance(v, bytes) else (v or "").encode() for k, v in entry.items()})
+    database.execute("DELETE FROM listed")
+    for number, life in rules.lives.items():
+        database.execute("INSERT INTO listed VALUES(?, ?, ?, ?, ?)", [number, *(life[key] for key in ("state", "since", "item", "record"))])
 
 
 def pick(rng, database, condition="1"):
@@ -138,6 +158,21 @@ def delete_content(rng, db):
 def add_content(rng, db):
     data = b"planted"
     db.execute("INSERT INTO content VALUES(?, ?)", [verify_archive.hashlib.sha256(data).hexdigest(), data])
+
+
+def edit_list(rng, db):
+    number = rng.choice(db.execute("SELECT certificate FROM listed ORDER BY certificate").fetchall())[0]
+    column = rng.choice(("state", "since", "item", "record"))
+    db.execute(f"UPDATE listed SET {column} = {column} || 'x' WHERE certificate = ?", [number])
+
+
+def take_from_list(rng, db):
+    number = rng.choice(db.execute("SELECT certificate FROM listed ORDER BY certificate").fetchall())[0]
+    db.execute("DELETE FROM listed WHERE certificate = ?", [number])
+
+
+def add_to_list(rng, db):
+    db.execute("INSERT INTO listed SELECT certificate || 'x', state, since, item, record FROM listed LIMIT 1")
 
 
 def delete_entry(rng, db):
@@ -211,6 +246,7 @@ def truncate(rng, db):
     for (digest,) in db.execute("SELECT sha256 FROM content").fetchall():
         if digest not in needed:
             db.execute("DELETE FROM content WHERE sha256 = ?", [digest])
+    list_again(db)
 
 
 def recompute(rng, db):
@@ -231,7 +267,8 @@ def rewritten_from_the_start(rng, db):
     rewrite(db, log)
 
 
-ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, delete_entry,
+ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, edit_list, take_from_list,
+           add_to_list, delete_entry,
            delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken]
 ATTACKS_ON_THE_END = [truncate, recompute, rewritten_from_the_start]  # without a head nobody can know
 
@@ -265,19 +302,23 @@ def refused_by_triggers(path):
             database.close()
 
 
+def root_of(leaves):
+    return verify_archive.Roots(leaves).first(len(leaves)) or verify_archive.sha256(b"")
+
+
 def consistency_proof(earlier, leaves, is_known=True):
     """RFC 6962, 2.1.2, as it is written there."""
     if earlier == len(leaves):
-        return [] if is_known else [verify_archive.root_of(leaves)]
+        return [] if is_known else [root_of(leaves)]
     left = 1 << (len(leaves) - 1).bit_length() - 1
     if earlier <= left:
-        return consistency_proof(earlier, leaves[:left], is_known) + [verify_archive.root_of(leaves[left:])]
-    return consistency_proof(earlier - left, leaves[left:], False) + [verify_archive.root_of(leaves[:left])]
+        return consistency_proof(earlier, leaves[:left], is_known) + [root_of(leaves[left:])]
+    return consistency_proof(earlier - left, leaves[left:], False) + [root_of(leaves[:left])]
 
 
 def trees_extend_each_other():
     leaves = [verify_archive.leaf(str(i).encode()) for i in range(64)]
-    roots = [verify_archive.root_of(leaves[:i]) for i in range(65)]
+    roots = [root_of(leaves[:i]) for i in range(65)]
     for size in range(1, 65):
         for earlier in range(1, size + 1):
             proof = consistency_proof(earlier, leaves[:size])
@@ -322,7 +363,8 @@ def main():
                 if what in ATTACKS:
                     judges.agree(spoiled, None, f"{what.__name__}, round {round_}", sound=False)
                 else:
-                    judges.agree(spoiled, None, f"{what.__name__}, round {round_}, without a head", sound=True)
+                    judges.agree(spoiled, None, f"{what.__name__}, round {round_}, without a head",
+                                 sound=None if prints_heads(spoiled) else True)
                 judges.agree(spoiled, base_head, f"{what.__name__}, round {round_}, with a head", sound=False)
         shutil.copy(base, spoiled)
         attack(spoiled, lambda _rng, _db: None, rng, restore=False)

@@ -7,15 +7,14 @@ First in a file, then on a server of PostgreSQL, where Debian's package is there
 """
 
 import argparse
-import contextlib
 import importlib.util
-import os
 import pathlib
-import shutil
 import sqlite3
 import subprocess
 import sys
 import tempfile
+
+import postgresql_server
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SPEC = importlib.util.spec_from_file_location("verify_archive", ROOT / "tools" / "verify_archive.py")
@@ -37,30 +36,6 @@ def archive_with_numbering(driver, folder):
         if settings["numbering"] and not settings["persons"]:
             return store, taken
     raise SystemExit("no archive of chance gives numbers")
-
-
-@contextlib.contextmanager
-def server(folder):
-    """Address of an empty database on a server of its own, which listens on a socket in the folder; None without PostgreSQL."""
-    programs = pathlib.Path("/usr/lib/postgresql/15/bin")
-    if not (programs / "postgres").exists():
-        yield None
-        return
-    as_user = ["setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"] if os.geteuid() == 0 else []
-    if as_user:
-        shutil.chown(folder, "postgres")
-
-    def run(program, *words):
-        subprocess.run([*as_user, programs / program, *words], check=True, stdout=subprocess.DEVNULL, cwd=folder)
-
-    run("initdb", "-D", f"{folder}/data", "-U", "keeper", "-A", "trust", "-E", "UTF8", "--locale=C", "--no-sync")
-    run("pg_ctl", "-D", f"{folder}/data", "-w", "-o", f"-k {folder} -c listen_addresses='' -c max_connections=200", "-l",
-        f"{folder}/log", "start")
-    try:
-        run("createdb", "-h", folder, "-U", "keeper", "archive")
-        yield f"postgresql://keeper@/archive?host={folder}"
-    finally:
-        run("pg_ctl", "-D", f"{folder}/data", "-m", "immediate", "stop")
 
 
 def take_numbers(options, store, before):
@@ -89,12 +64,13 @@ def main():
     with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory(dir="/tmp") as place:
         folder = pathlib.Path(name)
         store, before = archive_with_numbering(options.driver, folder)
-        with server(place) as address:
+        with postgresql_server.Server(place) as server:
+            address = server.new_database() if server.runs else None
             if address:
                 subprocess.run([options.driver, "migrate", store, address], check=True)
             for where in [store, address]:
                 if where is None:
-                    print("postgresql-15 is not installed: no trial on a server")
+                    print(postgresql_server.ABSENT)
                     continue
                 faults = take_numbers(options, where, before)
                 copy = where

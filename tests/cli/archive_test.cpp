@@ -1,5 +1,9 @@
 // The archive as a laboratory uses it: from the record to the issued certificate, its amendment, its evidence.
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+
+#include <csignal>
 
 #include <algorithm>
 
@@ -87,6 +91,8 @@ TEST_F(ArchiveOfALaboratory, LeadsFromTheRecordToTheIssuedCertificate) {
     ASSERT_EQ(list["certificates"].size(), 1U);
     EXPECT_EQ(list["certificates"][0]["state"], "issued");
     EXPECT_NE(archive({"list"}).out.find("EX-2026-0042              issued"), std::string::npos);
+    EXPECT_EQ(shown({"list", "ex-2026", "ISSUED"})["certificates"].size(), 1U);
+    EXPECT_EQ(shown({"list", "ex-2026", "drafted"})["certificates"].size(), 0U);
     const json one = shown({"show", "EX-2026-0042"});
     EXPECT_EQ(one["documents"].size(), 2U);
     EXPECT_EQ(one["entries"].size(), 4U);
@@ -116,7 +122,7 @@ TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
         {"archive"},
         {"archive", "burn", "--store", store()},
         {"archive", "list"},
-        {"archive", "list", "EX-1", "--store", store()},
+        {"archive", "head", "EX-1", "--store", store()},
         {"archive", "list", "--store", store(), "--by", "R. Lin"},
         {"archive", "issue", "EX-1", "--store", store()},
         {"archive", "add", "--store", store(), "--by", "R. Lin"},
@@ -447,6 +453,53 @@ TEST_F(ArchiveOfALaboratory, ProvesEachCertificateWithoutTheArchive) {
     EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "[GC-ARCHIVE-0047]"));
 }
 
+TEST_F(ArchiveOfALaboratory, PrintsItsHeadOnTheCertificate) {
+    begin();
+    evaluate("first");
+    const auto rendered = [&](const std::string& form, const std::string& file) {
+        return gumcert({"render", path("first.json"), "--format", form, "--head", path("head.json"), "--check-at",
+                        "https://lab.example/check", "-o", path(file.c_str()), "--share", GUMCERT_SOURCE_DIR});
+    };
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    ASSERT_EQ(rendered("html", "early.html").code, 0);
+    const Ended early = archive({"add", path("first.json"), path("early.html")}, "R. Lin");
+    EXPECT_EQ(early.code, 3);
+    EXPECT_TRUE(tells(early, "[GC-ARCHIVE-0037]")) << early.err;
+
+    ASSERT_EQ(archive({"add", path("first.json")}, "R. Lin").code, 0);
+    ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);
+    const Ended html = rendered("html", "first.html");
+    ASSERT_EQ(html.code, 0) << html.err;
+    const json head = json::parse(bytes_of(path("head.json")));
+    const std::string mark = "gumcert-head:2:" + head["root"].get<std::string>();
+    EXPECT_NE(bytes_of(path("first.html")).find(mark), std::string::npos);
+    EXPECT_NE(bytes_of(path("first.html")).find("https://lab.example/check"), std::string::npos);
+    std::vector<std::string> files{"add", path("first.json"), path("first.html")};
+    if (why_no_pdf().empty()) {
+        const Ended pdf = rendered("pdf", "first.pdf");
+        ASSERT_EQ(pdf.code, 0) << pdf.err;
+        EXPECT_NE(bytes_of(path("first.pdf")).find(mark), std::string::npos);
+        files.push_back(path("first.pdf"));
+    }
+    const Ended added = archive(files, "R. Lin");
+    ASSERT_EQ(added.code, 0) << added.err;
+    lead_to_issue("EX-2026-0042");
+    EXPECT_EQ(archive({"verify"}).code, 0);
+    EXPECT_EQ(verified_elsewhere({store()}).code, 0);
+
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("evidence.json")}).code, 0);
+    EXPECT_EQ(gumcert({"archive", "verify", path("evidence.json")}).code, 0);
+    EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 0);
+    change_json(path("evidence.json"), [](json& evidence) { evidence.erase("printed_heads"); });
+    EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "[GC-ARCHIVE-0053]"));
+    EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 1);
+}
+
+TEST_F(ArchiveOfALaboratory, PrintsAHeadOnDocumentsForPeopleOnly) {
+    EXPECT_EQ(gumcert({"render", "r.json", "--format", "dcc", "--head", "head.json"}).code, 2);
+    EXPECT_EQ(gumcert({"render", "r.json", "--format", "pdf", "--check-at", "here"}).code, 2);
+}
+
 TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
     if (const std::string why = why_no_pdf(); !why.empty()) {
         GTEST_SKIP() << why;
@@ -462,6 +515,55 @@ TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
 }
 
 /// The log that is copied is the same: heads and evidence of the one hold for the other, and both verifiers read it.
+/// A server that takes a connection and says nothing.
+class SilentServer {
+public:
+    SilentServer() {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), size), 0);
+        EXPECT_EQ(listen(socket_, 4), 0);
+        EXPECT_EQ(getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+        port_ = ntohs(address.sin_port);
+    }
+    ~SilentServer() { close(socket_); }
+    SilentServer(const SilentServer&) = delete;
+    SilentServer& operator=(const SilentServer&) = delete;
+    [[nodiscard]] int port() const { return port_; }
+    /// Waits for a client.
+    void meet() const {
+        const int client = accept(socket_, nullptr, nullptr);
+        EXPECT_GE(client, 0);
+        // It stays open: the client waits for an answer.
+    }
+
+private:
+    int socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    int port_ = 0;
+};
+
+TEST_F(ArchiveOfALaboratory, ShowsNoPasswordInTheListOfProcesses) {
+    const SilentServer server;
+    const std::string at = "@127.0.0.1:" + std::to_string(server.port()) + "/archive";
+    std::string address = "postgresql://keeper:geheim" + at + "?sslmode=disable&sslpassword=auchgeheim";
+    std::vector<std::string> words = {GUMCERT_PROGRAM, "archive", "list", "--store", address};
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+        argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, GUMCERT_PROGRAM, nullptr, nullptr, argv.data(), environ), 0);
+    server.meet();  // the command line was read, and the password is on its way
+    const std::string shown = bytes_of("/proc/" + std::to_string(child) + "/cmdline");
+    EXPECT_NE(shown.find("postgresql://keeper:xxxxxx" + at), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("geheim"), std::string::npos) << shown;
+    kill(child, SIGKILL);
+    EXPECT_EQ(waitpid(child, nullptr, 0), child);
+}
+
 TEST_F(ArchiveOfALaboratory, MigratesIntoANewArchive) {
     issue_the_example();
     ASSERT_EQ(archive({"head", "-o", path("head.json")}).code, 0);

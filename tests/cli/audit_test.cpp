@@ -52,7 +52,7 @@ TEST_F(AuditProgram, FindsWhatIsWrongWithTheBudgetOfThePaper) {
         const json* exponent = finding(report, "S15");
         ASSERT_NE(exponent, nullptr) << name;
         EXPECT_EQ((*exponent)["severity"], "critical") << name;
-        for (const char* const missing : {"B01", "B02"}) {
+        for (const char* const missing : {"B01", "B02", "U09"}) {
             EXPECT_NE(finding(report, missing), nullptr) << name << " " << missing;
         }
     }
@@ -101,6 +101,26 @@ TEST_F(AuditProgram, AFolderIsAuditedFileByFile) {
     EXPECT_EQ(json::parse(ended.out)["files"].size(), 2U);
     fs::create_directory(folder() / "empty");
     EXPECT_EQ(audit({(folder() / "empty").string()}).code, 3);
+}
+
+TEST_F(AuditProgram, EveryFormBeginsWithTheFilesThatHaveNoAudit) {
+    write_bytes(folder() / "budgets" / "a.csv", k_sound);
+    write_bytes(folder() / "budgets" / "b.csv", k_sound);
+    write_bytes(folder() / "budgets" / "broken.xlsx", "PK\x03\x04 nothing");
+    write_bytes(folder() / "budgets" / "letter.docx", "words");
+    const Ended ended = audit({(folder() / "budgets").string(), "-o", (folder() / "out").string()});
+    EXPECT_EQ(ended.code, 3) << ended.err;
+    for (const char* const name : {"audit.txt", "audit.json", "audit.sarif", "audit.html"}) {
+        const std::string form = bytes_of(folder() / "out" / name);
+        for (const char* const file : {"broken.xlsx", "letter.docx"}) {
+            EXPECT_NE(form.find(file), std::string::npos) << name << " " << file;
+        }
+    }
+    const std::string page = bytes_of(folder() / "out" / "audit.html");
+    EXPECT_LT(page.find("broken.xlsx"), page.find("a.csv"));
+    const json report = json::parse(bytes_of(folder() / "out" / "audit.json"));
+    EXPECT_EQ(test::JsonSchema("audit-1.schema.json").refusals(report), "");
+    EXPECT_EQ(report["unaudited"].size(), 2U);
 }
 
 TEST_F(AuditProgram, ARecordIsHeldAgainstItsOwnJob) {

@@ -2,20 +2,16 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "json/canonical_json.h"
 #include "json/strict_parser.h"
+#include "tests/fuzz/demand.h"
 
 namespace gumcert::json::fuzz {
 
-inline void demand(bool holds, const char* what) {
-    if (!holds) {
-        throw std::logic_error(what);
-    }
-}
+using gumcert::fuzz::demand;
 
 /// What is accepted as JSON is JSON for nlohmann-json as well, with the same value, and is written and read again
 /// unchanged.

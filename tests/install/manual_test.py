@@ -134,7 +134,7 @@ def check_page(check, page, name, help_text, options):
 WORDS_OF_ARGUMENTS = {
     "import": ["dcc"],
     "archive": ["init", "settings", "number", "add", "review", "authorise", "issue", "amend", "withdraw", "list", "show", "export", "head",
-                "verify", "backup", "migrate", "replay", "statistics", "affected"]
+                "verify", "backup", "migrate", "replay", "worker", "statistics", "affected"]
 }
 
 

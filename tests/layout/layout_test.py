@@ -26,8 +26,9 @@ ALL = tuple((job, LANGUAGES) for job in (
     "certificate/end_gauge.json", "certificate/rotary_table.json", "circle_closure/comparison.json",
     "circle_closure/indexing_tables.json", "circle_closure/job.json", "comparison/key_comparison.json",
     "comparison/methods.json", "comparison/proficiency_test.json", "end_gauge/job.json", "everyday/gauge_blocks/job.json",
-    "everyday/mass_set/job.json", "everyday/multimeter/job.json", "everyday/torque_wrench/job.json", "gauge_block/job.json",
-    "multimeter/job.json", "resistance_and_reactance/job.json", "rotary_table/job.json", "thermometer/job.json"))
+    "everyday/mass_set/job.json", "everyday/multimeter/job.json", "everyday/pt100/job.json", "everyday/torque_wrench/job.json",
+    "gauge_block/job.json", "laboratory/end_gauge.json", "multimeter/job.json", "resistance_and_reactance/job.json",
+    "rotary_table/job.json", "thermometer/job.json"))
 SKIPPED = 77
 
 FRAME = """#set document(title: "layout", date: datetime(year: 2026, month: 11, day: 24))
@@ -44,6 +45,8 @@ PLANTED = {
     "over the side": ("#filled\n\n#h(165mm)#box(width: 0pt, [sticking])\n\n#filled", "sticks out of the text area at the side"),
     "over the edge": ("#filled\n\n#place(dx: 183mm, [sticking])\n\n#filled", "sticks out over the edge of the paper"),
     "over the foot": ("#filled\n\n#place(top, dy: 253.5mm, [sticking])", "sticks out of the text area at the foot"),
+    "number and %": ("#filled\n\nThis holds for 95.45\\ % of all.\n\n#filled", "“95.45” and “%” stand in two lines"),
+    "symbol and value": ("#filled\n\nThis holds for k\\ = 2 and others.\n\n#filled", "“k” and “=” stand in two lines"),
     "single row behind": ("#block(height: 201mm)\n#table-of(8)\n#filled\n\n#filled", "one single row of table"),
     "single row ahead": ("#block(height: 234mm)\n#table-of(8)\n#filled\n\n#filled", "one single row of table"),
     "heading at the foot": ("#show heading: it => block(sticky: false, it.body)\n#block(height: 238mm, filled)\n= Alone\n"

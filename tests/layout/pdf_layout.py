@@ -41,6 +41,7 @@ class Page:
     width: float
     height: float
     words: list[Word] = field(default_factory=list)
+    blocks: list[list[list[str]]] = field(default_factory=list)  # the words of the lines of each block
 
     def body(self) -> list[Word]:
         """Without head and foot."""
@@ -63,6 +64,8 @@ def pages_of(pdf: Path) -> list[Page]:
         for word in found.iter(XHTML + "word"):
             box = [float(word.get(name)) for name in ("xMin", "yMin", "xMax", "yMax")]
             page.words.append(Word(word.text or "", *box))
+        for block in found.iter(XHTML + "block"):
+            page.blocks.append([[word.text or "" for word in line.iter(XHTML + "word")] for line in block.iter(XHTML + "line")])
         pages.append(page)
     return pages
 
@@ -136,6 +139,21 @@ def word_breaches(pages: list[Page]) -> list[str]:
     return breaches
 
 
+def line_breaches(pages: list[Page]) -> list[str]:
+    """A number stands in one line with its % and with the symbol whose value it is."""
+    breaches = []
+    for number, page in enumerate(pages, 1):
+        for block in page.blocks:
+            for before, line in zip(block, block[1:]):
+                if not before or not line:
+                    continue
+                is_percentage = before[-1][-1:].isdigit() and line[0].startswith("%")
+                is_value = len(line) > 1 and line[0] == "=" and line[1].lstrip("−+")[:1].isdigit()
+                if is_percentage or is_value:
+                    breaches.append(f"page {number}: “{before[-1]}” and “{line[0]}” stand in two lines")
+    return breaches
+
+
 def fill_breaches(pages: list[Page]) -> list[str]:
     breaches = []
     for number, page in enumerate(pages, 1):
@@ -184,4 +202,4 @@ def tag_breaches(tags: Element) -> list[str]:
 
 def layout_breaches(pdf: Path) -> list[str]:
     pages = pages_of(pdf)
-    return word_breaches(pages) + fill_breaches(pages) + tag_breaches(tags_of(pdf))
+    return word_breaches(pages) + line_breaches(pages) + fill_breaches(pages) + tag_breaches(tags_of(pdf))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "archive/archive.h"
+#include "archive/printed_head.h"
 
 namespace gumcert::archive::test {
 
@@ -94,6 +95,11 @@ private:
             Draft again = draft;
             again.record += " ";
             (void)archive.draft(again, by("B. Author", "typing error"));
+        }
+        if (chance(6) == 0) {
+            Draft with_head = draft;
+            with_head.documents.push_back({"printed.html", "text/html", "<p>" + mark_of(archive.head()) + "</p>"});
+            (void)archive.draft(with_head, by("A. Author", "with the head of the archive"));
         }
         const int steps = is_amendment ? 3 : chance(6);
         const std::vector<std::string> kinds = {"reviewed", "authorised", "issued"};

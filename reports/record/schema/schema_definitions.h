@@ -124,6 +124,7 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<VectorScore>{"comparison_vector"},
     DefinitionOf<YoudenDiagram>{"comparison_youden"},
     DefinitionOf<YoudenPoint>{"comparison_youden_point"},
+    DefinitionOf<BudgetFile>{"comparison_budget_file"},
     DefinitionOf<ComparisonIssuer>{"comparison_issuer"},
 
     DefinitionOf<certificate::Certificate>{"certificate_of_record",

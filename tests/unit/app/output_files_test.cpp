@@ -162,6 +162,11 @@ TEST_F(OutputFilesTest, RefusesTwoOutputsInOnePlace) {
     EXPECT_FALSE(fs::exists(folder_ / "a"));
 }
 
+TEST_F(OutputFilesTest, AFolderIsBroughtToTheDisk) {
+    EXPECT_EQ(code_of([&] { synchronise_folder(folder_); }), "");
+    EXPECT_EQ(code_of([&] { synchronise_folder(folder_ / "nowhere"); }), "GC-STORE-0002");
+}
+
 TEST_F(OutputFilesTest, OfTwoWritersOneWinsWhole) {
     const std::vector<fs::path> outputs{folder_ / "a", folder_ / "b"};
     put("a", "old");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "archive/archive.h"
+#include "archive/store/open_store.h"
 #include "archive/store/sqlite_store.h"
 #include "tests/support/archive_folder.h"
 #include "tests/support/sample_archive.h"
@@ -28,8 +29,8 @@ protected:
         sqlite3* database = nullptr;
         sqlite3_open(folder_.file().c_str(), &database);
         const std::string all =
-            "DROP TRIGGER log_is_not_updated; DROP TRIGGER log_is_not_deleted; "
-            "DROP TRIGGER content_is_not_updated; DROP TRIGGER content_is_not_deleted;" +
+            "DROP TRIGGER IF EXISTS log_is_not_updated; DROP TRIGGER IF EXISTS log_is_not_deleted; "
+            "DROP TRIGGER IF EXISTS content_is_not_updated; DROP TRIGGER IF EXISTS content_is_not_deleted;" +
             sql;
         EXPECT_EQ(sqlite3_exec(database, all.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
             << sqlite3_errmsg(database);
@@ -72,11 +73,27 @@ TEST_F(VerifiedArchive, TellsOfAMissingEntry) {
 }
 
 TEST_F(VerifiedArchive, TellsOfAnEmptyLog) {
-    EXPECT_EQ(found_after("DELETE FROM content; DELETE FROM log"), Codes{"GC-ARCHIVE-0042"});
+    EXPECT_EQ(found_after("DELETE FROM content; DELETE FROM log; DELETE FROM listed"), Codes{"GC-ARCHIVE-0042"});
 }
 
 TEST_F(VerifiedArchive, TellsOfAnotherContent) {
     EXPECT_EQ(found_after("UPDATE content SET bytes = x'00' WHERE rowid = 1"), Codes{"GC-ARCHIVE-0044"});
+}
+
+TEST_F(VerifiedArchive, TellsOfAListThatSaysOtherwise) {
+    EXPECT_EQ(
+        found_after("UPDATE listed SET state = 'withdrawn' WHERE certificate = (SELECT min(certificate) FROM listed)"),
+        Codes{"GC-ARCHIVE-0052"});
+    const auto made_again =
+        replay_into(*open_sqlite_store(folder_.file(), Access::read_only), folder_.file("again").string(), list_again);
+    EXPECT_TRUE(verify_store(*made_again, {head_}).sound());
+}
+
+TEST_F(VerifiedArchive, TellsOfAListThatLacksACertificateOrHasOneMore) {
+    EXPECT_EQ(found_after("DELETE FROM listed WHERE certificate = (SELECT min(certificate) FROM listed)"),
+              Codes{"GC-ARCHIVE-0052"});
+    EXPECT_EQ(found_after("DELETE FROM listed; INSERT INTO listed VALUES('X', 'issued', '', '', '')"),
+              Codes{"GC-ARCHIVE-0052"});
 }
 
 TEST_F(VerifiedArchive, TellsOfAMissingContent) {

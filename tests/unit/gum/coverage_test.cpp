@@ -148,6 +148,7 @@ TEST(CoverageFactor, RefusesDegreesOfFreedomThatAreNotPositive) {
 
 TEST(CoverageFactor, SaysSoWhenThereIsNoFiniteValue) {
     EXPECT_EQ(code_of<NoResultError>([] { (void)coverage_factor(0.95, 1e-4); }), "GC-GUM-0010");
+    EXPECT_EQ(code_of<NoResultError>([] { (void)coverage_factor(0.95, 5e-324); }), "GC-GUM-0010");
 }
 
 TEST(ExpandedUncertainty, MassExampleOfTheGum) {

@@ -76,6 +76,32 @@ TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
               (std::vector<std::string>{"GC-DCC-0034", "GC-DCC-0032"}));  // without Nominal
 }
 
+TEST(ImportCertificate, MakesAJobThatIsReadWhateverTheCertificateIsCalled) {
+    const std::string document = with_quantities(quantity("Length", "1.50", expanded_value("0.020", "2.0")));
+    const std::string identifier = "EX-1 \"a\"";
+    const std::string laboratory = "Example Laboratory";
+    for (const std::string& other :
+         {std::string(), std::string("EX-1\u00A0"), std::string(5000, 'x'), std::string("EX\u202E1 \u3000"),
+          std::string("\U0001F600") + std::string(400, 'y')}) {
+        std::string named = document;
+        named.replace(named.find(identifier), identifier.size(), other);
+        named.replace(named.find(laboratory), laboratory.size(), other);
+        const jobs::MemoryFileSource files({{"job.json", import_certificate(named, "a.xml").job}});
+        EXPECT_NO_THROW((void)jobs::read_budget_job(files, "job.json")) << other;
+    }
+}
+
+TEST(ImportCertificate, LeavesOutWhatABudgetCannotHold) {
+    const ImportedJob imported = import_certificate(
+        with_quantities(quantity("a", "1", standard("1e200")) + quantity("b", "1", expanded_value("1e-139", "1e9")) +
+                        quantity("c", "1", standard("0.1"))),
+        "a.xml");
+    EXPECT_EQ(nlohmann::json::parse(imported.job)["inputs"].size(), 1U);
+    EXPECT_EQ(of_numbers(imported.remarks), (std::vector<std::string>{"GC-DCC-0031", "GC-DCC-0031"}));
+    const jobs::MemoryFileSource files({{"job.json", imported.job}});
+    EXPECT_NO_THROW((void)jobs::read_budget_job(files, "job.json"));
+}
+
 TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     const ImportedJob imported = import_certificate(
         with_quantities(quantity("a", "NaN", expanded_value("0.1", "2")) +
@@ -127,6 +153,37 @@ std::string column(const std::string& name, const std::string& values, const std
                             "<si:coverageProbabilityXMLList>0.95</si:coverageProbabilityXMLList>"
                             "<si:distributionXMLList>student_t</si:distributionXMLList></si:expandedUncXMLList>") +
            "</si:realListXMLList></dcc:quantity>";
+}
+
+/// A number says what it is about where the certificate has several items, such as the pieces of a set.
+TEST(ImportCertificate, NamesTheItemOfANumber) {
+    const auto item = [](const std::string& id, const std::string& name, const std::string& number) {
+        return "<dcc:item id='" + id + "'><dcc:name><dcc:content>" + name +
+               "</dcc:content></dcc:name><dcc:identifications><dcc:identification><dcc:issuer>manufacturer</dcc:issuer>"
+               "<dcc:value>" +
+               number + "</dcc:value></dcc:identification></dcc:identifications></dcc:item>";
+    };
+    const auto descriptions = [&](const std::string& items, const std::string& refs) {
+        std::string document = with_quantities("<dcc:list refId='" + refs + "'>" +
+                                               column("Length", "0.5 1.0", "\\metre", "0.02") + "</dcc:list>");
+        document.insert(document.find("</dcc:administrativeData>"), "<dcc:items>" + items + "</dcc:items>");
+        const nlohmann::json inputs = nlohmann::json::parse(import_certificate(document, "a.xml").job)["inputs"];
+        std::vector<std::string> all;
+        for (const auto& input : inputs) {
+            all.push_back(input["description"]);
+        }
+        return all;
+    };
+    const std::string block = item("a", "Block", "40210");
+    const std::string other = item("b", "Weight", "7");
+    EXPECT_EQ(descriptions(block + other, "a b"),
+              (std::vector<std::string>{"Length, row 1 (Block, 40210)", "Length, row 2 (Weight, 7)"}));
+    EXPECT_EQ(descriptions(block + other, "b"),
+              (std::vector<std::string>{"Length, row 1 (Weight, 7)", "Length, row 2 (Weight, 7)"}));
+    const std::vector<std::string> nothing{"Length, row 1", "Length, row 2"};
+    EXPECT_EQ(descriptions(block + other, "a b a"), nothing) << "neither one nor one a row";
+    EXPECT_EQ(descriptions(block + other, "a c"), nothing) << "no item of that id";
+    EXPECT_EQ(descriptions(block, "a"), nothing) << "everything is about the one item";
 }
 
 /// A row of a table says where it was measured; degrees of freedom of our own certificates belong to U.

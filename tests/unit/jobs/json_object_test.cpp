@@ -234,6 +234,23 @@ TEST(JsonObject, SaysNothingMoreAboutANumberThatWasRefused) {
     }
 }
 
+TEST(JsonObject, SaysWhatToDoInPlaceOfSectionsOfAnotherKind) {
+    const auto told = [](const char* text) {
+        ProblemList problems("job.json");
+        const std::optional<JsonDocument> document = read_json_document(text, problems);
+        (void)JsonObject::root(*document, k_keys, problems);
+        std::vector<std::string> codes;
+        for (const gum::Diagnostic& one : problems.refused()) {
+            codes.push_back(one.code);
+        }
+        return codes;
+    };
+    EXPECT_THAT(told(R"({"kind": "rotary_table", "sections": {}})"),
+                testing::ElementsAre(k_unknown_key.code, k_sections_of_other_kind.code))
+        << "this table has no \"kind\" itself";
+    EXPECT_THAT(told(R"({"sections": {}})"), testing::ElementsAre(k_unknown_key.code)) << "no job";
+}
+
 TEST(InputCodes, AreUniqueAndWellFormed) {
     std::string_view last;
     for (const InputCode& entry : k_input_codes) {

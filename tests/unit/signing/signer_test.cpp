@@ -270,6 +270,7 @@ TEST(SignerFromDescription, RefusesWhatItDoesNotKnow) {
           R"({"certificates": "chain.pem", "command": [1]})",
           R"({"certificates": "chain.pem", "command": ["/bin/true"], "time_limit_s": 0})",
           R"({"certificates": "", "key": "key.pem"})", R"({"certificates": "chain\u0000.pem", "key": "key.pem"})",
+          R"({"certificates": "chain.pem", "key": "k\u001bey.pem"})",
           R"({"certificates": "no.pem", "key": "key.pem", "certificates": "chain.pem"})",
           R"({"certificates": "chain.pem", "key": "key.pem", "time_limit_s": 18446744073709551616})"}) {
         EXPECT_EQ(refusal(text), "GC-SIGN-0013") << text;

@@ -77,6 +77,20 @@ TEST(CellGraph, FindsWhatResultsStandOn) {
     EXPECT_THAT(texts_of(workbook, graph.unread_cells()), ElementsAre("C3", "C6"));
 }
 
+TEST(CellGraph, ClosuresOfSeveralResultsEndAtEachOther) {
+    const Workbook workbook =
+        test::workbook_of({{"A1", "1"}, {"B1", "=A1"}, {"C1", "=B1+D1"}, {"D1", "=E1"}, {"E1", "2"}});
+    const CellGraph graph(workbook);
+    std::vector<std::vector<std::string>> told;
+    graph.each_closure(
+        std::vector{at("C1"), at("B1"), at("C1")},
+        [&](std::size_t, const std::vector<CellPlace>& cells) { told.push_back(texts_of(workbook, cells)); });
+    ASSERT_EQ(told.size(), 3U);
+    EXPECT_THAT(told[0], ElementsAre("B1", "C1", "D1", "E1"));
+    EXPECT_THAT(told[1], ElementsAre("A1", "B1"));
+    EXPECT_EQ(told[2], told[0]) << "nothing is left of the others";
+}
+
 TEST(CellGraph, LeavesOutWhatItCannotFollow) {
     const Workbook workbook =
         test::workbook_of({{"A1", "=[1]Old!B2+Sheet1:Sheet1!B3+Nowhere!B4"}, {"A2", "=B5+"}, {"A3", "=A4"}});

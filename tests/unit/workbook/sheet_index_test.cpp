@@ -42,6 +42,21 @@ TEST(SheetIndex, CountsWhatItLookedAt) {
     EXPECT_EQ(cursor.take_steps(), 0U);
 }
 
+TEST(UntakenPlaces, SkipsWhatWasTaken) {
+    UntakenPlaces places(5);
+    for (const std::uint32_t place : {1U, 2U, 3U}) {
+        places.take(place);
+    }
+    EXPECT_EQ(places.first_from(0), 0U);
+    EXPECT_EQ(places.first_from(1), 4U);
+    places.take(4);
+    EXPECT_EQ(places.first_from(2), 5U) << "none";
+    for (const std::uint32_t place : {1U, 2U, 3U, 4U}) {
+        places.give_back(place);
+    }
+    EXPECT_EQ(places.first_from(2), 2U);
+}
+
 TEST(WorkbookNames, FindsTheNearestDefinition) {
     Workbook workbook = test::workbook_of({});
     workbook.sheets.push_back(test::sheet_of("My data", {}));

@@ -132,6 +132,14 @@ void tell_problems(const std::vector<gum::Diagnostic>& problems, const reports::
     }
 }
 
+std::vector<reports::BudgetFile> budget_files(const jobs::ComparisonJob& job) {
+    std::vector<reports::BudgetFile> files;
+    for (const jobs::ParticipantBudget& budget : job.participant_budgets) {
+        files.push_back({job.participants[budget.participant].id, budget.file});
+    }
+    return files;
+}
+
 }  // namespace
 
 reports::Comparison evaluate_laboratories(const jobs::ComparisonJob& job, const gum::Progress& progress,
@@ -144,6 +152,7 @@ reports::Comparison evaluate_laboratories(const jobs::ComparisonJob& job, const 
         all_refused ? gum::LaboratoryComparison{} : gum::evaluate_laboratories(job, kept, progress);
     reports::Comparison comparison = laboratory_record(job, kept, evaluated);
     comparison.names_released = job.names_released;
+    comparison.budget_files = budget_files(job);
     comparison.form = "laboratories";
     comparison.organiser = job.organiser;
     comparison.unit = unit_of_items(job);

@@ -164,18 +164,21 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     const auto calculated = [&](const std::string& corrected) {
         std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
         recalculate(
-            affected,
+            affected, archive_,
             {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
-            2, [](const std::string& number) { return !number.ends_with("/A1"); });
+            2);
+        draft_amendments(
+            affected, archive_,
+            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"});
         return affected;
     };
     std::vector<AffectedCertificate> same = calculated(registered);
     ASSERT_EQ(same.size(), 2U);
     EXPECT_EQ(same[1].certificate.number, "EX-2026-0042");
-    EXPECT_STREQ(same[1].recalculated->outcome(), "same");
-    EXPECT_EQ(same[1].shift, 0.0);
-    EXPECT_TRUE(same[1].draft.empty());
-    EXPECT_EQ(same[0].recalculated->not_evaluated->code, "GC-ARCHIVE-0062");
+    EXPECT_STREQ(same[1].recalculated->rerun.outcome(), "same");
+    EXPECT_EQ(same[1].recalculated->shift, 0.0);
+    EXPECT_EQ(same[1].draft_folder, "");
+    EXPECT_EQ(same[0].recalculated->rerun.not_evaluated->code, "GC-ARCHIVE-0062");
 
     std::string corrected = registered;
     corrected.replace(corrected.find("50.000623"), 9, "50.001623");  // 1 µm: the gauge is out of its limits now
@@ -183,9 +186,9 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     ASSERT_EQ(changed.size(), 2U);
     const AffectedCertificate& first = changed[0];
     EXPECT_EQ(first.certificate.number, "EX-2026-0042");
-    EXPECT_GT(first.recalculated->count(ChangeKind::verdict), 0U);
-    EXPECT_GT(first.recalculated->count(ChangeKind::printed), 0U);
-    EXPECT_GT(first.shift, 1.0);
+    EXPECT_GT(first.recalculated->rerun.count(ChangeKind::verdict), 0U);
+    EXPECT_GT(first.recalculated->rerun.count(ChangeKind::printed), 0U);
+    EXPECT_GT(first.recalculated->shift, 1.0);
     EXPECT_EQ(first.draft_number, "EX-2026-0042/A2");
     const std::string all = affected_json(changed, {"STD-017", "2026-03-02", ""});
     EXPECT_EQ(json::parse(all)["certificates"][0]["outcome"], "verdict");

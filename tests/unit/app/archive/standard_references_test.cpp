@@ -25,6 +25,7 @@ TEST(FileOfTheRegister, SaysWhichStandardItIs) {
     EXPECT_EQ(standard_of_file("laboratory:/standards/STD-017.json"), "STD-017");
     EXPECT_EQ(standard_of_file("standards/STD-017.json"), "STD-017");
     EXPECT_EQ(standard_of_file("other_standards/STD-017.json"), "");
+    EXPECT_EQ(standard_of_file("laboratory/standards/old/STD-017.json"), "");
     EXPECT_EQ(standard_of_file("laboratory/customers/CUST-3.json"), "");
 }
 

@@ -18,6 +18,23 @@ TEST(OpenStore, ChoosesByTheAddress) {
               "GC-ARCHIVE-0008");
 }
 
+TEST(OpenStore, HidesPasswords) {
+    const auto hidden = [](std::string word) {
+        hide_passwords(word);
+        return word;
+    };
+    EXPECT_EQ(hidden("postgresql://keeper:geheim@server:5432/archive"),
+              "postgresql://keeper:xxxxxx@server:5432/archive");
+    EXPECT_EQ(hidden("--store=postgres://keeper:a:b%40c@server/archive"),
+              "--store=postgres://keeper:xxxxxxx@server/archive");
+    EXPECT_EQ(hidden("postgresql:///archive?password=geheim&host=/run&sslpassword=auch"),
+              "postgresql:///archive?password=xxxxxx&host=/run&sslpassword=xxxx");
+    for (const char* const plain : {"postgresql://keeper@server:5432/archive", "postgresql://server:5432/archive",
+                                    "lab.archive", "password=a:b@c", "", "postgresql://"}) {
+        EXPECT_EQ(hidden(plain), plain);
+    }
+}
+
 TEST(OpenStore, CreatesAndReplays) {
     const test::StoreFolder folder;
     LogEntry first;
@@ -27,7 +44,7 @@ TEST(OpenStore, CreatesAndReplays) {
     first.prev = std::string(32, '\0');
     first.hash = entry_hash(first);
     const auto store = create_store(folder.file().string(), first);
-    const auto copy = replay_into(*store, folder.file("b").string());
+    const auto copy = replay_into(*store, folder.file("b").string(), [](Store&) {});
     EXPECT_EQ(copy->last_entry(), first);
     EXPECT_EQ(open_store(folder.file("b").string(), Access::read_only)->last_entry(), first);
 }

@@ -34,11 +34,16 @@ TEST(Replay, MakesTheSameEntriesAndContents) {
         store.append(second);
     });
     std::unique_ptr<Store> to;
-    replay(*from,
-           [&](const LogEntry& begin, const Fill& fill) { to = create_sqlite_store(folder.file("b"), begin, fill); });
+    replay(
+        *from,
+        [&](const LogEntry& begin, const Fill& fill) { to = create_sqlite_store(folder.file("b"), begin, fill); },
+        [](Store& made) {
+            made.list({"EX-1", "issued", "2026-11-27T18:52:52Z", "a gauge", ""});
+        });
     std::vector<LogEntry> copied;
     to->each_entry([&](const LogEntry& one) { copied.push_back(one); });
     EXPECT_EQ(copied, (std::vector{first, second}));
+    EXPECT_EQ(to->listed().size(), 1U);
     EXPECT_EQ(to->content(encoding::sha256(bytes)), bytes);
 }
 

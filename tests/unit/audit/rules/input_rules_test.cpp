@@ -96,6 +96,29 @@ TEST(InputRules, U09AllowsADifferenceOfTwoReadings) {
     EXPECT_FALSE(fires("U09", column));
 }
 
+TEST(InputRules, U09SeesAStepThatIsCalledRepeatability) {
+    AuditedRow row = row_from("repeatability", Origin::not_stated, 0.0, 0.0289);
+    row.contributor = Contributor::repeatability;
+    row.origin_value.reset();
+    row.u_half_step = 0.00005;
+    for (const char* const words : {"0.0289 = 0.1/sqrt(12)", "0,1 / √12", "step 0.1/√12"}) {
+        row.comment = words;
+        const std::vector<AuditFinding> findings = findings_of("U09", subject_of(row));
+        ASSERT_EQ(findings.size(), 1U) << words;
+        EXPECT_TRUE(findings[0].missing_term.has_value()) << "how large the repeatability must be";
+    }
+    for (const char* const words : {"0.2/sqrt(12)", "s of 10 readings/sqrt(12)", "/sqrt(12)", ""}) {
+        row.comment = words;
+        EXPECT_FALSE(fires("U09", row)) << words;
+    }
+    row.comment = "0.1/sqrt(12)";
+    row.n = 12;
+    EXPECT_FALSE(fires("U09", row)) << "s of twelve readings is divided so, too";
+    row.n.reset();
+    row.contributor = Contributor::item_resolution;
+    EXPECT_FALSE(fires("U09", row));
+}
+
 TEST(InputRules, U10AndU24ReadAPermissibleError) {
     EXPECT_TRUE(fires("U10", row_from("reference", Origin::specification, 0.4, 0.4)));
     EXPECT_FALSE(fires("U10", row_from("reference", Origin::specification, 0.4, 0.4 / k_root_of_3)));

@@ -223,7 +223,9 @@ TEST(SubjectOfCertificate, SeesPersonsAndSaysWhichTextsItDoesNotRead) {
         std::string xml =
             document(uncertainty("0.31", "2.00", "0.9545"), "",
                      "<dcc:statement refType=\"basic_recalibration\"><dcc:declaration><dcc:content>Again in a "
-                     "year</dcc:content></dcc:declaration></dcc:statement>");
+                     "year</dcc:content></dcc:declaration></dcc:statement>"
+                     "<dcc:statement refType=\"gumcert_opinion\"><dcc:declaration><dcc:content>It will "
+                     "last.</dcc:content></dcc:declaration></dcc:statement>");
         xml.insert(xml.find("<dcc:statements>"), "<dcc:respPersons>" + persons + "</dcc:respPersons>");
         return subject_of_text(xml);
     };
@@ -236,7 +238,8 @@ TEST(SubjectOfCertificate, SeesPersonsAndSaysWhichTextsItDoesNotRead) {
     EXPECT_EQ(sound.certificate->data.persons.authorised_by->name, "C. O.");
     EXPECT_FALSE(finds(sound, "P04"));
     EXPECT_FALSE(finds(sound, "R07"));
-    EXPECT_EQ(sound.not_read, std::vector<std::string>{"statements in words were not read: basic_recalibration"});
+    EXPECT_EQ(sound.not_read,
+              std::vector<std::string>{"statements in words were not read: basic_recalibration, gumcert_opinion"});
     EXPECT_TRUE(finds(with_persons(person("A. N.", "calibration") + person("A.N.", "review")), "P04"));
     EXPECT_TRUE(finds(with_persons(person("A. N.", "") + person("B. M.", "")), "R07")) << "who authorised it?";
     EXPECT_FALSE(finds(with_persons(person("A. N.", "")), "R07")) << "the only one";

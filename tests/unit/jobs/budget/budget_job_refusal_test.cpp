@@ -337,7 +337,9 @@ TEST(BudgetJob, EveryCodeOfBudgetJobsHasABadInput) {
         covered.insert(bad.code);
     }
     covered.insert(code(k_too_many_quantities));  // by a test of its own
-    covered.insert(code(k_sections_of_budget));   // budget_sections_test.cpp
+    for (const InputCode& of_sections : {k_sections_of_budget, k_sections_of_other_kind, k_shared_equation}) {
+        covered.insert(code(of_sections));  // budget_sections_test.cpp
+    }
     for (const InputCode& input_code : k_input_codes) {
         if (input_code.code.starts_with("GC-INPUT-03")) {
             EXPECT_TRUE(covered.contains(code(input_code))) << input_code.code << " " << input_code.meaning;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluate_budget.h"
 #include "jobs/budget/budget_job.h"
 #include "jobs/input_codes.h"
@@ -92,14 +93,62 @@ TEST(BudgetSections, AnInputIsStatedWhereItIsUsed) {
 }
 
 TEST(BudgetSections, StandInPlaceOfWhatTheJobWouldHave) {
-    for (const char* key : {R"("model": ["y = d"])", R"("outputs": {"d": {}})", R"("points": [{"d": 1}])",
-                            R"("solve_for": {"z": {"start": 1}})", R"("tables": [{}])"}) {
+    for (const char* key : {R"("outputs": {"d": {}})", R"("points": [{"d": 1}])", R"("solve_for": {"z": {"start": 1}})",
+                            R"("tables": [{}])"}) {
         EXPECT_THAT(told(job_with({k_voltage, k_resistance}) + ", " + key), testing::Contains(k_two_statements.code))
             << key;
     }
     EXPECT_THAT(told(k_inputs + R"j(, "sections": {})j"), testing::Contains(k_wrong_size.code));
     EXPECT_THAT(told(k_inputs + R"j(, "sections": [])j"), testing::Contains(k_wrong_type.code));
     EXPECT_THAT(told(job_with({k_voltage, R"("R": 1)"})), testing::Contains(k_wrong_type.code));
+}
+
+/// An equation beside the sections is as if it stood in each that rests on it.
+TEST(BudgetSections, ShareEquations) {
+    const std::string voltage =
+        R"j("DC": {"model": ["E = V_x*(1 + c) - V_s"], "points": [{"V_x": {"value": 1, "u": 1e-6}, "V_s": 1}]})j";
+    const std::string resistance =
+        R"j("R": {"model": ["G = 1/(R_x*(1 + c))"], "points": [{"R_x": {"value": 10, "u": 0.001}}]})j";
+    const auto with = [](const std::string& section, const std::string& equations) {
+        return section.substr(0, section.find('[') + 1) + equations + section.substr(section.find('[') + 1);
+    };
+    const std::string equations = R"("c = 2*b", "b = d + 0")";
+    const BudgetJob shared = read_budget(job_with({voltage, resistance}) + R"(, "model": [)" + equations + "]");
+    const BudgetJob written =
+        read_budget(job_with({with(voltage, equations + ", "), with(resistance, equations + ", ")}));
+    ASSERT_EQ(shared.sections.size(), 2U);
+    EXPECT_EQ(shared.sections[1].equations, 3U);
+    ASSERT_EQ(shared.model.size(), written.model.size());
+    for (std::size_t i = 0; i < shared.model.size(); ++i) {
+        EXPECT_EQ(shared.model[i].text, written.model[i].text);
+    }
+    const gum::BudgetResult a = gum::evaluate_budget(shared, 1);
+    const gum::BudgetResult b = gum::evaluate_budget(written, 1);
+    EXPECT_THAT(gum::budget_result_names(shared, a), ElementsAre("E[1]", "G[2]"));
+    EXPECT_EQ(gum::budget_result_names(written, b), gum::budget_result_names(shared, a));
+    EXPECT_NE(gum::budget_covariance(a)(0, 1), 0.0) << "d is one quantity";
+    EXPECT_EQ(gum::budget_covariance(a)(0, 1), gum::budget_covariance(b)(0, 1));
+    // A section takes what it uses only; its results may name it.
+    const BudgetJob one = read_budget(
+        job_with({voltage, R"j("R": {"model": ["G = R_x"], "points": [{"R_x": {"value": 10, "u": 0.001}}]})j",
+                  R"j("b alone": {"outputs": {"b": {}}})j"}) +
+        R"(, "model": [)" + equations + "]");
+    EXPECT_EQ(one.sections[1].equations, 1U);
+    EXPECT_EQ(one.sections[2].equations, 1U);
+}
+
+TEST(BudgetSections, RefuseEquationsThatTheyCannotShare) {
+    const std::string sections = job_with({k_voltage, k_resistance});
+    EXPECT_THAT(told(sections + R"(, "model": ["y = d"])"), ElementsAre(k_shared_equation.code)) << "nobody uses it";
+    EXPECT_THAT(told(sections + R"(, "model": ["0 = d - z"])"), ElementsAre(k_shared_equation.code));
+    EXPECT_THAT(told(sections + R"(, "model": ["E = d"])"), testing::Contains(k_name_of_two.code));
+    EXPECT_THAT(told(sections + R"(, "model": ["y = = d"])"), testing::SizeIs(1));
+    EXPECT_THAT(told(sections + R"(, "model": 1)"), ElementsAre(k_wrong_type.code));
+}
+
+TEST(BudgetSections, AreThoseOfBudgets) {
+    EXPECT_THAT(told(job_with({k_voltage, k_resistance, R"j("turn": {"kind": "rotary_table", "file": "turn.json"})j"})),
+                ElementsAre(k_sections_of_other_kind.code));
 }
 
 TEST(BudgetSections, AreRefusedWhereOneSetOfResultsIsExpected) {

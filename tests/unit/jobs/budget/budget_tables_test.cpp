@@ -136,6 +136,21 @@ TEST(BudgetTables, ReadPointsOfTheJobWithColumns) {
     EXPECT_EQ(job.point_columns[1].values, (std::vector<std::optional<double>>{0.5, std::nullopt}));
 }
 
+TEST(BudgetTables, KnowThePiecesOfASet) {
+    const test::BudgetFiles files{
+        {"points.csv", "serial,identification,V_s,V_x.1,V_x.2\nA 1,first,1,1.01,1.02\nA 2,,2,2.0,2.1\n"}};
+    const BudgetJob job =
+        read_budget(meter(R"j({"serial": {"role": "serial_number"}, "identification": "text"})j",
+                          R"j(, "tables": [{"columns": ["serial_number", "identification", "E", "U"]}])j"),
+                    files);
+    ASSERT_EQ(job.point_columns.size(), 2U);
+    EXPECT_EQ(job.point_columns[0].role, "serial_number");
+    EXPECT_EQ(job.point_columns[1].role, "identification") << "by its name";
+    EXPECT_THAT(shown(job.tables.at(0)), ElementsAre("column:serial", "column:identification", "value:E", "U:E"));
+    expect_refusal(meter(R"j({"serial": {"role": "serial_number", "unit": "V"}, "identification": "text"})j"),
+                   k_unknown_choice, "serial_number", files);
+}
+
 TEST(BudgetTables, RefuseColumnsOfPointsThatCannotBe) {
     expect_refusal(meter(R"j({"range": "text", "remark": "text", "nominal": "mV", "V_x": "V"})j"), k_point_column,
                    "is an input and a column of points");

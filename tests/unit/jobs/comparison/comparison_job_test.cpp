@@ -219,6 +219,9 @@ TEST(ComparisonJob, ReadsABudgetInPlaceOfAResult) {
     EXPECT_EQ(job.results[0].budget_file, "a/b.json");
     EXPECT_EQ(job.results[0].budget->inputs.size(), 2U);
     EXPECT_FALSE(job.results[0].uncertainty);
+    ASSERT_EQ(job.participant_budgets.size(), 1U);
+    EXPECT_EQ(job.participant_budgets[0].participant, 0U);
+    EXPECT_EQ(job.participant_budgets[0].file, "a/b.json");
     EXPECT_THAT(job.files, ElementsAre("job.json", "a/b.json"));
     const auto found = comparison_refusals(
         R"j("unit": "mm", "participants": [{"id": "A", "budget": "b.json"}, {"id": "B", "value": 1, "u": 1}])j",

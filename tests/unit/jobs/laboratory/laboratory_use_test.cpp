@@ -238,6 +238,132 @@ TEST(LaboratoryUseTest, RowsOfATableNameStandards) {
     EXPECT_EQ(facts.uses[1].input, "V");
 }
 
+std::vector<std::vector<double>> values_of(const BudgetJob& job) {
+    std::vector<std::vector<double>> all;
+    for (const gum::BudgetPoint& point : job.points) {
+        std::vector<double>& here = all.emplace_back();
+        for (const auto& part : point.inputs.at(0).second.components) {
+            here.push_back(part.value);
+            here.push_back(part.u);
+        }
+    }
+    return all;
+}
+
+BudgetJob read_table(const std::string& table, const json& changes = json::object()) {
+    return read_budget_job(MemoryFileSource(files_with_table(table, changes)), "job.json");
+}
+
+/// The same of a certificate whose lines have nominal values only.
+std::map<std::string, std::string> files_without_ranges(const std::string& table, const json& changes) {
+    std::map<std::string, std::string> files = files_with_table(table, changes);
+    json standard = json::parse(files["lab/standards/STD-1.json"]);
+    for (json& calibration : standard["calibrations"]) {
+        for (json& line : calibration["results"]) {
+            line.erase("range");
+        }
+    }
+    files["lab/standards/STD-1.json"] = standard.dump();
+    return files;
+}
+
+json input_of(const json& input) {
+    return {{"inputs", {{"V", input}}}};
+}
+
+const json k_named_once = {{"standard", "STD-1"}};
+const std::string k_rows_at = "point,V.at\nlow,10\nhigh,100\n";
+
+/// The standard stands in the input, and the rows say where it is used: the numbers of rows that name it each.
+TEST(LaboratoryUseTest, AStandardIsNamedOnceForAllRows) {
+    const std::vector<std::vector<double>> expected =
+        values_of(read_table("point,V.standard,V.range,V.at\nlow,STD-1,10 V,10\nhigh,STD-1,100 V,100\n"));
+    ASSERT_EQ(expected.size(), 2U);
+    EXPECT_EQ(values_of(read_table("point,V.range\nlow,10 V\nhigh,100 V\n", input_of(k_named_once))), expected);
+    EXPECT_EQ(values_of(read_table("point,V.at,V.range\nlow,10,10 V\nhigh,100,100 V\n", input_of(k_named_once))),
+              expected);
+    // A cell goes before the job, and an empty one leaves it to the job.
+    EXPECT_EQ(values_of(read_table("point,V.range\nlow,\nhigh,100 V\n",
+                                   input_of({{"standard", "STD-1"}, {"range", "10 V"}}))),
+              expected);
+    json list = input_of(k_named_once);
+    const json points{{{"point", "low"}, {"V", {{"range", "10 V"}}}}, {{"point", "high"}, {"V", {{"range", "100 V"}}}}};
+    list["points"] = {{"list", points}, {"file", nullptr}};
+    EXPECT_EQ(values_of(read_table("", list)), expected);
+    list["points"] = points;
+    EXPECT_EQ(values_of(read_table("", list)), expected);
+}
+
+TEST(LaboratoryUseTest, AStandardIsNamedOnceForAllNominalValues) {
+    const auto values = [](const std::string& table, const json& changes) {
+        return values_of(read_budget_job(MemoryFileSource(files_without_ranges(table, changes)), "job.json"));
+    };
+    const auto expected = values("point,V.standard,V.at\nlow,STD-1,10\nhigh,STD-1,100\n", json::object());
+    ASSERT_EQ(expected.size(), 2U);
+    EXPECT_EQ(values(k_rows_at, input_of(k_named_once)), expected);
+    json sections = input_of(k_named_once);
+    for (const char* key : {"model", "outputs", "points"}) {
+        sections[key] = nullptr;
+    }
+    sections["sections"] = {{"all", {{"model", {"E = V + d"}}, {"points", {{"file", "points.csv"}}}}}};
+    EXPECT_EQ(values(k_rows_at, sections), expected);
+    const auto facts = register_of_job(MemoryFileSource(files_without_ranges(k_rows_at, sections)), "job.json");
+    ASSERT_TRUE(facts);
+    EXPECT_EQ(facts->uses.size(), 2U) << "the gates know of the rows of a section";
+    // Without a unit in the job it is that of the register.
+    const auto files = files_without_ranges(k_rows_at, input_of({{"standard", "STD-1"}, {"unit", nullptr}}));
+    const BudgetJob in_volts = read_budget_job(MemoryFileSource(files), "job.json");
+    EXPECT_EQ(in_volts.inputs.at(0).unit.text(), "V");
+    EXPECT_EQ(values_of(in_volts), expected);
+}
+
+TEST(LaboratoryUseTest, ComponentsOfTheJobStandBehindAStandardThatIsNamedOnce) {
+    const json changes =
+        input_of({{"standard", "STD-1"}, {"components", {{{"name", "display"}, {"value", 0}, {"resolution", 0.01}}}}});
+    const BudgetJob job = read_table("point,V.range\nlow,10 V\nhigh,100 V\n", changes);
+    ASSERT_EQ(job.points.size(), 2U);
+    for (const gum::BudgetPoint& point : job.points) {
+        EXPECT_EQ(point.inputs.at(0).second.components.back().name, "display");
+        EXPECT_EQ(point.inputs.at(0).second.components.size(), 3U) << "calibration, drift, display";
+    }
+}
+
+TEST(LaboratoryUseTest, WhatIsWrongWithAStandardThatIsNamedOnceIsToldWithItsCell) {
+    const auto told_of = [](const std::map<std::string, std::string>& files) {
+        std::vector<std::string> all;
+        try {
+            (void)read_budget_job(MemoryFileSource(files), "job.json");
+        } catch (const gum::DiagnosedError& error) {
+            for (const gum::Diagnostic& diagnostic : error.diagnostics()) {
+                all.push_back(diagnostic.code + " " + diagnostic.where);
+            }
+        }
+        return all;
+    };
+    const auto told = [&](const std::string& table, const json& input) {
+        return told_of(files_without_ranges(table, input_of(input)));
+    };
+    using testing::ElementsAre;
+    using testing::SizeIs;
+    EXPECT_THAT(told("point,V.at\nlow,10\nhigh,55\n", k_named_once), ElementsAre("GC-LAB-0014 points.csv:3:6"))
+        << "between two calibrated values";
+    EXPECT_THAT(told("point,V.at\nlow,10\nhigh,\n", k_named_once), ElementsAre("GC-LAB-0014 points.csv:3:6"))
+        << "several lines, and no word of which";
+    EXPECT_THAT(told_of(files_with_table("point,V.at,V.range\nlow,10,10 V\nhigh,10,100 V\n", input_of(k_named_once))),
+                ElementsAre("GC-LAB-0014 points.csv:3:6"))
+        << "a value of another range";
+    EXPECT_THAT(told_of(files_with_table("point,V.at\nlow,10\n", input_of(k_named_once))),
+                ElementsAre("GC-LAB-0014 points.csv:2:5"))
+        << "several ranges, and no word of which";
+    EXPECT_THAT(told("point,V.at\nlow,ten\n", k_named_once), SizeIs(1));
+    EXPECT_THAT(told(k_rows_at, {{"standard", "STD-9"}}), SizeIs(1)) << "once, not once a row";
+    EXPECT_THAT(told(k_rows_at, {{"standard", 9}}), SizeIs(1));
+    EXPECT_THAT(told(k_rows_at, {{"standard", "STD-1"}, {"take", "half"}}), SizeIs(1));
+    EXPECT_THAT(told("point,V.standard,V.at\nlow,STD-1,10\n", {{"unit", nullptr}}),
+                testing::Contains("GC-LAB-0108 points.csv:2:5"))
+        << "an input without a unit is a plain number";
+}
+
 TEST(LaboratoryUseTest, WhatIsWrongInARowIsToldWithItsCell) {
     const auto first = [](const std::string& table, const json& changes = json::object()) {
         try {

@@ -530,5 +530,66 @@ TEST(DccDocument, WritesASectionAsAMeasurementResult) {
     EXPECT_THAT(two, HasSubstr("<dcc:measurementResult refId=\"item_1\">")) << "one without an item of its own";
 }
 
+/// Three points of a table, two of which are about pieces of a set.
+EvaluationRecord record_of_set() {
+    EvaluationRecord record = test::sample_budget_record();
+    const Result first = record.results.front();
+    record.results.clear();
+    certificate::PointTable points;
+    certificate::PointColumn serial;
+    serial.name = "serial";
+    serial.role = "serial_number";
+    serial.printed = {"A 1", "A 2", ""};
+    serial.values.resize(serial.printed.size());
+    certificate::PointColumn nominal;
+    nominal.name = "l_n";
+    nominal.role = "nominal";
+    nominal.unit = nominal.printed_unit = "mm";
+    nominal.values = {0.5, 1.0, 2.0};
+    nominal.printed = {"0.5", "1.0", "2.0"};
+    for (const char* name : {"1", "2", "3"}) {
+        points.points.emplace_back(name);
+        Result& result = record.results.emplace_back(first);
+        result.quantity = first.name;
+        result.point = name;
+        result.name = first.name + "[" + name + "]";
+    }
+    points.columns = {serial, nominal};
+    certificate::TableRequest& table = points.tables.emplace_back();
+    for (const auto& [show, of] :
+         {std::pair("column", "serial"), std::pair("column", "l_n"), std::pair("value", "l"), std::pair("U", "l")}) {
+        table.columns.push_back({.show = show, .of = of, .heading = {}, .role = "", .stage = ""});
+    }
+    record.points = points;
+    return test::certified(std::move(record), "length");
+}
+
+/// The set is an item, its pieces are items below it, and rows refer to them.
+TEST(DccDocument, NamesThePiecesOfASet) {
+    const EvaluationRecord record = record_of_set();
+    const std::string document = checked(record, {"en", "de"});
+    EXPECT_THAT(document, HasSubstr("<dcc:item id=\"item_1_1\">"));
+    EXPECT_THAT(document, HasSubstr("<dcc:result refId=\"item_1_1 item_1_2 item_1\""));
+    EXPECT_THAT(document, HasSubstr("<dcc:list refId=\"item_1_1 item_1_2 item_1\">"));
+    EXPECT_THAT(document, HasSubstr("<dcc:measurementResult refId=\"item_1\">"));
+    EXPECT_THAT(document, HasSubstr("refType=\"basic_serialNumber gumcert_serial\""));
+    const ImportedCertificate read = read_dcc(document, "document");
+    ASSERT_EQ(read.items.size(), 3U) << "the set, and two pieces";
+    EXPECT_EQ(read.items[1].name, "Nominal value 0.5 mm");
+    EXPECT_THAT(read.items[2].identifications, testing::ElementsAre("Serial number A 2"));
+    const auto nominal = named(document, "basic_nominalValue");
+    ASSERT_GE(nominal.size(), 2U);
+    EXPECT_EQ(nominal[0].role, "item");
+    EXPECT_EQ(nominal[0].value, "0.5");
+    EXPECT_EQ(nominal[0].unit, "mm");
+    const auto l = named(document, "gumcert_l");
+    ASSERT_EQ(l.size(), 3U);
+    EXPECT_EQ(l[0].about, 1U);
+    EXPECT_EQ(l[1].about, 2U);
+    EXPECT_EQ(l[2].about, 0U);
+    // A certificate about one item says nothing of it with every number.
+    EXPECT_FALSE(named(checked(certified_budget()), "gumcert_l").at(0).about);
+}
+
 }  // namespace
 }  // namespace gumcert::reports

@@ -80,6 +80,28 @@ TEST_F(TemplateReplacement, IsSaidOnEveryPage) {
     EXPECT_THROW(static_cast<void>(render_pdf(record, own_)), gum::NoResultError);
 }
 
+/// The mark stands in plain bytes, where archives look for it; a template that leaves it out gives no document.
+TEST_F(TemplateReplacement, CannotLeaveOutTheHeadOfTheArchive) {
+    const EvaluationRecord record = test::certified_budget_record();
+    const std::string without = render_html(record, own_);
+    own_.head = HeadToPrint{.entries = "12",
+                            .digits = "5dc9 da79 4604 328a",
+                            .mark = "gumcert-head:12:5dc9da794604328a",
+                            .check_at = "https://lab.example"};
+    const std::string html = render_html(record, own_);
+    EXPECT_THAT(html, HasSubstr("gumcert-head:12:5dc9da794604328a"));
+    EXPECT_THAT(html_text(html), HasSubstr("12 entries, 5dc9 da79 4604 328a"));
+    EXPECT_THAT(html_text(html), HasSubstr("https://lab.example"));
+    EXPECT_THAT(render_text(record, own_), HasSubstr("https://lab.example"));
+    EXPECT_EQ(without.find("gumcert-head"), std::string::npos);
+    replace("certificate.html.mustache", "{{#head_code}}<p title=\"{{text}}\">", "{{#head_code}}<p>");
+    EXPECT_THROW(static_cast<void>(render_html(record, own_)), gum::NoResultError);
+    SKIP_WITHOUT_PDF();
+    EXPECT_THAT(render_pdf(record, own_), HasSubstr("gumcert-head:12:5dc9da794604328a"));
+    replace("pdf/certificate.typ", "alt: item.text)", "alt: \"code\")");
+    EXPECT_THROW(static_cast<void>(render_pdf(record, own_)), gum::NoResultError);
+}
+
 TEST_F(TemplateReplacement, CannotLeaveOutTheNumberOrTheMark) {
     EvaluationRecord record = test::certified_budget_record();
     record.certificate->blocked = true;

@@ -279,6 +279,35 @@ TEST(ComparisonReport, SaysWhoIssuedItAndWhen) {
     EXPECT_EQ(view_of(record)["created"]["year"], "1970");
 }
 
+TEST(ComparisonReport, ANameOfABudgetDoesNotTellWhoseItIs) {
+    EvaluationRecord record = one_item(6);
+    Comparison& c = *record.comparison;
+    c.names_released = false;
+    c.budget_files = {{c.participants[1].id, "smith/steel.json"}, {c.participants[2].id, "meyer.json"}};
+    record.job_files = {{.name = "job.json", .sha256 = "1"},
+                        {.name = "smith/steel.json", .sha256 = "2"},
+                        {.name = "meyer-indicator.csv", .sha256 = "3"},
+                        {.name = "meyer.json", .sha256 = "4"}};
+    record.diagnostics = {{.code = "GC-COMPARE-0100",
+                           .where = "smith/steel.json#/inputs/L",
+                           .what = "meyer.json says otherwise than smith/steel.json",
+                           .rule = "",
+                           .action = "",
+                           .severity = gum::Severity::warning}};
+    for (const std::string& language : k_languages) {
+        const std::string printed = view_of(record, language).dump();
+        for (const char* name : {"smith", "meyer", "steel.json"}) {
+            EXPECT_THAT(printed, Not(HasSubstr(name))) << language;
+        }
+    }
+    const std::string printed = view_of(record).dump();
+    EXPECT_THAT(printed, HasSubstr("budget of " + c.participants[1].id));
+    EXPECT_THAT(printed, HasSubstr("budget of " + c.participants[2].id));
+    EXPECT_THAT(printed, HasSubstr("file 3"));
+    c.names_released = true;
+    EXPECT_THAT(view_of(record).dump(), HasSubstr("meyer-indicator.csv"));
+}
+
 TEST(ComparisonReport, HoldsEveryPrintedNumberOfTheResults) {
     const EvaluationRecord record = test::sample_laboratories_record();
     const json view = view_of(record);
