@@ -490,7 +490,7 @@ struct Comparison {
     std::vector<std::string> languages = {};  ///< that the job asks for, the binding one first
     bool names_released = false;              ///< documents may show names beside the codes of the laboratories
     std::vector<BudgetFile> budget_files = {};
-    double score_probability = 0.9545;        ///< coverage probability of the U that E_n takes
+    double score_probability = 0.9545;  ///< coverage probability of the U that E_n takes
     std::vector<ParticipantSummary> participants = {};
     std::vector<VectorScore> vectors = {};
     std::vector<YoudenDiagram> youden = {};
