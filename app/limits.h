@@ -10,8 +10,8 @@ namespace gumcert::app {
 // What commands that read files of others may take where nothing is asked for, for every step begun of a file.
 inline constexpr std::uint64_t k_wall_step = 10'000'000;                 ///< [byte]
 inline constexpr std::uint64_t k_wall_memory = std::uint64_t{1} << 30U;  ///< [byte], of the largest file
-inline constexpr std::uint64_t k_wall_memory_of_file = 262'144;          ///< [byte], what is kept of each until all are read
-inline constexpr std::uint64_t k_wall_time = 30;                         ///< [s], of all files together
+inline constexpr std::uint64_t k_wall_memory_of_file = 262'144;  ///< [byte], what is kept of each until all are read
+inline constexpr std::uint64_t k_wall_time = 30;                 ///< [s], of all files together
 
 /// Something that is refused, or ended, beyond a size.
 struct Limit {

@@ -191,7 +191,8 @@ CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem
         steps += own;
         most = std::max(most, own);
     }
-    common.memory_limit = common.memory_limit.value_or(most * app::k_wall_memory + files.size() * app::k_wall_memory_of_file);
+    common.memory_limit =
+        common.memory_limit.value_or(most * app::k_wall_memory + files.size() * app::k_wall_memory_of_file);
     common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * app::k_wall_time);
     return common;
 }
