@@ -99,7 +99,7 @@ FileCheck check_text(const std::string& text, const fs::path& file, unsigned thr
             return check_register_file(text, file.string(), schema == jobs::k_standard_schema_word);
         }
     }
-    const jobs::DiskFileSource disk(file.parent_path(), laboratory);
+    const jobs::DiskFileSource disk = jobs::DiskFileSource::of_job(file, laboratory);
     return check_job(jobs::ReadOnceSource(disk), file.filename().string());
 }
 

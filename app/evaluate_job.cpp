@@ -35,21 +35,23 @@ std::vector<std::filesystem::path> input_files(const std::filesystem::path& job_
 
 Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance, unsigned threads,
                         const std::filesystem::path& templates, const gum::Progress& progress,
-                        std::span<const Kind> kinds, const std::filesystem::path& laboratory) {
-    return evaluate_job(jobs::DiskFileSource(job_file.parent_path(), laboratory), job_file.filename().string(),
-                        covariance, threads, templates, progress, kinds);
+                        std::span<const Kind> kinds, const std::filesystem::path& laboratory,
+                        const BeforeEvaluation& before) {
+    return evaluate_job(jobs::DiskFileSource::of_job(job_file, laboratory), job_file.filename().string(), covariance,
+                        threads, templates, progress, kinds, before);
 }
 
 Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file, const CovarianceOutput& covariance,
                         unsigned threads, const std::filesystem::path& templates, const gum::Progress& progress,
-                        std::span<const Kind> kinds) {
+                        std::span<const Kind> kinds, const BeforeEvaluation& before) {
     const jobs::ReadOnceSource files(source);
     const EvaluationTask task{.files = files,
                               .job_file = job_file,
                               .covariance = covariance,
                               .threads = threads,
                               .templates = templates,
-                              .progress = progress};
+                              .progress = progress,
+                              .before = before};
     const std::vector<std::string_view> words = words_of(kinds);
     const Kind* kind = nullptr;
     try {
@@ -62,9 +64,10 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
         }
         throw;
     }
+    const reports::ProgramSentences sentences = reports::read_sentences(templates);
     Evaluation evaluation = kind->evaluate(task);
     audit_evaluation(evaluation, job_file);
-    reports::identify_sentences(evaluation.record, templates);
+    reports::identify_sentences(evaluation.record, sentences);
     return evaluation;
 }
 

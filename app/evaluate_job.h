@@ -29,17 +29,20 @@ void require_comparison_job(const std::filesystem::path& job_file);
 /// \param templates  folder with profiles/<id>.json, for certificate data that name a profile by its id
 /// \param kinds      that a job may be of
 /// \param laboratory folder with the data of the laboratory, before the one that the job names; "": none
+/// \param before     is called when the job was read, before it is evaluated; what it throws ends the evaluation
 /// \throws gum::InputError  GC-CERT-0300 for a profile that is not in the folder, and those of the readers
 /// \throws gum::NoResultError, gum::StorageError
 [[nodiscard]] Evaluation evaluate_job(const std::filesystem::path& job_file, const CovarianceOutput& covariance,
                                       unsigned threads, const std::filesystem::path& templates,
                                       const gum::Progress& progress = {}, std::span<const Kind> kinds = program_kinds(),
-                                      const std::filesystem::path& laboratory = {});
+                                      const std::filesystem::path& laboratory = {},
+                                      const BeforeEvaluation& before = {});
 /// The same of a job in any source of files, under its name there. Every file is read once, so that the digests in the
 /// record are those of the bytes that were evaluated.
 [[nodiscard]] Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_file,
                                       const CovarianceOutput& covariance, unsigned threads,
                                       const std::filesystem::path& templates, const gum::Progress& progress = {},
-                                      std::span<const Kind> kinds = program_kinds());
+                                      std::span<const Kind> kinds = program_kinds(),
+                                      const BeforeEvaluation& before = {});
 
 }  // namespace gumcert::app

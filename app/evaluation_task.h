@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,15 @@ struct Evaluation {
     std::vector<certificate::Waiver> waivers = {};  ///< of a job whose record is no certificate
 };
 
+/// A job whose reader has found nothing wrong, before it is evaluated.
+struct ReadJob {
+    const jobs::FileSource& files;
+    const std::vector<std::string>& names;  ///< of its files, the job first
+    double memory = 0.0;                    ///< about what its evaluation and record take, [byte]; 0: not known
+};
+/// Looks at a job before its evaluation, which may take long.
+using BeforeEvaluation = std::function<void(const ReadJob&)>;
+
 /// What the evaluation of a job is given, whatever its kind.
 struct EvaluationTask {
     const jobs::ReadOnceSource& files;
@@ -61,6 +71,18 @@ struct EvaluationTask {
     unsigned threads = 0;  ///< of Monte Carlo; 0: as many as the machine has
     const std::filesystem::path& templates;
     const gum::Progress& progress;
+    const BeforeEvaluation& before = k_nothing;
+
+    inline static const BeforeEvaluation k_nothing = {};
+
+    /// To be called by every kind between reading and evaluating.
+    /// \param names   as the reader of the job lists them, the job first
+    /// \param memory  as of ReadJob
+    void begin(const std::vector<std::string>& names, double memory = 0.0) const {
+        if (before) {
+            before({files, names, memory});
+        }
+    }
 
     /// The files of the job as its record states and holds them: the bytes that were parsed, up to 8 MiB of one file and
     /// 16 MiB of all.

@@ -12,6 +12,32 @@ namespace gumcert::jobs {
 
 namespace {
 
+[[noreturn]] void leads_out(const std::string& name) {
+    throw gum::StorageError(gum::Diagnostic{
+        std::string{k_file_leads_out.code}, text::visible(name),
+        "a symbolic link in it leads out of the folder at which the name begins",
+        "the name of a file in a job shows where the file is (docs/budget_job.md)",
+        "put the file there, or write in the job where it is, with .. between folders", gum::Severity::error});
+}
+
+/// A name whose `..` stand at its beginning, and the folder to which they lead.
+struct Beginning {
+    std::filesystem::path folder, name;
+};
+
+Beginning beginning_of(std::filesystem::path folder, const std::filesystem::path& name) {
+    const std::filesystem::path plain = name.lexically_normal();
+    auto part = plain.begin();
+    for (; part != plain.end() && *part == ".."; ++part) {
+        folder /= "..";
+    }
+    std::filesystem::path rest;
+    for (; part != plain.end(); ++part) {
+        rest /= *part;
+    }
+    return {.folder = std::move(folder), .name = rest.empty() ? std::filesystem::path(".") : std::move(rest)};
+}
+
 [[noreturn]] void not_readable(const std::string& name, const std::string& reason) {
     throw gum::StorageError(gum::Diagnostic{std::string{k_file_not_readable.code}, text::visible(name),
                                             "cannot be read: " + reason, "every file of a job must be a readable file",
@@ -22,14 +48,18 @@ namespace {
 
 std::string DiskFileSource::read(const std::string& name) const {
     const bool is_of_laboratory = has_laboratory() && name.starts_with(k_laboratory_prefix);
-    const std::filesystem::path path =
-        is_of_laboratory ? laboratory_ / std::filesystem::path(name.substr(k_laboratory_prefix.size()))
-                         : folder_ / std::filesystem::path(name);
-    encoding::FileBytes file = encoding::read_regular_file(path, k_file_limit + 1);
+    const auto [folder, path] = is_of_laboratory ? beginning_of(laboratory_, name.substr(k_laboratory_prefix.size()))
+                                                 : beginning_of(folder_, name);
+    const bool is_job = !job_.empty() && name == job_;
+    encoding::FileBytes file = is_job ? encoding::read_regular_file(folder_ / name, k_file_limit + 1)
+                                      : encoding::read_file_beneath(folder, path, k_file_limit + 1);
+    if (file.leads_out) {
+        leads_out(name);
+    }
     if (!file.failure.empty()) {
         // "a/" has no name of a file, "" nothing at all: the message names the place as it was given.
-        const std::string folder = folder_.string();
-        not_readable(!name.empty() ? name : folder.empty() ? "the name \"\"" : folder + "/", file.failure);
+        const std::string place = folder_.string();
+        not_readable(!name.empty() ? name : place.empty() ? "the name \"\"" : place + "/", file.failure);
     }
     return std::move(file.bytes);
 }

@@ -30,9 +30,17 @@ public:
     [[nodiscard]] virtual bool has_laboratory() const { return false; }
 };
 
-/// Files of one folder of the disk.
+/// Files of one folder of the disk, and of folders that a name leads to by `..`. A name shows where it leads: where `..` goes
+/// up from is the folder before it in the name, and no symbolic link leads out of the folder at which the name begins.
 class DiskFileSource : public FileSource {
 public:
+    /// Of the files beside a job, which the user names himself: it may be a link to anywhere.
+    [[nodiscard]] static DiskFileSource of_job(const std::filesystem::path& job_file,
+                                               std::filesystem::path laboratory = {}) {
+        DiskFileSource source(job_file.parent_path(), std::move(laboratory));
+        source.job_ = job_file.filename().string();
+        return source;
+    }
     /// \param laboratory  the folder of the laboratory; "": none
     explicit DiskFileSource(std::filesystem::path folder, std::filesystem::path laboratory = {})
         : folder_(std::move(folder)), laboratory_(std::move(laboratory)) {}
@@ -41,6 +49,7 @@ public:
 
 private:
     std::filesystem::path folder_, laboratory_;
+    std::string job_;  ///< "": no file is named by the user himself
 };
 
 /// Files in memory, name to content.

@@ -158,6 +158,7 @@ inline constexpr InputCode k_shared_equation{"GC-INPUT-0366", "an equation that 
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
+inline constexpr InputCode k_file_leads_out{"GC-STORAGE-0002", "a symbolic link leads out of the folder of a name"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_extra_column{"GC-WARN-0001", "a column that the program does not use"};
@@ -298,6 +299,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_sections_of_other_kind,
                                           k_shared_equation,
                                           k_file_not_readable,
+                                          k_file_leads_out,
                                           k_warn_extra_column,
                                           k_warn_unused_station,
                                           k_warn_unused_reflector,

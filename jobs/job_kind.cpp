@@ -84,11 +84,11 @@ std::optional<std::string> probable_job_kind(const FileSource& source, const std
 }
 
 std::optional<std::string> probable_job_kind(const std::filesystem::path& job_file) {
-    return probable_job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+    return probable_job_kind(DiskFileSource::of_job(job_file), job_file.filename().string());
 }
 
 std::string job_kind(const std::filesystem::path& job_file) {
-    return job_kind(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+    return job_kind(DiskFileSource::of_job(job_file), job_file.filename().string());
 }
 
 void read_unused_texts(const JsonObject& root) {

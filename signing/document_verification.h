@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "signing/document_limits.h"
 #include "signing/openssl_handles.h"
 #include "signing/verify.h"
 
@@ -42,9 +43,6 @@ void add_warning(SignatureReport& report, const char* code, const std::string& w
 /// The texts of a report, and of messages, made fit to be shown.
 void show_safely(SignatureReport& report);
 void show_safely(std::vector<gum::Diagnostic>& messages);
-
-/// More signatures or attachments than this are not looked at one by one: each costs a pass over the whole file.
-inline constexpr std::size_t k_most_signatures = 16;
 
 /// Sets `valid`: no finding of severity error.
 void conclude(SignatureReport& report);

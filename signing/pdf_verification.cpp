@@ -17,6 +17,7 @@
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "signing/certificates.h"
+#include "signing/document_limits.h"
 #include "signing/document_verification.h"
 #include "signing/qpdf_objects.h"
 #include "signing/time_texts.h"
@@ -28,8 +29,6 @@ namespace {
 using Object = QPDFObjectHandle;
 
 constexpr const char* k_ask_again = "ask the laboratory for the original document";
-
-constexpr std::size_t k_largest_attachments = std::size_t{64} << 20U;  // [byte], of all attachments of a file
 
 /// Takes a stream up to a limit, and stops what unpacks it there: a small file can unpack to any size.
 class LimitedText : public Pipeline {

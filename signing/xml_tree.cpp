@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "gum/quantity/diagnostic.h"
+#include "signing/document_limits.h"
 #include "text/markup_size.h"
 
 namespace gumcert::signing {
@@ -61,10 +62,6 @@ XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
     if (bytes.size() > INT_MAX) {
         refuse(name, "larger than 2 GB", "a document is read whole", "attach large files beside the certificate");
     }
-    // A tree takes some hundred bytes for each tag and attribute, and the time to compare those of a tag grows as the
-    // square of their number.
-    constexpr std::size_t k_most_in_tag = 64;
-    constexpr std::size_t k_most_parts = 2'000'000;
     const text::MarkupSize size = text::markup_size(bytes);
     if (size.most_in_tag > k_most_in_tag || size.tags + size.attributes > k_most_parts) {
         refuse(name,

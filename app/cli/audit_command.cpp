@@ -24,6 +24,7 @@
 #include "reports/audit/audit_text.h"
 #include "reports/audit/audit_view.h"
 #include "reports/forms/asset_files.h"
+#include "reports/forms/pdf_worker.h"
 #include "reports/wording.h"
 
 namespace gumcert::cli {
@@ -91,6 +92,11 @@ Destination destination_of(const AuditOptions& options, const fs::path& first) {
     return to;
 }
 
+/// The audit for programs, which can always be made and is kept where another form cannot.
+fs::path numbers_file(const Destination& to) {
+    return fs::path(to.files.front().second).replace_extension(".json");
+}
+
 std::string rendered(const reports::AuditView& view, const std::string& form, const AuditOptions& options,
                      const reports::TaskRunner& run) {
     if (form == "json") {
@@ -153,10 +159,16 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     std::vector<fs::path> outputs;
     for (const auto& [form, file] : to.files) {
         app::require_writable(file);
-        app::require_not_an_input(file, all);
         outputs.push_back(file);
     }
+    if (!to.files.empty()) {
+        outputs.push_back(kept_place(numbers_file(to)));
+    }
+    app::require_not_inputs(outputs, all);
     const app::OutputsAtStart at_start = begin_outputs(outputs, common);
+    if (std::ranges::any_of(to.files, [](const auto& file) { return file.first == "pdf"; })) {
+        reports::PdfWorker(render_assets(options.share)).require_ready();  // before anything is evaluated
+    }
     const fs::path templates = templates_folder(options.share);
     const std::vector<certificate::Waiver> waivers =
         options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
@@ -192,16 +204,24 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         write_to_stdout(rendered(view, to.to_stdout, options, run));
         return code;
     }
-    std::vector<app::OutputFile> written;
-    for (const auto& [form, file] : to.files) {
-        written.push_back({.path = file, .bytes = rendered(view, form, options, run)});
-    }
     std::vector<fs::path> inputs = all;
     if (!options.waivers.empty()) {
         inputs.emplace_back(options.waivers);
     }
     add_program_files(inputs, options.share);
+    std::vector<app::OutputFile> written;
+    make_or_keep(
+        [&] {
+            for (const auto& [form, file] : to.files) {
+                written.push_back({.path = file, .bytes = rendered(view, form, options, run)});
+            }
+        },
+        [&] {
+            keep_files({{numbers_file(to), reports::audit_as_json(view, run)}}, inputs, at_start,
+                       "is this audit for programs", "ask for another form: --format html or text", common);
+        });
     write_outputs(written, inputs, at_start);
+    report_kept(numbers_file(to), common);
     if (!common.quiet) {
         for (const app::OutputFile& file : written) {
             fmt::print("Written: {}\n", file.path.string());

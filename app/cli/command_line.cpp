@@ -542,6 +542,15 @@ void add_explain(CLI::App& program, Arguments& a) {
         "English only. A finding such as R07-e is no code: docs/findings.md. All codes: docs/messages.md");
 }
 
+void add_limits(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("limits", "Sizes, numbers, time and memory beyond which is refused");
+    command.footer(
+        "Example: gumcert limits\n"
+        "Prints each limit of this program and where it applies. What is beyond one is refused with its place, or "
+        "ended.\n"
+        "The numbers that single keys of a job allow stand in docs/job_keys.md.");
+}
+
 void add_fonts(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("fonts", "The fonts that a template of a PDF may use");
     add_share(command, a.share);
@@ -577,6 +586,7 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     add_init(*program, a);
     add_explain(*program, a);
     add_fonts(*program, a);
+    add_limits(*program);
     add_common(*program, a.common);
     for (CLI::App* command : program->get_subcommands({})) {
         add_common(*command, a.common);

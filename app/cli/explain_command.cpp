@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/cli/share_folder.h"
+#include "app/limits.h"
 #include "app/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/message_explanation.h"
@@ -58,6 +59,21 @@ ExitCode explain(const std::vector<std::string>& words, const std::string& share
     }
     if (!unknown.empty()) {
         throw gum::UsageError(std::move(unknown));
+    }
+    write_to_stdout(text);
+    return done;
+}
+
+ExitCode list_limits() {
+    constexpr std::size_t k_width = 14;
+    std::string text;
+    std::string_view last;
+    for (const app::Limit& limit : app::limits()) {
+        if (limit.applies_to != last) {
+            text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
+            last = limit.applies_to;
+        }
+        text += fmt::format("{:>{}}  {}\n", limit.value(), k_width, limit.what);
     }
     write_to_stdout(text);
     return done;

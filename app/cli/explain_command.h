@@ -12,4 +12,7 @@ namespace gumcert::cli {
 /// \throws gum::StorageError  if the register is missing or damaged
 [[nodiscard]] ExitCode explain(const std::vector<std::string>& words, const std::string& share);
 
+/// `gumcert limits`: what is refused or ended beyond a size, and where it applies.
+[[nodiscard]] ExitCode list_limits();
+
 }  // namespace gumcert::cli

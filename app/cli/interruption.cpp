@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "app/cli/terminal.h"
+#include "app/limits.h"
 #include "system/ceilings.h"
 #include "system/cleanup.h"
 
@@ -181,21 +182,18 @@ void clean_up_at_signals(bool json_messages) {
 }
 
 CommonOptions with_walls(CommonOptions common, const std::vector<std::filesystem::path>& files) {
-    constexpr std::uint64_t k_step = 10'000'000;                 // [byte]
-    constexpr std::uint64_t k_memory = std::uint64_t{1} << 30U;  // [byte] a step of the largest file
-    constexpr std::uint64_t k_memory_of_file = 262'144;          // [byte] what is kept of each until all are read
-    constexpr std::uint64_t k_time = 30;                         // [s] a step of each
     std::uint64_t steps = 0;
     std::uint64_t most = 1;
     for (const std::filesystem::path& file : files) {
         std::error_code error;
         const std::uint64_t size = std::filesystem::file_size(file, error);
-        const std::uint64_t own = error ? 1 : 1 + size / k_step;
+        const std::uint64_t own = error ? 1 : 1 + size / app::k_wall_step;
         steps += own;
         most = std::max(most, own);
     }
-    common.memory_limit = common.memory_limit.value_or(most * k_memory + files.size() * k_memory_of_file);
-    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * k_time);
+    common.memory_limit =
+        common.memory_limit.value_or(most * app::k_wall_memory + files.size() * app::k_wall_memory_of_file);
+    common.time_limit = common.time_limit.value_or(std::max<std::uint64_t>(steps, 1) * app::k_wall_time);
     return common;
 }
 

@@ -23,11 +23,13 @@
 #include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "app/unprintable_characters.h"
 #include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/gates/printed_languages.h"
 #include "reports/audit/audit_html.h"
 #include "reports/forms/record_sentences.h"
+#include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::cli {
@@ -89,12 +91,46 @@ public:
         worker_->require_ready();
     }
 
+    /// The same of a job that was read: a page is set with its characters.
+    /// \return characters that no font has
+    /// \throws gum::StorageError
+    [[nodiscard]] std::vector<gum::Diagnostic> look_at(const app::ReadJob& job) {
+        (void)options();
+        return app::unprintable_characters(job, [this](const std::vector<std::string>& characters) {
+            return reports::characters_without_glyph(characters, options_.assets, *worker_);
+        });
+    }
+
 private:
     DocumentOptions asked_;
     signing::DescribedSigner signer_;
     std::unique_ptr<reports::PdfWorker> worker_;
     app::IssueOptions options_;
 };
+
+/// Says of a job that it takes much memory, before it does.
+/// \throws gum::StorageError  GC-STORE-0026 where it is more than the command may take
+void tell_memory(const app::ReadJob& job, const CommonOptions& common) {
+    constexpr double k_told = 1e9;  // [byte]
+    constexpr double k_megabyte = 1e6;
+    const bool is_too_much =
+        common.memory_limit.value_or(0) > 0 && job.memory > static_cast<double>(*common.memory_limit);
+    if (!is_too_much && job.memory < k_told) {
+        return;
+    }
+    const gum::Diagnostic needed{
+        .code = "GC-STORE-0026",
+        .where = job.names.front(),
+        .what = fmt::format("its evaluation takes about {:.0f} MB of memory", job.memory / k_megabyte),
+        .rule = "it grows as the number of results times that of inputs, or as the square of the angles",
+        .action = is_too_much ? "split the job, or give it more by --memory-limit"
+                              : "split the job where the machine has less",
+        .severity = is_too_much ? gum::Severity::error : gum::Severity::note};
+    if (is_too_much) {
+        throw gum::StorageError(needed);
+    }
+    print_messages({&needed, 1}, common);
+}
 
 void print_warnings(const Issuer& issuer, const CommonOptions& common) {
     for (const gum::Diagnostic& warning : issuer.warnings()) {
@@ -120,7 +156,7 @@ void judge_issue(reports::EvaluationRecord& record, const std::vector<std::strin
     const bool too_early = certificate::block_issue_ahead_of_time(*record.certificate, today());
     const bool lacking = certificate::judge_printed_languages(*record.certificate, languages);
     if (too_early || lacking) {  // what was found now has to be worded, too
-        reports::identify_sentences(record, templates_folder(share));
+        reports::identify_sentences(record, reports::read_sentences(templates_folder(share)));
     }
 }
 
@@ -181,46 +217,6 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
                where_to_read.string());
 }
 
-/// Where the record is kept whose documents cannot be made: a folder in that of the outputs, so that it stands in no set
-/// with documents of an earlier evaluation (docs/adr/0057-records-are-kept.md).
-constexpr const char* k_kept_folder = "record-kept";
-
-/// Writes what was evaluated when no document can be made of it.
-void keep_evaluation(std::vector<app::OutputFile> files, const std::vector<fs::path>& inputs,
-                     const app::OutputsAtStart& at_start, const CommonOptions& common) {
-    for (app::OutputFile& file : files) {
-        file.path = file.path.parent_path() / k_kept_folder / file.path.filename();
-    }
-    write_outputs(files, inputs, at_start);
-    print_message(
-        {.code = "GC-STORE-0022",
-         .where = files.front().path.string(),
-         .what = "is the record of this evaluation, kept without documents: one of them cannot be made, as the "
-                 "next message says",
-         .rule = "what was evaluated is not lost, and never stands in one folder with documents of another "
-                 "evaluation",
-         .action = "mend what the next message says and give the command again, or print the record in "
-                   "another form: gumcert render " +
-                   files.front().path.string() + " --format html",
-         .severity = gum::Severity::warning},
-        common);
-}
-
-/// Says of a kept record that it is not the one of the documents beside its folder.
-void report_kept(const fs::path& folder, const CommonOptions& common) {
-    const fs::path kept = folder / k_kept_folder;
-    std::error_code error;
-    if (fs::exists(kept, error)) {
-        print_message({.code = "GC-STORE-0023",
-                       .where = kept.string(),
-                       .what = "holds the record of an earlier evaluation whose documents could not be made",
-                       .rule = "the record beside this folder is the new one, and the documents are of it",
-                       .action = "remove the folder, so that nobody takes it for this evaluation",
-                       .severity = gum::Severity::warning},
-                      common);
-    }
-}
-
 /// Documents of a kind of records as they stand in a folder.
 std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& folder) {
     std::vector<fs::path> files;
@@ -269,7 +265,13 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     app::Evaluation evaluation = app::evaluate_job(
         job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(options.share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
+        [&](const app::ReadJob& read) {
+            tell_memory(read, common);
+            const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
+            progress.clear();
+            print_messages(several ? of_job(warnings, job) : warnings, common);
+        });
     const reports::EvaluationRecord& record = evaluation.record;
     const std::vector<fs::path> documents = document_files(app::kind_of(record, app::program_kinds()), folder);
     std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
@@ -281,14 +283,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         inputs.push_back(file);
     }
     const bool held_back = withheld(record, options.draft);
-    const auto keep = [&] {
-        progress.clear();
-        (void)explained(common, [&] {
-            keep_evaluation(files, inputs, at_start, common);
-            return done;
-        });
-    };
-    try {
+    const auto make_documents = [&] {
         files.push_back({folder / k_audit_file,
                          reports::audit_as_html(
                              app::audit_view(std::span(evaluation.audit.get(), 1), {record.job_files.front().sha256}),
@@ -300,16 +295,16 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
                 files.push_back({documents[i], std::move(issued[i].bytes)});
             }
         }
-    } catch (const gum::InputError&) {
-        throw;  // exit code 3: nothing is written
-    } catch (const gum::NoResultError& error) {
-        // There is a result; what could not be made is a file of it.
-        keep();
-        throw gum::StorageError(several ? of_job(error.diagnostics(), job) : error.diagnostics());
-    } catch (...) {
-        keep();
-        throw;
-    }
+        return true;
+    };
+    make_or_keep([&] { (void)(several ? naming_job(job, make_documents) : make_documents()); },
+                 [&] {
+                     progress.clear();
+                     keep_files(files, inputs, at_start, "is the record of this evaluation",
+                                "print the record in another form: gumcert render " +
+                                    kept_place(files.front().path).string() + " --format html",
+                                common);
+                 });
     progress("writing");
     write_outputs(files, inputs, at_start);
     progress.clear();
@@ -319,7 +314,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
     report_diagnostics(record, common);
     report_findings(record, common);
     report_audit(evaluation, common);
-    report_kept(folder, common);
+    report_kept(folder / "record.json", common);
     if (held_back) {
         report_withheld(job.string(), documents, common);
     }
@@ -377,6 +372,9 @@ ExitCode render_record(const std::string& name, const std::string& format, const
         print_message(doubt, common);
     }
     reports::EvaluationRecord record = reports::record_from_json(bytes_read, name);
+    if (app::output_form(format).ending.ends_with(".pdf")) {
+        issuer.require_ready();  // before the job of the record is evaluated again
+    }
     ProgressLine progress(!common.quiet);
     const std::optional<gum::Diagnostic> unchecked =
         app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
@@ -443,8 +441,8 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     inputs.insert(inputs.end(), jobs.begin(), jobs.end());
     std::vector<fs::path> outputs;
     for (const fs::path& folder : folders) {
-        for (const fs::path& place : {folder, folder / k_kept_folder}) {
-            outputs.insert(outputs.end(), {place / "record.json", place / "covariance.csv", place / k_audit_file});
+        for (const fs::path& file : {folder / "record.json", folder / "covariance.csv", folder / k_audit_file}) {
+            outputs.insert(outputs.end(), {file, kept_place(file)});
         }
         for (const app::Kind& kind : app::program_kinds()) {
             const std::vector<fs::path> documents = document_files(kind, folder);
@@ -489,7 +487,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
          *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory);
+        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
+        [&](const app::ReadJob& read) { tell_memory(read, common); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     judge_issue(evaluation.record, {}, share);
     progress.clear();

@@ -147,6 +147,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
     if (a.command == "explain") {
         return explain(a.codes, a.share);
     }
+    if (a.command == "limits") {
+        return list_limits();
+    }
     if (a.command == "fonts") {
         return list_fonts(a.share);
     }

@@ -1,8 +1,10 @@
 #include "app/cli/output_places.h"
 
+#include <exception>
 #include <system_error>
 
 #include "app/cli/interruption.h"
+#include "gum/quantity/diagnostic.h"
 #include "system/temporary.h"
 
 namespace gumcert::cli {
@@ -22,6 +24,58 @@ void write_outputs(const std::vector<app::OutputFile>& files, const std::vector<
     app::write_files(files, inputs, at_start);
     for (const app::OutputFile& file : files) {
         tell_written(file.path);
+    }
+}
+
+std::filesystem::path kept_place(const std::filesystem::path& output) {
+    return output.parent_path() / "record-kept" / output.filename();
+}
+
+void make_or_keep(const std::function<void()>& make, const std::function<void()>& keep) {
+    try {
+        make();
+    } catch (const gum::InputError&) {
+        throw;  // exit code 3: nothing is written
+    } catch (const gum::NoResultError& error) {
+        keep();
+        throw gum::StorageError(error.diagnostics());
+    } catch (...) {
+        keep();
+        throw;
+    }
+}
+
+void keep_files(std::vector<app::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
+                const app::OutputsAtStart& at_start, const std::string& what, const std::string& action,
+                const CommonOptions& common) {
+    (void)explained(common, [&] {
+        for (app::OutputFile& file : files) {
+            file.path = kept_place(file.path);
+        }
+        write_outputs(files, inputs, at_start);
+        print_message({.code = "GC-STORE-0022",
+                       .where = files.front().path.string(),
+                       .what = what + ", kept without documents: one of them cannot be made, as the next message says",
+                       .rule = "what was evaluated is not lost, and never stands in one folder with documents of "
+                               "another evaluation",
+                       .action = "mend what the next message says and give the command again, or " + action,
+                       .severity = gum::Severity::warning},
+                      common);
+        return done;
+    });
+}
+
+void report_kept(const std::filesystem::path& output, const CommonOptions& common) {
+    const std::filesystem::path kept = kept_place(output);
+    std::error_code error;
+    if (std::filesystem::exists(kept, error)) {
+        print_message({.code = "GC-STORE-0023",
+                       .where = kept.parent_path().string(),
+                       .what = "holds an earlier evaluation of which a document could not be made",
+                       .rule = "what stands beside this folder is of the new evaluation",
+                       .action = "remove the folder, so that nobody takes it for this evaluation",
+                       .severity = gum::Severity::warning},
+                      common);
     }
 }
 

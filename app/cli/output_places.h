@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "app/cli/terminal.h"
@@ -18,5 +20,24 @@ namespace gumcert::cli {
 /// app::write_files(), remembered for the words of an interruption.
 void write_outputs(const std::vector<app::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
                    const app::OutputsAtStart& at_start);
+
+/// Where files of an evaluation are kept of which a document cannot be made: in a folder beside the outputs, so that they
+/// stand in no set with documents of an earlier evaluation (docs/adr/0057-records-are-kept.md).
+[[nodiscard]] std::filesystem::path kept_place(const std::filesystem::path& output);
+
+/// Makes the documents of what was evaluated. Where one cannot be made, `keep` writes what there is, and the failure
+/// becomes that of a file, exit code 5. An input that is refused only now keeps nothing.
+/// \throws what `make` throws; gum::StorageError in place of gum::NoResultError: there is a result
+void make_or_keep(const std::function<void()>& make, const std::function<void()>& keep);
+
+/// Writes files into the places that kept_place() says, and says so: GC-STORE-0022. A failure is told, and not thrown.
+/// \param what    "is the record of this evaluation"
+/// \param action  in which other way a document can be made
+void keep_files(std::vector<app::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
+                const app::OutputsAtStart& at_start, const std::string& what, const std::string& action,
+                const CommonOptions& common);
+
+/// Says of what keep_files() wrote that it is older than the outputs beside it: GC-STORE-0023.
+void report_kept(const std::filesystem::path& output, const CommonOptions& common);
 
 }  // namespace gumcert::cli

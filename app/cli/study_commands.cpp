@@ -2,12 +2,17 @@
 
 #include <fmt/core.h>
 
+#include <memory>
+#include <vector>
+
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/output_files.h"
 #include "app/plan_job.h"
 #include "app/simulate_job.h"
 #include "app/study_inputs.h"
+#include "app/unprintable_characters.h"
+#include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
 
 namespace gumcert::cli {
@@ -16,14 +21,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the outcome of a study goes, and in which form: by the ending of the file.
+/// Where the outcome of a study goes, and in which form: by the ending of the file. What its document is made with is looked
+/// at before the study begins, which would be lost.
 struct StudyOutput {
     fs::path file;  ///< empty: text to standard output
     std::string form = ".txt";
+    reports::RenderAssets assets = {};
+    std::unique_ptr<reports::PdfWorker> worker = {};  ///< of a PDF
+    std::vector<fs::path> inputs = {};
     app::OutputsAtStart at_start = {};
 };
 
-StudyOutput study_output(const std::string& output, const fs::path& job, const CommonOptions& common) {
+/// The outcome in the forms that need nothing but itself: numbers for programs, and text. They are kept where the
+/// document that is asked for cannot be made.
+fs::path numbers_file(fs::path document) {
+    return document.replace_extension(".json");
+}
+fs::path text_file(fs::path document) {
+    return document.replace_extension(".txt");
+}
+
+StudyOutput study_output(const std::string& output, const fs::path& job, const std::string& share,
+                         const CommonOptions& common) {
     if (output.empty() || output == "-") {
         return {};
     }
@@ -32,26 +51,55 @@ StudyOutput study_output(const std::string& output, const fs::path& job, const C
         refuse_usage("-o " + output, "the ending does not say which form is wanted",
                      "a study is written as .txt, .json, .html or .pdf", "give the file one of these endings");
     }
+    std::vector<fs::path> outputs{result.file};
+    const bool is_document = result.form == ".html" || result.form == ".pdf";
+    if (is_document) {
+        outputs.push_back(kept_place(numbers_file(result.file)));
+        outputs.push_back(kept_place(text_file(result.file)));
+    }
     app::require_writable(result.file);
-    app::require_not_an_input(result.file, {job});
-    result.at_start = begin_outputs({result.file}, common);
+    app::require_not_inputs(outputs, {job});
+    result.at_start = begin_outputs(outputs, common);
+    result.inputs = app::study_inputs(job);  // what is wrong with the job goes before what is wrong with the machine
+    result.inputs.push_back(job);
+    add_program_files(result.inputs, share);
+    if (is_document) {
+        result.assets = render_assets(share, {"en"});
+    }
+    if (result.form == ".pdf") {
+        result.worker = std::make_unique<reports::PdfWorker>(result.assets);
+        result.worker->require_ready();
+        print_messages(app::unprintable_characters(job,
+                                                   [&](const std::vector<std::string>& characters) {
+                                                       return reports::characters_without_glyph(
+                                                           characters, result.assets, *result.worker);
+                                                   }),
+                       common);
+    }
     return result;
 }
 
-void write_study(const reports::StudyDocument& study, const StudyOutput& output, const fs::path& job,
-                 const std::string& share, const CommonOptions& common) {
+void write_study(const reports::StudyDocument& study, const StudyOutput& output, const CommonOptions& common) {
     if (output.file.empty()) {
         write_to_stdout(reports::render_text(study));
         return;
     }
-    const std::string bytes = output.form == ".json"   ? study.data_json
-                              : output.form == ".html" ? reports::render_html(study, render_assets(share, {"en"}))
-                              : output.form == ".pdf"  ? reports::render_pdf(study, render_assets(share, {"en"}))
-                                                       : reports::render_text(study);
-    std::vector<fs::path> inputs = app::study_inputs(job);
-    inputs.push_back(job);
-    add_program_files(inputs, share);
-    write_outputs({{output.file, bytes}}, inputs, output.at_start);
+    std::string bytes;
+    make_or_keep(
+        [&] {
+            bytes = output.form == ".json"   ? study.data_json
+                    : output.form == ".html" ? reports::render_html(study, output.assets)
+                    : output.form == ".pdf"  ? reports::render_pdf(study, output.assets, output.worker.get())
+                                             : reports::render_text(study);
+        },
+        [&] {
+            keep_files(
+                {{numbers_file(output.file), study.data_json}, {text_file(output.file), reports::render_text(study)}},
+                output.inputs, output.at_start, "has the numbers of this study, and the file .txt beside it the text",
+                "write it in another form, .html or .txt", common);
+        });
+    write_outputs({{output.file, bytes}}, output.inputs, output.at_start);
+    report_kept(numbers_file(output.file), common);
     if (!common.quiet) {
         fmt::print("Written: {}\n", output.file.string());
     }
@@ -61,24 +109,24 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
 
 ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::optional<std::int64_t> seed,
                   const std::string& output, const std::string& share, const CommonOptions& common) {
-    const StudyOutput to = study_output(output, job, common);
+    const StudyOutput to = study_output(output, job, share, common);
     ProgressLine progress(!common.quiet);
     const auto unsigned_seed = seed ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*seed)) : std::nullopt;
     const reports::StudyDocument study =
         app::simulate_job(job, runs, unsigned_seed, static_cast<unsigned>(common.threads),
                           [&](const std::string& text) { progress(text); });
     progress.clear();
-    write_study(study, to, job, share, common);
+    write_study(study, to, common);
     return done;
 }
 
 ExitCode plan(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
-    const StudyOutput to = study_output(output, job, common);
+    const StudyOutput to = study_output(output, job, share, common);
     ProgressLine progress(!common.quiet);
     const reports::StudyDocument study =
         app::plan_job(job, static_cast<unsigned>(common.threads), [&](const std::string& text) { progress(text); });
     progress.clear();
-    write_study(study, to, job, share, common);
+    write_study(study, to, common);
     return done;
 }
 

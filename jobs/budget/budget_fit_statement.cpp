@@ -13,6 +13,7 @@
 #include "gum/quantity/dense_factors.h"
 #include "jobs/budget/budget_statement_fields.h"
 #include "jobs/csv_table.h"
+#include "jobs/job_limits.h"
 #include "jobs/matrix_limits.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -24,8 +25,6 @@ namespace gumcert::jobs {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::size_t k_most_fit_points = 100'000;
 
 bool contains(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();

@@ -14,6 +14,7 @@
 #include "jobs/budget/budget_statement_fields.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/csv_table.h"
+#include "jobs/job_limits.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/place.h"
@@ -25,10 +26,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_points = 100'000;
 constexpr std::string_view k_point = "point";
 constexpr std::size_t k_most_named = 5;
-constexpr std::size_t k_most_columns = 100;
 
 /// Words that a table has for what belongs to a result.
 constexpr std::array<std::string_view, 6> k_reserved{k_point, "U", "k", "nu_eff", "limit", "verdict"};
@@ -548,10 +547,10 @@ void BudgetInputs::read_columns(const JsonObject& points, BudgetJob& job) {
     if (columns == nullptr) {
         return;
     }
-    if (!columns->is_object() || columns->size() > k_most_columns) {
+    if (!columns->is_object() || columns->size() > k_most_point_columns) {
         points.refuse(k_wrong_type, "columns",
                       columns->is_object() ? std::to_string(columns->size()) + " columns" : described(*columns),
-                      "must be an object of at most " + std::to_string(k_most_columns) + " columns",
+                      "must be an object of at most " + std::to_string(k_most_point_columns) + " columns",
                       "write {\"range\": \"text\", \"nominal\": \"V\"}");
         return;
     }

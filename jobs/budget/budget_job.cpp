@@ -614,7 +614,7 @@ BudgetJob read_undivided_budget_job(const FileSource& source, const std::string&
 }
 
 BudgetJob read_budget_job(const std::filesystem::path& job_file) {
-    return read_budget_job(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+    return read_budget_job(DiskFileSource::of_job(job_file), job_file.filename().string());
 }
 
 }  // namespace gumcert::jobs

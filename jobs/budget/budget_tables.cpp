@@ -18,6 +18,7 @@
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_results.h"
 #include "jobs/certificate/certificate_archive.h"
+#include "jobs/job_limits.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -32,7 +33,6 @@ using certificate::TableRequest;
 using gum::Unit;
 using nlohmann::json;
 
-constexpr std::size_t k_most_tables = 100;
 constexpr std::size_t k_most_shown = 40;
 constexpr std::string_view k_range = "range";
 constexpr std::array<std::string_view, 7> k_of_results{"U",         "k",          "nu_eff", "limit",

@@ -9,6 +9,7 @@
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/image_format.h"
 #include "jobs/input_text.h"
+#include "jobs/job_limits.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -18,8 +19,6 @@ namespace {
 using certificate::CertificateData;
 using certificate::Profile;
 using nlohmann::json;
-
-constexpr std::size_t k_largest_picture = std::size_t{1} << 20U;  // [byte]
 
 /// \return nothing when it was refused, with the problems in the list of the file
 std::optional<Profile> read_profile(std::string_view bytes, ProblemList& problems) {

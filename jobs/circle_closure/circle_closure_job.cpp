@@ -383,7 +383,7 @@ CircleClosureJob read_circle_closure_job(const FileSource& source, const std::st
 }
 
 CircleClosureJob read_circle_closure_job(const std::filesystem::path& job_file) {
-    return read_circle_closure_job(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+    return read_circle_closure_job(DiskFileSource::of_job(job_file), job_file.filename().string());
 }
 
 }  // namespace gumcert::jobs

@@ -167,7 +167,7 @@ ComparisonJob read_comparison_job(const FileSource& source, const std::string& j
 }
 
 ComparisonJob read_comparison_job(const std::filesystem::path& job_file) {
-    return read_comparison_job(DiskFileSource(job_file.parent_path()), job_file.filename().string());
+    return read_comparison_job(DiskFileSource::of_job(job_file), job_file.filename().string());
 }
 
 }  // namespace gumcert::jobs

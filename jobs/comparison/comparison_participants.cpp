@@ -6,6 +6,7 @@
 
 #include "jobs/comparison/comparison_items.h"
 #include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -21,8 +22,6 @@ constexpr std::array<std::string_view, 2> k_required_columns{"participant", "val
 constexpr std::array<std::string_view, 14> k_optional_columns{
     "item", "round", "u", "U", "k", "nu", "s", "n", "contributes", "reason", "uncertainty", "name", "group", "cmc_U"};
 constexpr std::size_t k_participant_columns = 3;  // the last ones
-/// What the record of a comparison holds (64 MB) with every score of every result.
-constexpr std::size_t k_most_results = 25'000;
 
 /// One number of a place in the table of results; a job has fewer than 2²¹ of each.
 std::uint64_t key_of(std::size_t participant, std::size_t item, std::size_t round) {
@@ -31,11 +30,11 @@ std::uint64_t key_of(std::size_t participant, std::size_t item, std::size_t roun
 }
 
 bool are_too_many(std::size_t results, const std::string& where, ProblemList& problems) {
-    if (results <= k_most_results) {
+    if (results <= k_most_compared_results) {
         return false;
     }
     problems.refuse(k_too_many_results, where, std::to_string(results) + " results",
-                    "a comparison has at most " + std::to_string(k_most_results) + " results",
+                    "a comparison has at most " + std::to_string(k_most_compared_results) + " results",
                     "split the data by items or rounds into several jobs");
     return true;
 }

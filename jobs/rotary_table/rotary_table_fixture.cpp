@@ -11,6 +11,7 @@
 #include "gum/quantity/units.h"
 #include "gum/rotary_table/fixture_budget.h"
 #include "jobs/budget/budget_job.h"
+#include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
 #include "jobs/rotary_table/rotary_table_fields.h"
 #include "text/numbers.h"
@@ -22,8 +23,6 @@ namespace {
 
 using gum::k_micrometre;
 using gum::k_millimetre;
-
-constexpr std::size_t k_most_reflectors = 500;  // their covariance is dense
 
 /// The uncertainty of the fixture comes from one place: columns, covariance, budget or the equation of the paper.
 void refuse_second_uncertainty(const JsonObject& fixture, const RotaryTableJob& job) {

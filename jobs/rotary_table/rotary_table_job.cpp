@@ -314,7 +314,7 @@ struct DiskJob {
 };
 
 DiskJob on_disk(const std::filesystem::path& job_file) {
-    return {DiskFileSource(job_file.parent_path()), job_file.filename().string()};
+    return {DiskFileSource::of_job(job_file), job_file.filename().string()};
 }
 
 }  // namespace

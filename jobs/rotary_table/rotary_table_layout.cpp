@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gum/quantity/units.h"
+#include "jobs/job_limits.h"
 #include "jobs/rotary_table/rotary_table_limits.h"
 #include "jobs/rotary_table/rotary_table_study.h"
 #include "text/numbers.h"
@@ -16,8 +17,6 @@ namespace gumcert::jobs {
 namespace {
 
 using gum::k_degree;
-
-constexpr double k_most_distances = 1e6;  // of a layout, as of a lengths file
 
 /// Angles that are radians by mistake are no multiples of 0.1 as they stand, and multiples of half a degree once they
 /// are converted.
@@ -140,9 +139,9 @@ void check_sizes(const RotaryTableReading& reading, const FixtureNames& fixture,
     const auto check = [&](std::string_view key, std::size_t angles, std::size_t senses) {
         const double distances = static_cast<double>(places.stations.size() * fixture.reflectors.size()) *
                                  static_cast<double>(angles) * static_cast<double>(senses);
-        if (distances > k_most_distances) {
+        if (distances > static_cast<double>(k_most_distances)) {
             reading.root.refuse(k_layout_too_large, key, text::shortest_plain(distances) + " distances",
-                                "a layout has at most " + text::shortest_plain(k_most_distances) + " distances",
+                                "a layout has at most " + std::to_string(k_most_distances) + " distances",
                                 "state fewer angles");
         }
     };

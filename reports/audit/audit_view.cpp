@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "audit/checklists.h"
@@ -331,18 +333,20 @@ std::optional<std::size_t> position_of_waiver(const audit::AuditFinding& finding
                                     printed.begin());
 }
 
-/// Positions of results by positions of budgets.
-std::optional<std::size_t> result_at(const audit::AuditReport& report, std::size_t budget) {
+/// Positions of results by positions of budgets; of two results of a budget the first. A finding may name every budget.
+using ResultOfBudget = std::unordered_map<std::size_t, std::size_t>;
+
+ResultOfBudget results_by_budget(const audit::AuditReport& report) {
+    ResultOfBudget results;
     for (std::size_t i = 0; i < report.results.size(); ++i) {
-        if (report.results[i].budget == budget) {
-            return i;
-        }
+        results.emplace(report.results[i].budget, i);
     }
-    return std::nullopt;
+    return results;
 }
 
 AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::AuditReport& report,
-                              std::span<const audit::Rule> rules, const std::vector<PrintedWaiver>& waivers) {
+                              const ResultOfBudget& result_of, std::span<const audit::Rule> rules,
+                              const std::vector<PrintedWaiver>& waivers) {
     AuditFindingView view;
     view.id = printable(finding.rule);
     if (const audit::Rule* rule = rule_of(finding.rule, rules)) {
@@ -360,14 +364,16 @@ AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::A
     for (const std::string& evidence : finding.evidence) {
         view.evidence.push_back(printable(evidence));
     }
+    std::unordered_set<std::size_t> named;
     for (const std::size_t budget : finding.budgets) {
-        const std::optional<std::size_t> result = result_at(report, budget);
-        if (result && std::find(view.results.begin(), view.results.end(), *result) == view.results.end()) {
-            view.results.push_back(*result);
+        const auto result = result_of.find(budget);
+        if (result != result_of.end() && named.insert(result->second).second) {
+            view.results.push_back(result->second);
         }
     }
     if (finding.effect) {
         const audit::Effect& effect = *finding.effect;
+        const auto result = result_of.find(effect.budget);
         view.effect = EffectView{.claimed = printed(effect.claimed),
                                  .alone = printed(effect.alone),
                                  .last = printed(effect.last),
@@ -376,7 +382,7 @@ AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::A
                                  .share_percent = signed_percent(effect.share),
                                  .change_alone = change_of(effect.claimed, effect.alone),
                                  .change_last = change_of(effect.last, effect.audited),
-                                 .result = result_at(report, effect.budget).value_or(0)};
+                                 .result = result == result_of.end() ? 0 : result->second};
     }
     if (finding.missing_term) {
         const audit::MissingTerm& term = *finding.missing_term;
@@ -511,8 +517,9 @@ AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const
     for (std::size_t i = 1; i < file.results.size(); ++i) {
         file.worst = rank_of(file.results[i]) > rank_of(file.results[file.worst]) ? i : file.worst;
     }
+    const ResultOfBudget result_of = results_by_budget(report);
     for (const audit::AuditFinding& finding : report.findings) {
-        file.findings.push_back(finding_view(finding, report, rules, file.waivers));
+        file.findings.push_back(finding_view(finding, report, result_of, rules, file.waivers));
         ++file.counts[3 - static_cast<std::size_t>(finding.severity)];
         const std::string& question = file.findings.back().question;
         if (question.empty()) {

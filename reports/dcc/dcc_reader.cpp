@@ -18,13 +18,13 @@
 #include "gum/coverage.h"
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
+#include "reports/dcc/document_limits.h"
 #include "reports/view/certificate_view.h"
 
 namespace gumcert::reports {
 
 namespace {
 
-constexpr std::size_t k_most_numbers = 100'000;
 constexpr std::size_t k_longest_name = 40;  // of one part of a name of the job language
 
 /// All numbers of one D-SI element, one a row.

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/dcc/document_limits.h"
 #include "reports/view/certificate_view.h"
 #include "text/markup.h"
 #include "text/markup_size.h"
@@ -21,11 +22,6 @@
 namespace gumcert::reports {
 
 namespace {
-
-constexpr std::size_t k_largest_document = 64U << 20U;  // bytes
-constexpr std::size_t k_largest_depth = 64;
-constexpr std::size_t k_most_elements = 1'000'000;
-constexpr std::size_t k_most_attributes = 64;  // of a tag
 
 bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';

@@ -45,7 +45,18 @@ void require_head(std::string_view document, const char* form, const RenderAsset
 /// \throws gum::StorageError, gum::NoResultError  as render_pdf() of a record
 [[nodiscard]] std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets, PdfWorker* worker);
 
+/// \param worker  none: a process for this document alone
 /// \throws gum::StorageError, gum::NoResultError  as render_pdf() of a record
-[[nodiscard]] std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets);
+[[nodiscard]] std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets,
+                                      PdfWorker* worker = nullptr);
+
+/// Which of some characters no font of a document has. A page is set with them, so that node, Typst and the fonts are
+/// known to work before an evaluation begins that would be lost without them.
+/// \param view  of a document that shows the characters, as certificate_view(), in headings and in paragraphs
+/// \return in the order of the characters
+/// \throws gum::StorageError  as render_pdf()
+[[nodiscard]] std::vector<std::string> without_glyph(const std::vector<std::string>& characters,
+                                                     const nlohmann::json& view, const RenderAssets& assets,
+                                                     PdfWorker& worker);
 
 }  // namespace gumcert::reports

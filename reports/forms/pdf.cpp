@@ -5,10 +5,14 @@
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
 #include "reports/forms/typeset_drawing.h"
+#include "text/utf8.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -85,8 +89,31 @@ std::string set_by(PdfWorker* worker, const nlohmann::json& view, const RenderAs
 
 }  // namespace
 
-std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets) {
-    return set_by(nullptr, view, assets, {});
+std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets, PdfWorker* worker) {
+    return set_by(worker, view, assets, {});
+}
+
+std::vector<std::string> without_glyph(const std::vector<std::string>& characters, const nlohmann::json& view,
+                                       const RenderAssets& assets, PdfWorker& worker) {
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    std::string lacking;
+    for (const std::string& quoted :
+         worker.texts_without_glyph(with_pdf_keys(view, further_fonts, false).dump(), further_fonts)) {
+        lacking += quoted + ' ';
+    }
+    std::vector<std::string> found;
+    for (const std::string& character : characters) {
+        // As Rust quotes what cannot be seen: u{200d}.
+        std::array<char, 8> digits{};
+        const std::to_chars_result end =
+            std::to_chars(digits.data(), digits.data() + digits.size(),
+                          static_cast<std::uint32_t>(text::decode_utf8(character, 0).code), 16);
+        const std::string escaped = "u{" + std::string(digits.data(), end.ptr) + "}";
+        if (lacking.find(character) != std::string::npos || lacking.find(escaped) != std::string::npos) {
+            found.push_back(character);
+        }
+    }
+    return found;
 }
 
 std::string label_as_pdf(const nlohmann::json& view, const RenderAssets& assets, PdfWorker* worker) {

@@ -201,18 +201,8 @@ public:
 
     std::string set(const std::string& view, const std::string& attachment, bool further_fonts,
                     const std::string& main) {
-        const fs::path workspace = folder_.path() / "document";
-        const DocumentFolder files(workspace);
-        write_file(workspace / "view.json", view);
-        if (!attachment.empty()) {
-            write_file(workspace / "certificate.xml", attachment);
-        }
-        const nlohmann::json request = {{"template", fs::absolute(assets_.templates / "pdf" / main).string()},
-                                        {"further_fonts", further_fonts}};
-        const Clock::time_point deadline = Clock::now() + assets_.pdf_time_limit;
-        send(request.dump() + '\n', deadline);
-        const nlohmann::json answer = nlohmann::json::parse(receive_line(deadline), nullptr, false);
-        ++documents_;
+        const DocumentFolder files(workspace());
+        const nlohmann::json answer = answer_to(view, attachment, further_fonts, main);
         const std::string status = answer.is_object() ? answer.value("status", std::string()) : std::string();
         if (status == "template") {
             throw gum::NoResultError(gum::Diagnostic{
@@ -246,11 +236,23 @@ public:
                           "the PDF step answers with a document", is_full(answer) ? k_make_room : k_set_up);
         }
         memory_ = answer.value("memory", std::uint64_t{0});
-        std::string pdf = read_asset(workspace / "certificate.pdf");
+        std::string pdf = read_asset(workspace() / "certificate.pdf");
         if (!pdf.starts_with("%PDF-")) {
             storage_error("PDF", "what node wrote is no PDF", "the PDF step ends with a document", k_set_up);
         }
         return pdf;
+    }
+
+    std::vector<std::string> texts_without_glyph(const std::string& view, bool further_fonts) {
+        const DocumentFolder files(workspace());
+        const nlohmann::json answer = answer_to(view, {}, further_fonts, k_certificate);
+        std::vector<std::string> texts;
+        if (answer.is_object() && answer.contains("texts")) {
+            for (const nlohmann::json& text : answer["texts"]) {
+                texts.push_back(text.is_string() ? text.get<std::string>() : std::string());
+            }
+        }
+        return texts;
     }
 
     std::vector<TemplateFont> fonts() {
@@ -273,6 +275,23 @@ public:
     }
 
 private:
+    [[nodiscard]] fs::path workspace() const { return folder_.path() / "document"; }
+
+    /// What node says of a document whose files are put into the workspace.
+    nlohmann::json answer_to(const std::string& view, const std::string& attachment, bool further_fonts,
+                             const std::string& main) {
+        write_file(workspace() / "view.json", view);
+        if (!attachment.empty()) {
+            write_file(workspace() / "certificate.xml", attachment);
+        }
+        const nlohmann::json request = {{"template", fs::absolute(assets_.templates / "pdf" / main).string()},
+                                        {"further_fonts", further_fonts}};
+        const Clock::time_point deadline = Clock::now() + assets_.pdf_time_limit;
+        send(request.dump() + '\n', deadline);
+        ++documents_;
+        return nlohmann::json::parse(receive_line(deadline), nullptr, false);
+    }
+
     /// Names of the families that every document may use, each once: not those for other scripts.
     std::vector<std::string> families() {
         std::vector<std::string> names;
@@ -314,9 +333,9 @@ private:
         posix_spawnattr_setsigdefault(&attributes, &pipe_signal);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-        std::vector<std::string> arguments = {
-            assets_.node_program.string(), fs::absolute(assets_.templates / "pdf" / "render.mjs").string(),
-            fs::absolute(assets_.node_modules).string(), (folder_.path() / "document").string()};
+        std::vector<std::string> arguments = {assets_.node_program.string(),
+                                              fs::absolute(assets_.templates / "pdf" / "render.mjs").string(),
+                                              fs::absolute(assets_.node_modules).string(), workspace().string()};
         for (const fs::path& fonts : assets_.fonts) {
             arguments.push_back(fs::absolute(fonts).string());
         }
@@ -513,6 +532,15 @@ PdfWorker::Process& PdfWorker::running() {
 std::vector<TemplateFont> PdfWorker::fonts() {
     try {
         return running().fonts();
+    } catch (...) {
+        process_.reset();
+        throw;
+    }
+}
+
+std::vector<std::string> PdfWorker::texts_without_glyph(const std::string& view, bool further_fonts) {
+    try {
+        return running().texts_without_glyph(view, further_fonts);
     } catch (...) {
         process_.reset();
         throw;

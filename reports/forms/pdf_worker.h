@@ -38,6 +38,11 @@ public:
     [[nodiscard]] std::string set(const std::string& view, const std::string& attachment, bool further_fonts = false,
                                   const std::string& main = k_certificate);
 
+    /// Sets a document and throws it away.
+    /// \return the texts in it that no font can show, as Typst quotes them; none where it cannot be set for another reason
+    /// \throws gum::StorageError  as render_pdf()
+    [[nodiscard]] std::vector<std::string> texts_without_glyph(const std::string& view, bool further_fonts);
+
     /// Looks for what a page needs, so that it is told before work begins that would be lost: node, the Typst package,
     /// the template, and a folder for its files.
     /// \throws gum::StorageError  GC-REPORT-0010

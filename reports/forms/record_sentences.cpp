@@ -1,7 +1,6 @@
 #include "reports/forms/record_sentences.h"
 
 #include "reports/forms/asset_files.h"
-#include "reports/program_sentences.h"
 
 #include <nlohmann/json.hpp>
 
@@ -88,8 +87,11 @@ std::vector<std::string> program_sentences_of(const EvaluationRecord& record) {
     return all.take();
 }
 
-void identify_sentences(EvaluationRecord& record, const std::filesystem::path& templates) {
-    const ProgramSentences catalogue(read_json_asset(templates / "wording" / "sentences.json"));
+ProgramSentences read_sentences(const std::filesystem::path& templates) {
+    return ProgramSentences(read_json_asset(templates / "wording" / "sentences.json"));
+}
+
+void identify_sentences(EvaluationRecord& record, const ProgramSentences& catalogue) {
     record.statements.clear();
     std::set<std::string> seen;
     for (const std::string& text : program_sentences_of(record)) {

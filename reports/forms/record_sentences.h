@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/program_sentences.h"
 #include "reports/record/evaluation_record.h"
 
 #include <filesystem>
@@ -12,10 +13,13 @@ namespace gumcert::reports {
 /// a person wrote is not among them.
 [[nodiscard]] std::vector<std::string> program_sentences_of(const EvaluationRecord& record);
 
+/// The catalogue of the program, read before an evaluation that would be lost without it.
+/// \param templates  folder with wording/sentences.json
+/// \throws gum::StorageError if it is missing or damaged
+[[nodiscard]] ProgramSentences read_sentences(const std::filesystem::path& templates);
+
 /// Fills EvaluationRecord::statements from the catalogue of ProgramSentences. A sentence that the catalogue does not
 /// know has no entry; documents print it in English.
-/// \param templates  folder with wording/sentences.json
-/// \throws gum::StorageError if the catalogue is missing or damaged
-void identify_sentences(EvaluationRecord& record, const std::filesystem::path& templates);
+void identify_sentences(EvaluationRecord& record, const ProgramSentences& catalogue);
 
 }  // namespace gumcert::reports

@@ -127,8 +127,23 @@ std::string render_html(const StudyDocument& study, const RenderAssets& assets) 
     return view_as_html(study_view(study), assets);
 }
 
-std::string render_pdf(const StudyDocument& study, const RenderAssets& assets) {
-    return view_as_pdf(study_view(study), assets);
+std::string render_pdf(const StudyDocument& study, const RenderAssets& assets, PdfWorker* worker) {
+    return view_as_pdf(study_view(study), assets, worker);
+}
+
+std::vector<std::string> characters_without_glyph(const std::vector<std::string>& characters,
+                                                  const RenderAssets& assets, PdfWorker& worker) {
+    std::string all;
+    for (const std::string& character : characters) {
+        all += character + ' ';  // a text of its own, so that each is named that cannot be shown
+    }
+    const StudyDocument page{.kind = "plan",
+                             .title = "Characters",
+                             .subtitle = {},
+                             .facts = {},
+                             .sections = {{.heading = all, .paragraphs = {all}, .tables = {}, .figures = {}}},
+                             .data_json = {}};
+    return without_glyph(characters, study_view(page), assets, worker);
 }
 
 }  // namespace gumcert::reports

@@ -47,6 +47,14 @@ struct StudyDocument {
 [[nodiscard]] std::string render_text(const StudyDocument& study);
 /// \throws StorageError if templates or the PDF program are missing
 [[nodiscard]] std::string render_html(const StudyDocument& study, const RenderAssets& assets);
-[[nodiscard]] std::string render_pdf(const StudyDocument& study, const RenderAssets& assets);
+/// \param worker  none: a process for this document alone
+[[nodiscard]] std::string render_pdf(const StudyDocument& study, const RenderAssets& assets,
+                                     PdfWorker* worker = nullptr);
+
+/// Which of some characters no font of a PDF has: a page with nothing else is set for it, in headings and in text.
+/// \return in their order
+/// \throws gum::StorageError  where no page can be set at all, as render_pdf() of a record
+[[nodiscard]] std::vector<std::string> characters_without_glyph(const std::vector<std::string>& characters,
+                                                                const RenderAssets& assets, PdfWorker& worker);
 
 }  // namespace gumcert::reports

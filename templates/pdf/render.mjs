@@ -7,7 +7,7 @@
 // JSON on standard output:
 //   {"status": "done", "memory": bytes}                      WORKSPACE/certificate.pdf is there
 //   {"status": "template", "messages": ["…"]}                the template cannot be set
-//   {"status": "refused", "messages": ["…"]}                 what it gives is no PDF/A-3a
+//   {"status": "refused", "messages": ["…"], "texts": ["…"]} what it gives is no PDF/A-3a; texts that no font can show
 //   {"status": "failed", "messages": ["…"], "code": "…"}     a file, a defect; the code is that of the system
 // The end of standard input ends the process. Then, or when the program that started it has gone, its folder goes as
 // well: it holds the customer's data.
@@ -152,7 +152,9 @@ function setDocument({ template, further_fonts: furtherFonts }) {
   try {
     pdf = compiler.pdf(compiled.result, { pdfStandard: 'a-3a' });
   } catch (error) {
-    return { status: 'refused', messages: messagesOf(error) };
+    const messages = messagesOf(error);
+    const quoted = /the text `"((?:[^"\\]|\\.)*)"`/g;
+    return { status: 'refused', messages, texts: messages.flatMap((text) => [...text.matchAll(quoted)].map((m) => m[1])) };
   }
   fs.writeFileSync(path.join(workspace, 'certificate.pdf'), pdf);
   return { status: 'done', memory: process.memoryUsage.rss() };

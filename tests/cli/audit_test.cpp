@@ -292,5 +292,26 @@ TEST_F(AuditProgram, HelpNamesTheColumns) {
     EXPECT_NE(help.out.find("quantity, estimate, unit, u, divisor"), std::string::npos);
 }
 
+/// The audit for programs needs no templates and no page: it is there whatever else fails.
+TEST_F(AuditProgram, IsKeptForProgramsWhenAnotherFormCannotBeMade) {
+    if (const std::string reason = why_no_pdf(); !reason.empty()) {
+        GTEST_SKIP() << reason;
+    }
+    const fs::path table = folder() / "budget.csv";
+    std::string text = k_sound;
+    text.replace(text.find("drift of the standard"), 5, "\U0001F600");
+    write_bytes(table, text);
+    const fs::path out = folder() / "out";
+    const Ended before = gumcert({"audit", table.string(), "-o", out.string(), "--share", GUMCERT_SOURCE_DIR},
+                                 {.environment = {{"TMPDIR", "/proc"}}});
+    EXPECT_EQ(before.code, 5) << before.err;
+    EXPECT_FALSE(fs::exists(out));
+    const Ended failed = audit({table.string(), "-o", out.string()});
+    EXPECT_EQ(failed.code, 5) << failed.err;
+    EXPECT_LT(failed.err.find("[GC-STORE-0022]"), failed.err.find("[GC-REPORT-0011]")) << failed.err;
+    EXPECT_EQ(json::parse(bytes_of(out / "record-kept" / "audit.json"))["schema"], "gumcert/audit/1");
+    EXPECT_FALSE(fs::exists(out / "audit.html")) << "all forms or none";
+}
+
 }  // namespace
 }  // namespace gumcert::cli

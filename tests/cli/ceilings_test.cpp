@@ -80,6 +80,27 @@ TEST_F(Ceilings, ForeignFilesHaveWallsThatCanBeMoved) {
     EXPECT_EQ(gumcert(narrow).code, 5);
 }
 
+/// Each of 900 inputs is a result with 900 rows: 450 MB, told before they are taken.
+TEST_F(Ceilings, AJobThatNeedsMoreMemoryIsRefusedBeforeItIsEvaluated) {
+    nlohmann::json document = {{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"title", "Many"}};
+    for (int i = 0; i < 900; ++i) {
+        document["inputs"]["x" + std::to_string(i)] = {{"value", i}, {"u", 0.1}};
+    }
+    const fs::path job = folder() / "many.json";
+    write_bytes(job, document.dump(1));
+    const fs::path record = folder() / "record.json";
+    const auto begin = std::chrono::steady_clock::now();
+    const Ended ended = gumcert({"evaluate", job.string(), "-o", record.string(), "--share", GUMCERT_SOURCE_DIR,
+                                 "--memory-limit", "400MB", "--json-messages"});
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+    const std::vector<Message> messages = json_messages(ended);
+    ASSERT_EQ(messages.size(), 1U);
+    EXPECT_EQ(messages[0].code, "GC-STORE-0026");
+    EXPECT_NE(messages[0].what.find("449 MB"), std::string::npos) << messages[0].what;
+    EXPECT_FALSE(fs::exists(record));
+}
+
 TEST_F(Ceilings, RefusalsAreLoggedWithoutWhatTheFilesSay) {
     const fs::path log = folder() / "refusals.jsonl";
     const fs::path job = folder() / "job.json";

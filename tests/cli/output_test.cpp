@@ -174,6 +174,8 @@ TEST_F(Output, TheRecordIsKeptWhenADocumentCannotBeMade) {
     change_json(job_, [](nlohmann::json& job) { job["title"] = "Table \U0001F600"; });
     const Ended failed = run(job_, out);
     EXPECT_EQ(failed.code, 5) << "a file could not be made; the result is there: " << failed.err;
+    EXPECT_LT(failed.err.find("[GC-REPORT-0045]"), failed.err.find("[GC-STORE-0022]")) << "told before: " << failed.err;
+    EXPECT_NE(failed.err.find("job.json#/title"), std::string::npos) << failed.err;
     EXPECT_LT(failed.err.find("[GC-STORE-0022]"), failed.err.find("[GC-REPORT-0011]")) << failed.err;
     std::map<std::string, std::string> after = contents_of(out);
     for (const auto& [name, bytes] : old) {

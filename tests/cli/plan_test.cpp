@@ -77,6 +77,40 @@ TEST_F(Plan, TextIsTheDefaultAndFilesGoByTheirEnding) {
     }
 }
 
+/// What a page lacks is told before the study; what is found when it is set loses nothing.
+TEST_F(Plan, AStudyIsKeptWhenItsPdfCannotBeMade) {
+    if (const std::string reason = why_no_pdf(); !reason.empty()) {
+        GTEST_SKIP() << reason;
+    }
+    const fs::path pdf = folder() / "out" / "plan.pdf";
+    const std::vector<std::string> command = {"plan",       file().string(), "-o",
+                                              pdf.string(), "--share",       GUMCERT_SOURCE_DIR};
+    write_bytes(file(), job_.dump());
+    for (const std::map<std::string, std::string>& lacking :
+         {std::map<std::string, std::string>{{"TMPDIR", "/proc"}}, {{"PATH", (folder() / "empty").string()}}}) {
+        const Ended before = gumcert(command, {.environment = lacking});
+        EXPECT_EQ(before.code, 5) << before.err;
+        EXPECT_NE(before.err.find("[GC-REPORT-0010]"), std::string::npos) << before.err;
+        EXPECT_FALSE(fs::exists(folder() / "out")) << "nothing was computed, nothing is kept";
+    }
+    const json good = job_;
+    job_["title"] = "Table \U0001F600";
+    write_bytes(file(), job_.dump());
+    const Ended failed = gumcert(command);
+    EXPECT_EQ(failed.code, 5) << failed.err;
+    EXPECT_LT(failed.err.find("[GC-STORE-0022]"), failed.err.find("[GC-REPORT-0011]")) << failed.err;
+    EXPECT_LT(failed.err.find("[GC-REPORT-0045]"), failed.err.find("[GC-STORE-0022]")) << "told before: " << failed.err;
+    EXPECT_FALSE(fs::exists(pdf));
+    const fs::path kept = folder() / "out" / "record-kept";
+    EXPECT_EQ(json::parse(bytes_of(kept / "plan.json"))["schema"], "gumcert/plan/1");
+    EXPECT_NE(bytes_of(kept / "plan.txt").find("What to expect"), std::string::npos);
+    EXPECT_EQ(gumcert({"check", kept.string()}).code, 0) << "a set of its own";
+    write_bytes(file(), good.dump());
+    const Ended done = gumcert(command);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.err.find("[GC-STORE-0023]"), std::string::npos) << "what was kept is older: " << done.err;
+}
+
 TEST_F(Plan, DataSayTheSameAsEachOther) {
     const json data = planned();
     EXPECT_EQ(data["schema"], "gumcert/plan/1");

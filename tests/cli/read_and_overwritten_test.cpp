@@ -146,6 +146,37 @@ TEST_F(ReadAndOverwritten, AnyNameIsToldWithItsPlace) {
     EXPECT_TRUE(fs::is_fifo(folder() / "fifo"));
 }
 
+/// The name of a file in a job shows where it is; what the user names on the command line may be a link.
+TEST_F(ReadAndOverwritten, NoSymbolicLinkLeadsOutOfTheFolderOfAJob) {
+    write_bytes(folder() / "secret.csv", "a\n1\n");
+    const auto job = [&](const std::string& points) {
+        const fs::path file = folder() / "jobs" / "points.json";
+        write_bytes(file, R"({"schema": "gumcert/job/1", "kind": "budget", "title": "t", "model": ["y = a"], "inputs":
+                              {"a": {"value": 1, "u": 0.1}}, "points": {"file": ")" +
+                              points + "\"}}");
+        return file;
+    };
+    const auto evaluated = [&](const fs::path& file) {
+        return gumcert({"evaluate", file.string(), "-o", "-", "--json-messages", "--share", GUMCERT_SOURCE_DIR});
+    };
+    (void)job("secret.csv");
+    fs::create_symlink("../secret.csv", folder() / "jobs" / "link.csv");
+    fs::create_symlink(folder() / "secret.csv", folder() / "jobs" / "absolute.csv");
+    for (const char* name : {"link.csv", "absolute.csv"}) {
+        const Ended ended = evaluated(job(name));
+        EXPECT_EQ(ended.code, 5) << ended.err;
+        EXPECT_EQ(codes(ended).front(), "GC-STORAGE-0002") << ended.err;
+        EXPECT_EQ(ended.err.find("secret"), std::string::npos) << ended.err;
+    }
+    const Ended named = evaluated(job("../secret.csv"));
+    EXPECT_EQ(named.code, 0) << "a name that says so: " << named.err;
+    fs::create_symlink("jobs/points.json", folder() / "job_link.json");
+    fs::copy_file(folder() / "secret.csv", folder() / "near.csv");
+    (void)job("near.csv");
+    const Ended linked = evaluated(folder() / "job_link.json");
+    EXPECT_EQ(linked.code, 0) << "the job itself may be a link: " << linked.err;
+}
+
 /// Whatever is named on the command line is there, byte by byte, when the command has ended.
 TEST_F(ReadAndOverwritten, NothingThatIsReadIsOverwritten) {
     const fs::path job = budget("job.json", R"("y = a")", R"("a": {"value": 1, "u": 0.1})");

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace gumcert::encoding {
 namespace {
@@ -70,6 +71,59 @@ TEST_F(FileBytesTest, RefusesWhatIsNoRegularFile) {
     }
     EXPECT_NE(read_regular_file(folder_ / std::string(300, 'x'), 100).failure, "");
     close(server);
+}
+
+/// Names of up to four parts over a small tree with links of every kind: both ways of walking agree, and neither ever reads
+/// what lies outside.
+TEST_F(FileBytesTest, StaysBeneathItsFolderHoweverItIsNamed) {
+    const fs::path inside = folder_ / "inside";
+    fs::create_directories(inside / "d" / "e");
+    std::ofstream(folder_ / "secret") << "secret";
+    std::ofstream(inside / "f") << "f";
+    std::ofstream(inside / "d" / "f") << "d/f";
+    std::ofstream(inside / "d" / "e" / "secret") << "not the one";
+    fs::create_symlink("d", inside / "to_d");
+    fs::create_symlink("../f", inside / "d" / "up");
+    fs::create_symlink("../secret", inside / "out");
+    fs::create_symlink("..", inside / "out_folder");
+    fs::create_symlink(folder_ / "inside" / "f", inside / "absolute");
+    fs::create_symlink("round", inside / "round");
+    fs::create_symlink("d/../../inside/f", inside / "out_and_in");
+    const std::vector<std::string> parts = {"f",   "d",          "e",        "up",    "to_d",       "..",     ".",
+                                            "out", "out_folder", "absolute", "round", "out_and_in", "secret", ""};
+    std::size_t read = 0;
+    std::size_t out = 0;
+    const auto compare = [&](const std::string& name) {
+        const FileBytes kernel = read_file_beneath(inside, name, 100);
+        const FileBytes steps = read_file_beneath(inside, name, 100, Walk::step_by_step);
+        ASSERT_EQ(kernel.bytes, steps.bytes) << name;
+        ASSERT_EQ(kernel.failure, steps.failure) << name;
+        ASSERT_EQ(kernel.leads_out, steps.leads_out) << name;
+        ASSERT_NE(kernel.bytes, "secret") << name;
+        read += kernel.failure.empty() ? 1U : 0U;
+        out += kernel.leads_out ? 1U : 0U;
+        if (!kernel.failure.empty()) {
+            return;
+        }
+        ASSERT_EQ(kernel.bytes, read_regular_file(inside / name, 100).bytes) << name;
+    };
+    for (const std::string& a : parts) {
+        compare(a);
+        for (const std::string& b : parts) {
+            compare(a + "/" + b);
+            for (const std::string& c : parts) {
+                compare(a + "/" + b + "/" + c);
+            }
+        }
+    }
+    EXPECT_GT(read, 20U);
+    EXPECT_GT(out, 100U);
+    for (const char* name : {"out", "absolute", "out_and_in", "../secret", "/etc/passwd", "to_d/../../secret"}) {
+        EXPECT_TRUE(read_file_beneath(inside, name, 100).leads_out) << name;
+    }
+    fs::create_symlink("inside", folder_ / "link");
+    EXPECT_EQ(read_file_beneath(folder_ / "link", "to_d/up", 100).bytes, "f") << "the folder itself may be a link";
+    EXPECT_EQ(read_file_beneath(folder_ / "nowhere", "f", 100).failure, "there is no such file");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "reports/forms/study_document.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms/pdf_worker.h"
 #include "reports/plots/layout_plot.h"
 #include "tests/unit/reports/document_text.h"
 #include "text/utf8.h"
@@ -10,6 +11,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace gumcert::reports {
 namespace {
@@ -35,6 +37,19 @@ StudyDocument study(const std::string& kind) {
         {.heading = "Coverage", .paragraphs = {}, .tables = {}, .figures = {}}};
     document.data_json = "{}";
     return document;
+}
+
+/// Whether a character can be printed is known before a study is made.
+TEST(StudyDocument, CharactersWithoutGlyphAreNamed) {
+    SKIP_WITHOUT_PDF();
+    PdfWorker worker(assets());
+    const std::vector<std::string> good{"\u03A9", "\u2212", "\u2264", "\u0159", "\u2013"};
+    EXPECT_THAT(characters_without_glyph(good, assets(), worker), ::testing::IsEmpty());
+    EXPECT_THAT(characters_without_glyph({}, assets(), worker), ::testing::IsEmpty());
+    std::vector<std::string> mixed = good;
+    mixed.insert(mixed.begin() + 2, {"\U0001F600", "\uA66E"});
+    EXPECT_THAT(characters_without_glyph(mixed, assets(), worker), ::testing::ElementsAre("\U0001F600", "\uA66E"));
+    EXPECT_TRUE(render_pdf(study("plan"), assets(), &worker).starts_with("%PDF-")) << "the process goes on";
 }
 
 TEST(StudyDocument, EveryFormSaysThatNothingWasMeasured) {

@@ -1,0 +1,41 @@
+#include "app/limits.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "jobs/file_source.h"
+#include "jobs/job_limits.h"
+
+namespace gumcert::app {
+namespace {
+
+TEST(Limits, AreToldOnceAndTogether) {
+    std::set<std::string> seen;
+    std::set<std::string_view> closed;
+    std::string_view last;
+    for (const Limit& limit : limits()) {
+        EXPECT_GT(limit.most, 0U) << limit.what;
+        EXPECT_TRUE(seen.insert(std::string(limit.applies_to) + "/" + std::string(limit.what)).second) << limit.what;
+        if (limit.applies_to != last) {
+            EXPECT_TRUE(closed.insert(limit.applies_to).second) << limit.applies_to << " stands in two places";
+            last = limit.applies_to;
+        }
+    }
+}
+
+TEST(Limits, AreThoseThatRefuse) {
+    std::set<std::string> values;
+    for (const Limit& limit : limits()) {
+        values.insert(std::string(limit.what) + " " + limit.value());
+    }
+    EXPECT_TRUE(values.contains("points of a section, or of a job without sections 100 000"));
+    EXPECT_TRUE(values.contains("trials of Monte Carlo 10 000 000 000"));
+    EXPECT_TRUE(values.contains("a file 64 MiB"));
+    EXPECT_TRUE(values.contains("time for a document 60 s"));
+    EXPECT_TRUE(values.contains("a file 20 000 000 bytes"));
+}
+
+}  // namespace
+}  // namespace gumcert::app
