@@ -268,6 +268,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
         [&](const app::ReadJob& read) {
             tell_memory(read, common);
+            progress("characters of the documents");
             const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
             progress.clear();
             print_messages(several ? of_job(warnings, job) : warnings, common);

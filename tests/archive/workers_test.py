@@ -8,7 +8,6 @@ log: the answers and the drafts are the same bytes.
 """
 
 import argparse
-import importlib.util
 import pathlib
 import random
 import shutil
@@ -17,10 +16,9 @@ import sys
 import tempfile
 import time
 
+import postgresql_server
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SPEC = importlib.util.spec_from_file_location("writers_test", ROOT / "tests" / "archive" / "writers_test.py")
-writers_test = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(writers_test)
 
 
 def files_below(folder):
@@ -63,10 +61,11 @@ def main():
         return [options.program, "archive", *map(str, words), "--share", str(ROOT), "--threads", "1"]
 
     faults = []
-    with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory(dir="/tmp") as place, writers_test.server(place) as address:
-        if address is None:
-            print("postgresql-15 is not installed: no trial with workers")
+    with tempfile.TemporaryDirectory() as name, tempfile.TemporaryDirectory(dir="/tmp") as place, postgresql_server.Server(place) as server:
+        if not server.runs:
+            print(postgresql_server.ABSENT)
             return 0
+        address = server.new_database()
         folder = pathlib.Path(name)
         shutil.copytree(ROOT / "examples" / "laboratory", folder / "job")
         # Another number than that of the driver: all records are the same but for blanks behind them.

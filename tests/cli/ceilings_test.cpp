@@ -97,7 +97,7 @@ TEST_F(Ceilings, AJobThatNeedsMoreMemoryIsRefusedBeforeItIsEvaluated) {
     const std::vector<Message> messages = json_messages(ended);
     ASSERT_EQ(messages.size(), 1U);
     EXPECT_EQ(messages[0].code, "GC-STORE-0026");
-    EXPECT_NE(messages[0].what.find("449 MB"), std::string::npos) << messages[0].what;
+    EXPECT_NE(messages[0].what.find("463 MB"), std::string::npos) << messages[0].what;
     EXPECT_FALSE(fs::exists(record));
 }
 

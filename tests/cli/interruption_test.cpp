@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <thread>
 
 #include "tests/cli/job_files.h"
@@ -62,7 +63,10 @@ protected:
         std::error_code error;
         for (fs::recursive_directory_iterator at(folder() / "tmp", error), end; !error && at != end;
              at.increment(error)) {
-            if (at->path().filename() == "view.json") {
+            constexpr std::uintmax_t k_page_of_characters = 10'000;  // [byte], which is set before the evaluation
+            std::error_code gone;
+            if (at->path().filename() == "view.json" && fs::file_size(at->path(), gone) > k_page_of_characters &&
+                !gone) {
                 return true;
             }
         }
