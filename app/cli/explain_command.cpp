@@ -65,15 +65,19 @@ ExitCode explain(const std::vector<std::string>& words, const std::string& share
 }
 
 ExitCode list_limits() {
-    constexpr std::size_t k_width = 14;
+    const std::vector<app::Limit> limits = app::limits();
+    std::size_t width = 0;
+    for (const app::Limit& limit : limits) {
+        width = std::max(width, limit.value().size());
+    }
     std::string text;
     std::string_view last;
-    for (const app::Limit& limit : app::limits()) {
+    for (const app::Limit& limit : limits) {
         if (limit.applies_to != last) {
             text += (last.empty() ? "" : "\n") + std::string(limit.applies_to) + ":\n";
             last = limit.applies_to;
         }
-        text += fmt::format("{:>{}}  {}\n", limit.value(), k_width, limit.what);
+        text += fmt::format("{:>{}}  {}\n", limit.value(), width + 2, limit.what);
     }
     write_to_stdout(text);
     return done;
