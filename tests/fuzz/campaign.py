@@ -179,6 +179,7 @@ def page_of(rows, targets):
     by_target = {name: [row for row in rows if row["target"] == name] for name in targets}
     total = sum(int(row["executions"]) for row in rows)
     hours = sum(float(row["seconds"]) for row in rows) / 3600
+    ran = len({row["target"] for row in rows})
     lines = [
         "# Fuzzing",
         "",
@@ -190,7 +191,7 @@ def page_of(rows, targets):
         "keys of the schemas as a dictionary. `tests/fuzz/corpus` has the seeds, `tests/fuzz/kept` what campaigns found: small inputs",
         "that reach more, and those that broke something. The test `fuzz/replay` runs all of them with every change.",
         "",
-        f"Reached so far: {grouped(total)} executions of {len(targets)} targets in {hours:.1f} hours. The aim is {grouped(AIM)} a target. The last",
+        f"Reached so far: {grouped(total)} executions of {ran} of {len(targets)} targets in {hours:.1f} hours. The aim is {grouped(AIM)} a target. The last",
         "column says how many hours that takes from here, at the rate reached so far. Hours are those that passed; the cores of the machine",
         "were shared with other work.",
         "",
