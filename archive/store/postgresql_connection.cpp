@@ -151,6 +151,17 @@ PostgresqlRows PostgresqlConnection::query(const std::string& sql, const std::ve
     return rows;
 }
 
+void PostgresqlConnection::transact(const char* begin, const std::function<void()>& work) {
+    execute(begin);
+    try {
+        work();
+        execute("COMMIT");
+    } catch (...) {
+        roll_back();
+        throw;
+    }
+}
+
 void PostgresqlConnection::roll_back() noexcept {
     PQclear(PQexec(connection_.get(), "ROLLBACK"));
 }

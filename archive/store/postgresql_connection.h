@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -49,8 +50,9 @@ public:
     void execute(const char* sql);
     /// \return the rows, in the binary form of the server
     PostgresqlRows query(const std::string& sql, const std::vector<PostgresqlValue>& values = {});
-    /// Gives up the transaction; an error of that counts for nothing.
-    void roll_back() noexcept;
+    /// Does work in one transaction; what it throws gives the transaction up.
+    /// \param begin  "BEGIN …", with the isolation that the work needs
+    void transact(const char* begin, const std::function<void()>& work);
 
 private:
     struct Close {
@@ -60,6 +62,8 @@ private:
     std::string name_;
 
     void check(const PGresult* result) const;
+    /// Gives up the transaction; an error of that counts for nothing.
+    void roll_back() noexcept;
 };
 
 }  // namespace gumcert::archive

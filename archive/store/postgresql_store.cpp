@@ -82,11 +82,11 @@ public:
     [[nodiscard]] std::string name() const override { return connection_.name(); }
 
     void read(const std::function<void()>& work) override {
-        transact("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", work);
+        connection_.transact("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", work);
     }
 
     void write(const std::function<void()>& work) override {
-        transact("BEGIN ISOLATION LEVEL READ COMMITTED", [&] {
+        connection_.transact("BEGIN ISOLATION LEVEL READ COMMITTED", [&] {
             // Waits for the other writers; the lock ends with the transaction. What follows sees what they wrote.
             connection_.execute("SELECT pg_catalog.pg_advisory_xact_lock(1735213426)");
             work();
@@ -277,17 +277,6 @@ private:
     std::optional<LogEntry> first_of(const std::string& rest, const std::vector<Value>& values) {
         std::vector<LogEntry> entries = all_of(rest, values);
         return entries.empty() ? std::nullopt : std::optional(std::move(entries.front()));
-    }
-
-    void transact(const char* begin, const std::function<void()>& work) {
-        connection_.execute(begin);
-        try {
-            work();
-            connection_.execute("COMMIT");
-        } catch (...) {
-            connection_.roll_back();
-            throw;
-        }
     }
 };
 

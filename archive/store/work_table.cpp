@@ -13,6 +13,7 @@ using Value = PostgresqlValue;
 
 constexpr std::size_t k_tasks_of_a_statement = 1000;
 constexpr int k_results_of_a_page = 500;
+constexpr const char* k_begin = "BEGIN ISOLATION LEVEL READ COMMITTED";
 
 // An unlogged table would be lost when the server falls; that of a large archive is the work of hours.
 constexpr const char* k_work_schema = R"sql(
@@ -60,7 +61,7 @@ public:
     }
 
     void add(const SharedWork& work, const std::vector<WorkTask>& tasks) override {
-        transact([&] {
+        connection_.transact(k_begin, [&] {
             connection_.execute("SELECT pg_catalog.pg_advisory_xact_lock(1735213427)");
             if (!has_tables()) {
                 connection_.execute(k_work_schema);
@@ -96,7 +97,7 @@ public:
 
     std::size_t do_some(const std::string& id, std::size_t most, const DoTasks& work) override {
         std::size_t done = 0;
-        transact([&] {
+        connection_.transact(k_begin, [&] {
             const PostgresqlRows rows = connection_.query(
                 "SELECT name, input FROM gumcert_work.task WHERE work = $1 AND result IS NULL ORDER BY name LIMIT " +
                     std::to_string(most) + " FOR UPDATE SKIP LOCKED",
@@ -174,17 +175,6 @@ private:
         (void)connection_.query(
             "INSERT INTO gumcert_work.task(work, name, input) SELECT $1, * FROM unnest($2::text[], $3::text[])",
             {{id}, {name_list}, {input_list}});
-    }
-
-    void transact(const std::function<void()>& work) {
-        connection_.execute("BEGIN ISOLATION LEVEL READ COMMITTED");
-        try {
-            work();
-            connection_.execute("COMMIT");
-        } catch (...) {
-            connection_.roll_back();
-            throw;
-        }
     }
 };
 
