@@ -10,10 +10,6 @@
 
 namespace gumcert::app {
 
-reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads, const gum::Progress& progress) {
-    return plan_job(jobs::read_rotary_table_job(job, jobs::JobUse::plan), job.filename().string(), threads, progress);
-}
-
 reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::string& job_name, unsigned threads,
                                 const gum::Progress& progress) {
     const auto report = [&](const char* text) {

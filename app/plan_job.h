@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "app/evaluate_job.h"
@@ -15,15 +14,10 @@ namespace gumcert::app {
 /// Expected U of every quantity beside the targets of the job, their budget, what single stations, reflectors, angles
 /// and uncertainties are worth, and, where the job gives a region, station positions that make the largest U smaller.
 ///
-/// \param job      a job of kind `rotary_table` with `plan`; measured lengths are not needed, and not used but for
-///                 which distances are measured
-/// \param threads  0: as many as the machine has. Results do not depend on it
-/// \throws gum::InputError, gum::NoResultError, gum::StorageError
-[[nodiscard]] reports::StudyDocument plan_job(const std::filesystem::path& job, unsigned threads,
-                                              const gum::Progress& progress = {});
-
-/// The same for a job that is read already.
+/// \param job       read with JobUse::plan; measured lengths are not used but for which distances are measured
 /// \param job_name  for the document
+/// \param threads   0: as many as the machine has. Results do not depend on it
+/// \throws gum::NoResultError
 [[nodiscard]] reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::string& job_name,
                                               unsigned threads, const gum::Progress& progress = {});
 

@@ -25,13 +25,6 @@ void require_a_result(const std::vector<gum::AngleStudy>& studies) {
 
 }  // namespace
 
-reports::StudyDocument simulate_job(const std::filesystem::path& job, std::optional<std::size_t> runs,
-                                    std::optional<std::uint64_t> seed, unsigned threads,
-                                    const gum::Progress& progress) {
-    const jobs::RotaryTableJob read = jobs::read_rotary_table_job(job, jobs::JobUse::simulate);
-    return simulate_job(read, job.filename().string(), runs, seed, threads, progress);
-}
-
 reports::StudyDocument simulate_job(const jobs::RotaryTableJob& stated, const std::string& job_name,
                                     std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                     unsigned threads, const gum::Progress& progress) {

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/evaluate_job.h"
 #include "gum/quantity/progress.h"
@@ -16,16 +16,11 @@ namespace gumcert::app {
 /// job asks, compared with the truth.
 ///
 /// Every run draws from a stream of its own, so that results do not depend on threads.
+/// \param job_name  for the document
 /// \param runs     number of campaigns; nothing: as the job states it
 /// \param seed     of all random numbers; nothing: as the job states it
 /// \param threads  0: as many as the machine has
-/// \throws gum::InputError, gum::NoResultError, gum::StorageError
-[[nodiscard]] reports::StudyDocument simulate_job(const std::filesystem::path& job, std::optional<std::size_t> runs,
-                                                  std::optional<std::uint64_t> seed, unsigned threads,
-                                                  const gum::Progress& progress = {});
-
-/// The same for a job that is read already.
-/// \param job_name  for the document
+/// \throws gum::InputError, gum::NoResultError
 [[nodiscard]] reports::StudyDocument simulate_job(const jobs::RotaryTableJob& job, const std::string& job_name,
                                                   std::optional<std::size_t> runs, std::optional<std::uint64_t> seed,
                                                   unsigned threads, const gum::Progress& progress = {});

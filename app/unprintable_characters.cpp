@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "jobs/json_object.h"
-#include "jobs/rotary_table/rotary_table_job.h"
 #include "text/place.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
@@ -106,13 +105,6 @@ std::vector<gum::Diagnostic> unprintable_characters(const ReadJob& job, const Wi
              .severity = gum::Severity::warning});
     }
     return warnings;
-}
-
-std::vector<gum::Diagnostic> unprintable_characters(const std::filesystem::path& study_job,
-                                                    const WithoutGlyph& without_glyph) {
-    const jobs::DiskFileSource files = jobs::DiskFileSource::of_job(study_job);
-    return unprintable_characters({files, jobs::read_rotary_table_job(study_job, jobs::JobUse::plan).files},
-                                  without_glyph);
 }
 
 }  // namespace gumcert::app

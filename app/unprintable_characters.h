@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,10 +16,6 @@ using WithoutGlyph = std::function<std::vector<std::string>(const std::vector<st
 /// first: GC-REPORT-0045. What is never printed is passed over: comments, `notes`, files that are neither JSON nor CSV.
 /// \param without_glyph  is asked once, with every character from U+0100 upwards
 [[nodiscard]] std::vector<gum::Diagnostic> unprintable_characters(const ReadJob& job,
-                                                                  const WithoutGlyph& without_glyph);
-/// The same of a rotary table job of which a study is to be made.
-/// \throws gum::InputError, gum::StorageError  those of its reader
-[[nodiscard]] std::vector<gum::Diagnostic> unprintable_characters(const std::filesystem::path& study_job,
                                                                   const WithoutGlyph& without_glyph);
 
 }  // namespace gumcert::app

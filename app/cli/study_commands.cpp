@@ -10,7 +10,7 @@
 #include "app/output_files.h"
 #include "app/plan_job.h"
 #include "app/simulate_job.h"
-#include "app/study_inputs.h"
+#include "app/study_job.h"
 #include "app/unprintable_characters.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Where the outcome of a study goes, and in which form: by the ending of the file. What its document is made with is looked
-/// at before the study begins, which would be lost.
+/// Where the outcome of a study goes, and in which form: by the ending of the file.
 struct StudyOutput {
     fs::path file;  ///< empty: text to standard output
     std::string form = ".txt";
@@ -41,8 +40,11 @@ fs::path text_file(fs::path document) {
     return document.replace_extension(".txt");
 }
 
-StudyOutput study_output(const std::string& output, const fs::path& job, const std::string& share,
-                         const CommonOptions& common) {
+bool is_document(const StudyOutput& output) {
+    return output.form == ".html" || output.form == ".pdf";
+}
+
+StudyOutput study_output(const std::string& output, const fs::path& job, const CommonOptions& common) {
     if (output.empty() || output == "-") {
         return {};
     }
@@ -52,31 +54,38 @@ StudyOutput study_output(const std::string& output, const fs::path& job, const s
                      "a study is written as .txt, .json, .html or .pdf", "give the file one of these endings");
     }
     std::vector<fs::path> outputs{result.file};
-    const bool is_document = result.form == ".html" || result.form == ".pdf";
-    if (is_document) {
+    if (is_document(result)) {
         outputs.push_back(kept_place(numbers_file(result.file)));
         outputs.push_back(kept_place(text_file(result.file)));
     }
     app::require_writable(result.file);
     app::require_not_inputs(outputs, {job});
     result.at_start = begin_outputs(outputs, common);
-    result.inputs = app::study_inputs(job);  // what is wrong with the job goes before what is wrong with the machine
-    result.inputs.push_back(job);
-    add_program_files(result.inputs, share);
-    if (is_document) {
-        result.assets = render_assets(share, {"en"});
+    return result;
+}
+
+/// Looks at what the document of a study is made with, before the study begins, which would be lost.
+void prepare_output(StudyOutput& output, const app::StudyJob& study, const fs::path& job, const std::string& share,
+                    const CommonOptions& common) {
+    if (output.file.empty()) {
+        return;
     }
-    if (result.form == ".pdf") {
-        result.worker = std::make_unique<reports::PdfWorker>(result.assets);
-        result.worker->require_ready();
-        print_messages(app::unprintable_characters(job,
+    output.inputs = study.inputs();
+    output.inputs.push_back(job);
+    add_program_files(output.inputs, share);
+    if (is_document(output)) {
+        output.assets = render_assets(share, {"en"});
+    }
+    if (output.form == ".pdf") {
+        output.worker = std::make_unique<reports::PdfWorker>(output.assets);
+        output.worker->require_ready();
+        print_messages(app::unprintable_characters(study.read(),
                                                    [&](const std::vector<std::string>& characters) {
                                                        return reports::characters_without_glyph(
-                                                           characters, result.assets, *result.worker);
+                                                           characters, output.assets, *output.worker);
                                                    }),
                        common);
     }
-    return result;
 }
 
 void write_study(const reports::StudyDocument& study, const StudyOutput& output, const CommonOptions& common) {
@@ -109,11 +118,13 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
 
 ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::optional<std::int64_t> seed,
                   const std::string& output, const std::string& share, const CommonOptions& common) {
-    const StudyOutput to = study_output(output, job, share, common);
+    StudyOutput to = study_output(output, job, common);
+    const app::StudyJob read(job);  // what is wrong with the job goes before what is wrong with the machine
+    prepare_output(to, read, job, share, common);
     ProgressLine progress(!common.quiet);
     const auto unsigned_seed = seed ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*seed)) : std::nullopt;
     const reports::StudyDocument study =
-        app::simulate_job(job, runs, unsigned_seed, static_cast<unsigned>(common.threads),
+        app::simulate_job(read.job(), read.name(), runs, unsigned_seed, static_cast<unsigned>(common.threads),
                           [&](const std::string& text) { progress(text); });
     progress.clear();
     write_study(study, to, common);
@@ -121,10 +132,12 @@ ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::opt
 }
 
 ExitCode plan(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
-    const StudyOutput to = study_output(output, job, share, common);
+    StudyOutput to = study_output(output, job, common);
+    const app::StudyJob read(job);
+    prepare_output(to, read, job, share, common);
     ProgressLine progress(!common.quiet);
-    const reports::StudyDocument study =
-        app::plan_job(job, static_cast<unsigned>(common.threads), [&](const std::string& text) { progress(text); });
+    const reports::StudyDocument study = app::plan_job(read.job(), read.name(), static_cast<unsigned>(common.threads),
+                                                       [&](const std::string& text) { progress(text); });
     progress.clear();
     write_study(study, to, common);
     return done;
