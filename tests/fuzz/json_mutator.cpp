@@ -165,19 +165,9 @@ std::string changed_bundle(std::string_view text, std::string_view other, unsign
 }
 
 }  // namespace
+
+std::string changed_input(std::string_view input, std::string_view other, unsigned seed) {
+    return changed_bundle(input, other, seed);
+}
+
 }  // namespace gumcert::fuzz
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned int seed) {
-    const std::string_view text(reinterpret_cast<const char*>(data), size);
-    return gumcert::fuzz::put_back(gumcert::fuzz::changed_bundle(text, text, seed), data, max_size);
-}
-
-extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* first, std::size_t first_size,
-                                                 const std::uint8_t* second, std::size_t second_size, std::uint8_t* out,
-                                                 std::size_t max_size, unsigned int seed) {
-    return gumcert::fuzz::put_back(
-        gumcert::fuzz::changed_bundle({reinterpret_cast<const char*>(first), first_size},
-                                      {reinterpret_cast<const char*>(second), second_size}, seed),
-        out, max_size);
-}

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
+#include <string_view>
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -19,11 +18,9 @@ inline std::string mutated_text(std::string text) {
     return text;
 }
 
-/// Hands a text back to libFuzzer, cut where it has no room for more.
-inline std::size_t put_back(const std::string& text, std::uint8_t* data, std::size_t max_size) {
-    const std::size_t size = std::min(text.size(), max_size);
-    std::memcpy(data, text.data(), size);
-    return size;
-}
+/// An input changed so that it stays of its format: of each `*_mutator.cpp`, for the functions of libFuzzer in
+/// mutator_entry.cpp.
+/// \param other  lends parts
+std::string changed_input(std::string_view input, std::string_view other, unsigned seed);
 
 }  // namespace gumcert::fuzz
