@@ -97,7 +97,7 @@ set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity 
 set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
                                                      audit reports/record reports/dcc)
 set(GUMCERT_EDGES_signing                            text encoding system gum/quantity json)
-set(GUMCERT_EDGES_imports                            gum/quantity json gum/expression certificate reports reports/dcc
+set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
 set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)

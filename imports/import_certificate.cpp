@@ -1,7 +1,6 @@
 #include "imports/import_certificate.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -17,6 +16,7 @@
 #include "json/strict_parser.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
+#include "text/utf8.h"
 
 namespace gumcert::imports {
 
@@ -381,17 +381,15 @@ std::string beginning_of(const std::string& text, std::size_t most_bytes) {
 
 /// Without blanks of any script at its end, which the reader of jobs refuses.
 std::string without_last_blanks(std::string line) {
-    static constexpr std::array<std::string_view, 15> k_blanks{" ",      "\u00A0", "\u3000", "\u202F", "\u2000",
-                                                               "\u2001", "\u2002", "\u2003", "\u2004", "\u2005",
-                                                               "\u2006", "\u2007", "\u2008", "\u2009", "\u200A"};
-    for (bool shorter = true; shorter;) {
-        shorter = false;
-        for (const std::string_view blank : k_blanks) {
-            if (line.ends_with(blank)) {
-                line.resize(line.size() - blank.size());
-                shorter = true;
-            }
+    while (!line.empty()) {
+        std::size_t last = line.size() - 1;
+        while (last > 0 && text::is_continuation(line[last])) {
+            --last;
         }
+        if (!text::is_blank(text::decode_utf8(line, last).code)) {
+            break;
+        }
+        line.resize(last);
     }
     return line;
 }

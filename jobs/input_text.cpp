@@ -19,10 +19,6 @@ unsigned byte_at(std::string_view text, std::size_t i) {
     return static_cast<unsigned char>(text[i]);
 }
 
-bool is_space(char32_t c) {
-    return c == 0x20U || c == 0xA0U || c == 0x3000U || (c >= 0x2000U && c <= 0x200AU) || c == 0x202FU;
-}
-
 }  // namespace
 
 std::optional<std::string_view> check_text(std::string_view bytes, ProblemList& problems) {
@@ -88,13 +84,13 @@ std::optional<std::string> name_objection(std::string_view name, std::size_t lon
         if (text::is_hidden(character.code) && !text::is_joiner(character.code)) {
             return "has the hidden or control character U+" + text::hexadecimal(character.code);
         }
-        if (i == 0 && is_space(character.code)) {
+        if (i == 0 && text::is_blank(character.code)) {
             return "begins with a space";
         }
         last = character.code;
         i += character.bytes;
     }
-    if (is_space(last)) {
+    if (text::is_blank(last)) {
         return "ends with a space";
     }
     return std::nullopt;

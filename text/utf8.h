@@ -29,6 +29,10 @@ struct Character {
 /// width, marks of direction, tags (Unicode, categories Cc, Cf, Zl, Zp; Unicode Standard Annex #9). The two zero width
 /// joiners are among them, though some scripts need them: see is_joiner.
 [[nodiscard]] bool is_hidden(char32_t code);
+/// A space of any script that stands within a line: U+0020, U+00A0, U+2000 to U+200A, U+202F and U+3000.
+[[nodiscard]] constexpr bool is_blank(char32_t code) {
+    return code == 0x20 || code == 0xA0 || code == 0x3000 || (code >= 0x2000 && code <= 0x200A) || code == 0x202F;
+}
 /// U+200C and U+200D.
 [[nodiscard]] constexpr bool is_joiner(char32_t code) {
     return code == 0x200C || code == 0x200D;

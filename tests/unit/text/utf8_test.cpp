@@ -56,6 +56,12 @@ TEST(Utf8, HiddenCharactersAreThoseThatNobodySees) {
                                  U'😀', U'\uFE0F', U'\U000E0101'}) {
         EXPECT_FALSE(is_hidden(shown)) << std::hex << static_cast<unsigned>(shown);
     }
+    for (const char32_t blank : {U' ', U'\xA0', U'\u2000', U'\u200A', U'\u202F', U'\u3000'}) {
+        EXPECT_TRUE(is_blank(blank)) << std::hex << static_cast<unsigned>(blank);
+    }
+    for (const char32_t other : {U'\0', U'\n', U'a', U'\u200B', U'\u1FFF'}) {
+        EXPECT_FALSE(is_blank(other)) << std::hex << static_cast<unsigned>(other);
+    }
     EXPECT_TRUE(is_joiner(U'\u200D'));
     EXPECT_FALSE(is_joiner(U'\u200B'));
 }
