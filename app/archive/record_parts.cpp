@@ -18,4 +18,12 @@ std::string text_of(const nlohmann::json& object, const char* key) {
     return value.is_string() ? value.get<std::string>() : "";
 }
 
+nlohmann::json as_json(const gum::Diagnostic& diagnostic) {
+    return {{"code", diagnostic.code},
+            {"where", diagnostic.where},
+            {"what", diagnostic.what},
+            {"rule", diagnostic.rule},
+            {"action", diagnostic.action}};
+}
+
 }  // namespace gumcert::app

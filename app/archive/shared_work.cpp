@@ -22,10 +22,6 @@ std::string dumped(const json& value) {
     return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-json as_json(const gum::Diagnostic& one) {
-    return {{"code", one.code}, {"where", one.where}, {"what", one.what}, {"rule", one.rule}, {"action", one.action}};
-}
-
 gum::Diagnostic diagnostic_in(const json& value) {
     return {.code = text_of(value, "code"),
             .where = text_of(value, "where"),

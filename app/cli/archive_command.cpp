@@ -23,6 +23,7 @@
 #include "app/archive/archive_draft.h"
 #include "app/archive/archive_replay.h"
 #include "app/archive/archive_statistics.h"
+#include "app/archive/record_parts.h"
 #include "app/archive/shared_work.h"
 #include "app/cli/clock.h"
 #include "app/cli/output_places.h"
@@ -431,8 +432,7 @@ private:
 json shown_findings(const std::vector<gum::Diagnostic>& findings) {
     json list = json::array();
     for (const gum::Diagnostic& one : findings) {
-        list.push_back(
-            {{"code", one.code}, {"where", one.where}, {"what", one.what}, {"rule", one.rule}, {"action", one.action}});
+        list.push_back(app::as_json(one));
     }
     return list;
 }

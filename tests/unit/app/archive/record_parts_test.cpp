@@ -15,5 +15,10 @@ TEST(RecordParts, AreThereOrNothing) {
     EXPECT_TRUE(part_of(nlohmann::json::array({1}), "data").is_null());
 }
 
+TEST(RecordParts, AMessageHasFiveParts) {
+    const gum::Diagnostic message{.code = "GC-X-0001", .where = "a", .what = "b", .rule = "c", .action = "d"};
+    EXPECT_EQ(as_json(message).dump(), R"({"action":"d","code":"GC-X-0001","rule":"c","what":"b","where":"a"})");
+}
+
 }  // namespace
 }  // namespace gumcert::app
