@@ -23,6 +23,7 @@
 #include "jobs/certificate/certificate_statement.h"
 #include "reports/dcc/dcc_reader.h"
 #include "signing/verify.h"
+#include "text/small_letters.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
 
@@ -124,7 +125,7 @@ void put_jobs_to_records(std::vector<FileToAudit>& files, const fs::path& labora
     std::vector<std::size_t> jobs;
     std::vector<std::pair<std::size_t, reports::EvaluationRecord>> records;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (audit::in_small_letters(files[i].file.extension().string()) != ".json") {
+        if (text::in_small_letters(files[i].file.extension().string()) != ".json") {
             continue;
         }
         if (std::optional<reports::EvaluationRecord> record = recomputable_record(files[i].file)) {
@@ -167,14 +168,14 @@ bool is_hidden(const fs::path& file) {
 /// Whether a file is a PDF beside which the digital certificate lies that is audited in its place.
 bool has_certificate_beside(const fs::path& file) {
     std::error_code error;
-    return audit::in_small_letters(file.extension().string()) == ".pdf" &&
+    return text::in_small_letters(file.extension().string()) == ".pdf" &&
            fs::exists(fs::path(file).replace_extension(".xml"), error);
 }
 
 /// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that
 /// does not lie beside it.
 bool is_audited(const fs::path& file) {
-    const std::string ending = audit::in_small_letters(file.extension().string());
+    const std::string ending = text::in_small_letters(file.extension().string());
     if (ending != ".pdf") {
         return std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end();
     }
@@ -294,7 +295,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     std::vector<AuditAttempt> attempts(files.size());
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string ending = audit::in_small_letters(files[i].file.extension().string());
+        const std::string ending = text::in_small_letters(files[i].file.extension().string());
         (ending == ".csv" || ending == ".xlsx" || ending == ".xlsm" ? tables : others).push_back(i);
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {

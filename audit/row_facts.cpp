@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "audit/stated_number.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -69,7 +70,7 @@ bool has_word(std::string_view text, std::initializer_list<std::string_view> wor
 
 /// Whether a number has the unit of the row, or none that one could see.
 bool is_in_unit(std::string_view behind, const std::string& unit) {
-    const std::string small = in_small_letters(unit);
+    const std::string small = text::in_small_letters(unit);
     return behind.empty() || (!small.empty() && behind.starts_with(small)) ||
            std::string_view(",;).:").find(behind.front()) != std::string_view::npos || small.empty();
 }
@@ -236,20 +237,12 @@ void read_length_dependent_limit(const std::string& text, AuditedRow& row) {
 
 }  // namespace
 
-std::string in_small_letters(std::string_view text) {
-    std::string small(text);
-    for (char& c : small) {
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return small;
-}
-
 void note_row_facts(AuditedRow& row) {
     for (const std::string* said : {&row.comment, &row.source, &row.quantity}) {
         if (said->empty() || said->size() > k_longest_fact) {
             continue;
         }
-        const std::string text = in_small_letters(plain(*said));
+        const std::string text = text::in_small_letters(plain(*said));
         read_relative(text, row);
         read_full_scale(text, row);
         read_certificate_points(text, row);

@@ -7,9 +7,6 @@
 
 namespace gumcert::audit {
 
-/// A text in small ASCII letters, as it is searched for words; other characters stay as they are.
-[[nodiscard]] std::string in_small_letters(std::string_view text);
-
 /// Reads what quantity, source and comment of a row say beside its columns, English or German, for readers of tables
 /// after the row is filled. Sets only what is not set yet:
 ///

@@ -21,6 +21,7 @@
 #include "signing/document_verification.h"
 #include "signing/qpdf_objects.h"
 #include "signing/time_texts.h"
+#include "text/small_letters.h"
 
 namespace gumcert::signing {
 
@@ -68,11 +69,7 @@ struct Range {
 
 /// A PDF may write them with capital letters, too.
 std::optional<Bytes> bytes_from_pdf_hexadecimal(std::string_view text) {
-    Bytes digits(text);
-    for (char& c : digits) {
-        c = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return encoding::bytes_from_hexadecimal(digits);
+    return encoding::bytes_from_hexadecimal(text::in_small_letters(text));
 }
 
 bool is_accepted_digest(int nid) {

@@ -7,6 +7,7 @@
 #include "signing/certificates.h"
 #include "signing/document_verification.h"
 #include "signing/signing_files.h"
+#include "text/small_letters.h"
 
 namespace gumcert::signing {
 
@@ -34,9 +35,7 @@ bool looks_like_xml(const Bytes& file) {
 }
 
 bool looks_like_html(const Bytes& file) {
-    std::string start = file.substr(0, 200);
-    std::transform(start.begin(), start.end(), start.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    const std::string start = text::in_small_letters(std::string_view(file).substr(0, 200));
     return start.find("<!doctype html") != std::string::npos || start.find("<html") != std::string::npos;
 }
 

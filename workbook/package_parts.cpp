@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 #include "workbook/limits.h"
 
@@ -16,12 +17,10 @@ namespace gumcert::workbook {
 
 namespace {
 
-std::string small_letters(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c == '\\' ? '/' : c;
-    });
-    return out;
+std::string folded_name(std::string_view text) {
+    std::string folded = text::in_small_letters(text);
+    std::replace(folded.begin(), folded.end(), '\\', '/');
+    return folded;
 }
 
 gum::InputError damaged(const std::string& where, const std::string& what) {
@@ -97,7 +96,7 @@ PackageParts::PackageParts(std::string_view bytes, std::string where) : archive_
         if (name == nullptr || *name == '\0') {
             throw damaged(archive_->where, "a part without a name");
         }
-        const std::string folded = small_letters(name);
+        const std::string folded = folded_name(name);
         if (!archive_->entries.emplace(folded.substr(folded.front() == '/' ? 1 : 0), i).second) {
             throw damaged(archive_->where, "two parts of the name " + text::in_quotes(name));
         }
@@ -107,7 +106,7 @@ PackageParts::PackageParts(std::string_view bytes, std::string where) : archive_
 PackageParts::~PackageParts() = default;
 
 bool PackageParts::has(const std::string& name) const {
-    return archive_->entries.contains(small_letters(name));
+    return archive_->entries.contains(folded_name(name));
 }
 
 std::vector<std::string> PackageParts::names() const {
@@ -119,7 +118,7 @@ std::vector<std::string> PackageParts::names() const {
 }
 
 std::string PackageParts::read(const std::string& name) {
-    const auto found = archive_->entries.find(small_letters(name));
+    const auto found = archive_->entries.find(folded_name(name));
     if (found == archive_->entries.end()) {
         throw missing_part(archive_->where, "the part " + text::in_quotes(name) + " is missing");
     }
@@ -157,7 +156,7 @@ std::string PackageParts::read(const std::string& name) {
 }
 
 std::string part_name(std::string_view base, std::string_view target, const std::string& where) {
-    const std::string folded = small_letters(target);
+    const std::string folded = folded_name(target);
     std::vector<std::string> folders;
     const auto walk = [&](std::string_view path) {
         for (std::size_t begin = 0; begin <= path.size();) {

@@ -40,6 +40,7 @@
 #include "signing/ed25519.h"
 #include "signing/verify.h"
 #include "system/temporary.h"
+#include "text/small_letters.h"
 
 namespace gumcert::cli {
 
@@ -215,20 +216,13 @@ ExitCode withdraw_certificate(const ArchiveOptions& options, const CommonOptions
     return advance(options, common, "withdrawn");
 }
 
-/// Letters of ASCII in lower case.
-std::string in_lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
-
 ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /*common*/) {
     const auto store = opened(options, archive::Access::read_only);
     std::vector<archive::ListedCertificate> certificates = archive::Archive(*store).list();
     for (const std::string& word : options.named) {
-        std::erase_if(certificates, [wanted = in_lower_case(word)](const archive::ListedCertificate& one) {
-            return in_lower_case(one.number + '\n' + one.state + '\n' + one.since + '\n' + one.item).find(wanted) ==
-                   std::string::npos;
+        std::erase_if(certificates, [wanted = text::in_small_letters(word)](const archive::ListedCertificate& one) {
+            return text::in_small_letters(one.number + '\n' + one.state + '\n' + one.since + '\n' + one.item)
+                       .find(wanted) == std::string::npos;
         });
     }
     if (as_json(options)) {

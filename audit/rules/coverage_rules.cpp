@@ -14,6 +14,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -246,7 +247,7 @@ struct CoverageWords {
 };
 CoverageWords coverage_words(const AuditedBudget& budget) {
     CoverageWords words;
-    const std::string sentence = in_small_letters(budget.claims.coverage_sentence);
+    const std::string sentence = text::in_small_letters(budget.claims.coverage_sentence);
     for (std::size_t at = sentence.find('k'); at != std::string::npos && !words.k; at = sentence.find('k', at + 1)) {
         const std::size_t equals = sentence.find_first_not_of(' ', at + 1);
         const bool alone = at == 0 || sentence[at - 1] == ' ' || sentence[at - 1] == '(' || sentence[at - 1] == ',';
@@ -497,7 +498,7 @@ void asymmetric_interval(const AuditSubject& subject, FindingCollector& findings
 void below_physical_limit(const AuditSubject& subject, FindingCollector& findings) {
     for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
         std::optional<double> least = budget.physical_minimum;
-        const std::string name = in_small_letters(budget.name);
+        const std::string name = text::in_small_letters(budget.name);
         for (const char* form :
              {"flatness", "roundness", "straightness", "cylindricity", "form error", "roughness", "concentration",
               "ebenheit", "rundheit", "geradheit", "formabweichung", "rauheit", "konzentration"}) {

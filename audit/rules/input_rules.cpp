@@ -14,6 +14,7 @@
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -191,7 +192,7 @@ void resolution_called_repeatability(const RowAt& at, FindingCollector& findings
     const AuditedRow& row = at.is;
     const bool has_readings = row.n || !row.readings.empty() || std::isfinite(row.used_nu);
     const std::optional<double> step = row.contributor == Contributor::repeatability && !has_readings
-                                           ? step_in_words(in_small_letters(row.comment + " " + row.source))
+                                           ? step_in_words(text::in_small_letters(row.comment + " " + row.source))
                                            : std::nullopt;
     if (!step || !(*step > 0.0) || u_differs(row, *step / std::sqrt(12.0))) {
         return;

@@ -6,6 +6,7 @@
 
 #include "audit/row_facts.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 
@@ -94,7 +95,7 @@ Correction both(Correction first, Correction second) {
 }
 
 std::string text_of_row(const AuditedRow& row) {
-    return in_small_letters(row.quantity + " " + row.source + " " + row.comment);
+    return text::in_small_letters(row.quantity + " " + row.source + " " + row.comment);
 }
 
 bool mentions(const std::string& text_of_row, const std::vector<std::string_view>& words) {

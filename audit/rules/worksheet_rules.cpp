@@ -15,6 +15,7 @@
 #include "audit/rules/worksheet_view.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "workbook/formula_text.h"
 
 namespace gumcert::audit {
@@ -70,7 +71,7 @@ std::optional<CellPlace> cell_of(const WorksheetView& view, const SheetFormula& 
 }
 
 bool says(const std::string& text, std::initializer_list<std::string_view> words) {
-    const std::string lower = in_small_letters(text);
+    const std::string lower = text::in_small_letters(text);
     return std::any_of(words.begin(), words.end(),
                        [&lower](std::string_view word) { return lower.find(word) != std::string::npos; });
 }

@@ -12,6 +12,7 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
@@ -272,7 +273,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
 }
 
 std::string verdict_in_our_words(const std::string& verdict) {
-    const std::string lower = in_small_letters(verdict);
+    const std::string lower = text::in_small_letters(verdict);
     const auto is_one_of = [&lower](std::initializer_list<std::string_view> words) {
         return std::find(words.begin(), words.end(), lower) != words.end();
     };

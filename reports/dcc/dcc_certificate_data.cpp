@@ -9,6 +9,7 @@
 #include "reports/dcc/d_si_unit.h"
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/printed_number.h"
+#include "text/small_letters.h"
 
 namespace gumcert::reports {
 
@@ -23,12 +24,6 @@ const XmlElement* below(const XmlElement* from, std::initializer_list<const char
 
 std::string trimmed_text(const XmlElement* element) {
     return element == nullptr ? "" : element->trimmed();
-}
-
-std::string in_small(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
 }
 
 /// The day of an xs:date, which may have a time zone; "" for what is none.
@@ -125,7 +120,8 @@ std::string kind_of_condition(const std::string& words) {
 std::optional<certificate::Condition> condition_of(const XmlElement& stated) {
     certificate::Condition condition;
     condition.quantity = content_in(stated.child("dcc:name"), "en");
-    condition.kind = kind_of_condition(in_small(stated.attribute("refType") + " " + condition.quantity.in("en")));
+    condition.kind =
+        kind_of_condition(text::in_small_letters(stated.attribute("refType") + " " + condition.quantity.in("en")));
     std::vector<double> values;
     for_each_element(stated, [&](const XmlElement& e) {
         const std::optional<StatedNumbers> numbers = e.name == "dcc:quantity" ? numbers_of(e) : std::nullopt;
@@ -178,7 +174,7 @@ void read_persons(const XmlElement* all, certificate::Persons& persons) {
         }
     }
     for (const XmlElement* one : stated) {
-        const std::string role = in_small(one->child_text("dcc:role"));
+        const std::string role = text::in_small_letters(one->child_text("dcc:role"));
         if (has_any_word(role, {"approv", "authori", "freigabe", "releas"})) {
             take(persons.authorised_by, *one);
         } else if (has_any_word(role, {"review", "verif", "prüf"})) {
@@ -253,7 +249,7 @@ certificate::CertificateData certificate_data_of(const XmlElement& root) {
     data.item.manufacturer = content_in(below(item, {"dcc:manufacturer", "dcc:name"}), "en");
     read_persons(below(administrative, {"dcc:respPersons"}), data.persons);
     for (const DccStatement& statement : statements_of(root)) {
-        const std::string kind = in_small(statement.ref_type);
+        const std::string kind = text::in_small_letters(statement.ref_type);
         if (!data.accreditation && kind.find("accreditation") != std::string::npos) {
             data.accreditation = certificate::Accreditation{};
             data.accreditation->body = statement.declaration;

@@ -20,6 +20,7 @@
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/document_limits.h"
 #include "reports/view/certificate_view.h"
+#include "text/small_letters.h"
 
 namespace gumcert::reports {
 
@@ -52,10 +53,8 @@ bool is_name_character(char c) {
 /// Letters, digits and single `_`; "" where nothing of the text can be used.
 std::string as_name(std::string_view text) {
     std::string name;
-    for (char c : text) {
-        if (c >= 'A' && c <= 'Z') {
-            c = static_cast<char>(c - 'A' + 'a');
-        }
+    for (const char letter : text) {
+        const char c = text::small_letter(letter);
         if (is_name_character(c)) {
             name += c;
         } else if (!name.empty() && name.back() != '_') {

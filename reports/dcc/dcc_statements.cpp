@@ -18,6 +18,7 @@
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/printed_number.h"
 #include "reports/view/certificate_view.h"
+#include "text/small_letters.h"
 
 namespace gumcert::reports {
 
@@ -80,20 +81,14 @@ struct Limit {
     bool lower = false, acceptance = false;
 };
 
-std::string small_letters(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
-
 bool holds(const std::string& text, std::initializer_list<std::string_view> words) {
     return std::any_of(words.begin(), words.end(),
                        [&](std::string_view word) { return text.find(word) != std::string::npos; });
 }
 
 std::optional<Limit> limit_from(const XmlElement& quantity) {
-    const std::string ref_type = small_letters(quantity.attribute("refType"));
-    const std::string name = small_letters(content_in(quantity.child("dcc:name"), "en"));
+    const std::string ref_type = text::in_small_letters(quantity.attribute("refType"));
+    const std::string name = text::in_small_letters(content_in(quantity.child("dcc:name"), "en"));
     const std::string& words = ref_type.find("limit") != std::string::npos ? ref_type : name;
     const bool lower = holds(words, {"lower", "min"});
     const bool upper = holds(words, {"upper", "max"});
@@ -158,7 +153,7 @@ void Statements::siblings(const XmlElement& parent) {
         if (quantity->child("dcc:measurementMetaData") != nullptr) {
             decided.push_back(quantity);
         }
-        const bool named = small_letters(quantity->attribute("refType")).find("limit") != std::string::npos;
+        const bool named = text::in_small_letters(quantity->attribute("refType")).find("limit") != std::string::npos;
         const std::optional<Limit> limit = named ? limit_from(*quantity) : std::nullopt;
         if (limit) {
             beside.push_back(*limit);
@@ -245,7 +240,7 @@ constexpr std::array k_coverage{
 
 /// The factor of a distribution that its name fixes; nothing for others.
 std::optional<double> factor_of(const std::string& distribution, double p) {
-    const std::string name = small_letters(distribution);
+    const std::string name = text::in_small_letters(distribution);
     if (name == "normal" || name == "gaussian" || name == "gauss") {
         return gum::coverage_factor(p, std::numeric_limits<double>::infinity());
     }

@@ -5,14 +5,13 @@
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
 #include "reports/forms/typeset_drawing.h"
+#include "text/small_letters.h"
 #include "text/utf8.h"
+#include "text/visible_text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -104,11 +103,8 @@ std::vector<std::string> without_glyph(const std::vector<std::string>& character
     std::vector<std::string> found;
     for (const std::string& character : characters) {
         // As Rust quotes what cannot be seen: u{200d}.
-        std::array<char, 8> digits{};
-        const std::to_chars_result end =
-            std::to_chars(digits.data(), digits.data() + digits.size(),
-                          static_cast<std::uint32_t>(text::decode_utf8(character, 0).code), 16);
-        const std::string escaped = "u{" + std::string(digits.data(), end.ptr) + "}";
+        const std::string escaped =
+            "u{" + text::in_small_letters(text::hexadecimal(text::decode_utf8(character, 0).code, 1)) + "}";
         if (lacking.find(character) != std::string::npos || lacking.find(escaped) != std::string::npos) {
             found.push_back(character);
         }
