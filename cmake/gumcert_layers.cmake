@@ -216,10 +216,10 @@ endforeach()
 
 set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
 
-# In a release, and for fuzzing, some files are compiled as one: half of the time goes into shared headers and templates. Other
+# In a release, and for fuzzing, files are compiled as one: half of the time goes into shared headers and templates. Other
 # builds compile each file by itself, so that none leans on what its neighbours include.
 #
-# files: of one unit. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
+# files: of one unit; 0: all. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
 # two thirds of the time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is
 # the same at every level.
 function(gumcert_compile_as_one target files words)
@@ -259,7 +259,7 @@ function(gumcert_layer folder)
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gumcert>)
     target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:gumcert_compile_options> ${ARG_PRIVATE} PUBLIC ${ARG_PUBLIC})
-    set(files 8)
+    set(files 0)
     if(ARG_MATRICES)
         set(files 3)
     endif()

@@ -12,6 +12,9 @@
 
 namespace gumcert::signing {
 
+/// What to do with a document that does not hold.
+inline constexpr const char* k_ask_again = "ask the laboratory for the original document";
+
 /// Signatures of an XML document.
 /// \throws gum::InputError  as parse_xml()
 [[nodiscard]] std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& name,

@@ -20,7 +20,7 @@ namespace {
 
 using Object = QPDFObjectHandle;
 
-[[noreturn]] void refuse(const char* code, std::string what, const char* rule, const char* action) {
+[[noreturn]] void refuse_pdf(const char* code, std::string what, const char* rule, const char* action) {
     throw gum::InputError(
         gum::Diagnostic{.code = code, .where = "PDF", .what = std::move(what), .rule = rule, .action = action});
 }
@@ -123,16 +123,16 @@ Bytes sign_pdf(const Bytes& pdf, const Signer& signer, std::int64_t signing_time
     } catch (const std::bad_alloc&) {
         throw;  // says nothing about the PDF
     } catch (const std::exception& failure) {
-        refuse("GC-SIGN-0041", std::string("cannot be read: ") + failure.what(), "sign_pdf signs a sound PDF",
-               "make the document again");
+        refuse_pdf("GC-SIGN-0041", std::string("cannot be read: ") + failure.what(), "sign_pdf signs a sound PDF",
+                   "make the document again");
     }
     if (document.isEncrypted()) {
-        refuse("GC-SIGN-0041", "encrypted", "sign_pdf signs an open PDF", "remove the encryption");
+        refuse_pdf("GC-SIGN-0041", "encrypted", "sign_pdf signs an open PDF", "remove the encryption");
     }
     if (document.getRoot().hasKey("/AcroForm")) {
-        refuse("GC-SIGN-0042", "it has a form, perhaps a signature already",
-               "writing a PDF again would break a signature that it has",
-               "sign the document before any signature, once");
+        refuse_pdf("GC-SIGN-0042", "it has a form, perhaps a signature already",
+                   "writing a PDF again would break a signature that it has",
+                   "sign the document before any signature, once");
     }
     const std::size_t room = room_for(signer);
     const Object signature = signature_dictionary(document, room, signing_time);

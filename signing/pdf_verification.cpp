@@ -29,8 +29,6 @@ namespace {
 
 using Object = QPDFObjectHandle;
 
-constexpr const char* k_ask_again = "ask the laboratory for the original document";
-
 /// Takes a stream up to a limit, and stops what unpacks it there: a small file can unpack to any size.
 class LimitedText : public Pipeline {
 public:

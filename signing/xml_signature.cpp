@@ -23,7 +23,7 @@ constexpr const char* k_signature_id = "gumcert-signature";
 constexpr const char* k_document_id = "gumcert-signed-document";
 constexpr const char* k_properties_id = "gumcert-signed-properties";
 
-[[noreturn]] void refuse(const char* code, std::string what, const char* rule, const char* action) {
+[[noreturn]] void refuse_certificate(const char* code, std::string what, const char* rule, const char* action) {
     throw gum::InputError(
         gum::Diagnostic{.code = code, .where = "DCC", .what = std::move(what), .rule = rule, .action = action});
 }
@@ -34,22 +34,22 @@ void require_version(const std::string& version) {
     const bool good = digit(0) && version.size() > 2 && version[1] == '.' && digit(2) &&
                       (version[0] > '3' || (version[0] == '3' && (version[2] >= '2' || digit(3))));
     if (!good) {
-        refuse("GC-SIGN-0031", "schemaVersion " + version, "the schema of a DCC has a signature from 3.2 onwards",
-               "write the certificate as DCC 3.3");
+        refuse_certificate("GC-SIGN-0031", "schemaVersion " + version,
+                           "the schema of a DCC has a signature from 3.2 onwards", "write the certificate as DCC 3.3");
     }
 }
 
 void require_unsigned_dcc(const XmlDocument& document) {
     const xmlNode* root = xmlDocGetRootElement(document.get());
     if (!is_element(root, k_dcc_namespace, "digitalCalibrationCertificate")) {
-        refuse("GC-SIGN-0031", "the root element is not dcc:digitalCalibrationCertificate", "sign_dcc signs a DCC",
-               "name a digital calibration certificate");
+        refuse_certificate("GC-SIGN-0031", "the root element is not dcc:digitalCalibrationCertificate",
+                           "sign_dcc signs a DCC", "name a digital calibration certificate");
     }
     require_version(attribute(root, "schemaVersion"));
     if (!children_of(root, k_dsig_namespace, "Signature").empty()) {
-        refuse("GC-SIGN-0032", "it is signed already",
-               "a second signature inside would make the first invalid, for it covers the whole document",
-               "sign the document before any signature, once");
+        refuse_certificate("GC-SIGN-0032", "it is signed already",
+                           "a second signature inside would make the first invalid, for it covers the whole document",
+                           "sign the document before any signature, once");
     }
 }
 
@@ -129,8 +129,9 @@ Bytes with_signature(const Bytes& dcc, const std::string& info, const std::strin
 const xmlNode* signature_in(const XmlDocument& document) {
     const std::vector<xmlNode*> all = children_of(xmlDocGetRootElement(document.get()));
     if (all.empty() || !is_element(all.back(), k_dsig_namespace, "Signature")) {
-        refuse("GC-SIGN-0033", "the end of the root element was not found",
-               "the signature stands at the end of the root element", "remove what stands behind the root element");
+        refuse_certificate("GC-SIGN-0033", "the end of the root element was not found",
+                           "the signature stands at the end of the root element",
+                           "remove what stands behind the root element");
     }
     return all.back();
 }

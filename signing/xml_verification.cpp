@@ -56,8 +56,6 @@ const char* allowed(const std::array<Algorithm, Count>& list, const std::string&
     return found == list.end() ? nullptr : found->name;
 }
 
-constexpr const char* k_ask_again = "ask the laboratory for the original document";
-
 void start_xmlsec() {
     static std::once_flag started;
     std::call_once(started, [] {

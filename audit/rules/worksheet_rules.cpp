@@ -31,7 +31,7 @@ using workbook::FormulaNodeKind;
 constexpr Clause k_data_control{.text = "ISO/IEC 17025:2017, 7.11.2", .verified = true};
 constexpr Clause k_data_transfer{.text = "ISO/IEC 17025:2017, 7.11.6", .verified = true};
 constexpr Clause k_evaluation{.text = "ISO/IEC 17025:2017, 7.6", .verified = true};
-constexpr Clause k_type_b{.text = "JCGM 100:2008, 4.3.7", .verified = true};
+constexpr Clause k_bounds_of_inputs{.text = "JCGM 100:2008, 4.3.7", .verified = true};
 
 /// A finding about a cell.
 AuditFinding finding_in(const std::string& place, std::string what) {
@@ -809,7 +809,7 @@ std::vector<Rule> worksheet_rules() {
     return {
         {.id = "W01",
          .title = "Root taken twice",
-         .clause = k_type_b,
+         .clause = k_bounds_of_inputs,
          .needs = {Need::workbook},
          .detection = "a formula takes the root of a cell that is a root already (without formulas: U08)",
          .correction = "Divide by the divisor of the table itself.",
@@ -817,7 +817,7 @@ std::vector<Rule> worksheet_rules() {
          .examine = root_taken_twice},
         {.id = "W02",
          .title = "Divisor and stated distribution disagree",
-         .clause = k_type_b,
+         .clause = k_bounds_of_inputs,
          .needs = {Need::rows},
          .detection = "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k",
          .correction =

@@ -16,7 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double k_location_factor = 1.25;         // u(x*) = 1.25 s*/√p
 constexpr Index k_most_results_one_by_one = 2000;  // of more, a sum is taken from all results and corrected
 
 /// Factors for 2, 3 … results, then the limit for many. scripts/comparison_coverage finds them again.
@@ -107,7 +106,7 @@ double variance_of_others(const VectorXd& x, const VectorXd& weights, Index i) {
 SpreadUncertainty robust_spread(RobustMean kind, std::span<const double> results) {
     const auto n = static_cast<double>(results.size());
     const double scale = scale_of(kind, results);
-    return {.u = spread_factor(kind, results.size()) * k_location_factor * scale / std::sqrt(n),
+    return {.u = spread_factor(kind, results.size()) * k_robust_location_factor * scale / std::sqrt(n),
             .degrees_of_freedom = n - 1.0};
 }
 
@@ -178,7 +177,7 @@ std::vector<SpreadUncertainty> robust_spread_of_others(RobustMean kind, const st
     if (results.size() > k_most_results_left_out) {
         return {results.size(), robust_spread(kind, results)};
     }
-    const double of_others = spread_factor(kind, results.size() - 1) * k_location_factor /
+    const double of_others = spread_factor(kind, results.size() - 1) * k_robust_location_factor /
                              std::sqrt(static_cast<double>(results.size() - 1));
     const double by_scale_of_all = of_others * scale_of(kind, results);
     std::vector<SpreadUncertainty> spreads;

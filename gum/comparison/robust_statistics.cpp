@@ -26,7 +26,6 @@ constexpr double k_iqr_factor = 0.7413;                                       //
 constexpr double k_algorithm_a_factor = 1.134;                                // ISO 13528:2022, annex C
 constexpr double k_algorithm_a_limit = 1.5;                                   // in units of s*
 constexpr double k_third_normal_quartile = 0.674489750196081743202227014541;  // Φ⁻¹(0.75)
-constexpr double k_location_factor = 1.25;  // u(x*) = 1.25 s* / √p; √(π/2) ≈ 1.2533 for a median
 constexpr double k_stand_still = 1e-16;  // of the scale; steps may be a hundred times shorter than what is left to go
 constexpr int k_most_steps = 10'000;
 constexpr double k_vanished = 1e-12;  // of the scale that algorithm A began with
@@ -103,7 +102,7 @@ RobustEstimate estimate(Real location, Real scale, std::size_t results) {
     const RobustEstimate found{
         .location = static_cast<double>(location),
         .scale = static_cast<double>(scale),
-        .u = static_cast<double>(k_location_factor * scale / std::sqrt(static_cast<Real>(results)))};
+        .u = static_cast<double>(k_robust_location_factor * scale / std::sqrt(static_cast<Real>(results)))};
     require_finite(found.location, "robust mean");
     require_finite(found.scale, "robust standard deviation");
     return found;

@@ -13,6 +13,9 @@ struct RobustEstimate {
     double u = 0.0;      ///< standard uncertainty of the location
 };
 
+/// u(x*) = 1.25 s*/√p of p results (ISO 13528:2022, clause 7); √(π/2) ≈ 1.2533 for a median.
+inline constexpr double k_robust_location_factor = 1.25;
+
 // All estimates are the same, to the last bit, for any order of the results.
 
 /// Middle value; the mean of the two middle ones for an even number of results.

@@ -159,7 +159,7 @@ std::optional<double> scale_of_z(const ItemResult& item) {
 }
 
 /// With MADe as scale, which one value has not.
-RobustEstimate median_of(const std::vector<double>& values) {
+RobustEstimate median_with_scale(const std::vector<double>& values) {
     return values.size() > 1 ? median_with_made(values) : RobustEstimate{.location = values.front()};
 }
 
@@ -173,8 +173,8 @@ void add_ellipse(YoudenDiagram& diagram) {
         first.push_back(point.first);
         second.push_back(point.second);
     }
-    const RobustEstimate of_first = median_of(first);
-    const RobustEstimate of_second = median_of(second);
+    const RobustEstimate of_first = median_with_scale(first);
+    const RobustEstimate of_second = median_with_scale(second);
     diagram.centre_first = of_first.location;
     diagram.centre_second = of_second.location;
     diagram.scale_first = of_first.scale;
