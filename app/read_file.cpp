@@ -12,7 +12,7 @@ namespace gumcert::app {
 std::string read_file(const std::filesystem::path& file) {
     encoding::FileBytes read = encoding::read_regular_file(file, k_largest_file);
     if (read.too_long) {
-        read.failure = "it is larger than 256 MiB";
+        read.failure = "it is larger than " + std::to_string(k_largest_file >> 20U) + " MiB";
     }
     if (!read.failure.empty()) {
         throw gum::StorageError(gum::Diagnostic{"GC-STORE-0001", file.empty() ? "the name \"\"" : file.string(),

@@ -16,7 +16,8 @@ inline constexpr std::array<const char*, 12> k_positioning_names = {
     "M", "E", "E_up", "E_down", "R", "R_up", "R_down", "B", "B_mean", "A", "A_up", "A_down"};
 inline constexpr const char* k_digest_key = "digest";
 inline constexpr const char* k_digest_algorithm = "SHA-256";
-inline constexpr std::size_t k_max_record_bytes = 128UL * 1024UL * 1024UL;  ///< size of a record as text
+/// Size of a record as text, [byte]. A budget of 100 000 points and two inputs, the most that a job may have, takes 300 MB.
+inline constexpr std::size_t k_max_record_bytes = std::size_t{512} << 20U;
 
 /// "must be greater than 0", for a number that breaks the rule.
 [[nodiscard]] const char* text_of_rule(certificate::NumberRule rule);

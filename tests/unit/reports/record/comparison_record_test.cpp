@@ -273,7 +273,7 @@ TEST(ComparisonRecord, ARecordThatIsTooLargeIsNoDefectOfTheProgram) {
     EvaluationRecord r = test::sample_methods_record();
     r.comparison->remarks.emplace_back(k_max_record_bytes, 'x');
     const std::string told = write_refusal(r);
-    EXPECT_THAT(told, HasSubstr("a record has at most 134217728 bytes — nothing was written; split the job"));
+    EXPECT_THAT(told, HasSubstr("a record has at most 536870912 bytes — nothing was written; split the job"));
     EXPECT_THAT(told, testing::Not(HasSubstr("defect")));
 }
 
