@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,9 +53,8 @@ struct RerunRecord {
     [[nodiscard]] bool is_negative() const;
 };
 
-/// Compares a record with another one of the same measurement, and puts what differs into `rerun`.
-/// \param before  the record as JSON
-void tell_changes(const std::string& before, const reports::EvaluationRecord& now, RerunRecord& rerun);
+/// Compares a record with another one of the same measurement, both as JSON, and puts what differs into `rerun`.
+void tell_changes(const nlohmann::json& before, const nlohmann::json& now, RerunRecord& rerun);
 
 /// Evaluates the job in a record with this version of the program and compares. The version that made the record does not
 /// matter; its own digest, where it states one, and those of its files do.

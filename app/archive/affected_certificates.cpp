@@ -383,11 +383,12 @@ Recalculation recalculation_of(const std::string& number, const std::string& thr
                 cannot_say(number, through.empty() ? "its job does not take the standard from the register"
                                                    : "it rests on " + through + ", which is to be amended first");
         } else {
-            const reports::EvaluationRecord now = evaluated_again(record, number, 1, correction.templates);
-            tell_changes(original, now, rerun);
+            const nlohmann::json before = nlohmann::json::parse(original);
+            const nlohmann::json now = nlohmann::json::parse(
+                reports::to_canonical_json(evaluated_again(record, number, 1, correction.templates)));
+            tell_changes(before, now, rerun);
             std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
-            result.shift =
-                largest_shift(nlohmann::json::parse(original), nlohmann::json::parse(reports::to_canonical_json(now)));
+            result.shift = largest_shift(before, now);
         }
     } catch (const gum::DiagnosedError& error) {
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
