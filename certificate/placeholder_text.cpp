@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "certificate/text_words.h"
@@ -13,10 +15,25 @@ namespace gumcert::certificate {
 
 namespace {
 
+/// Words with blanks between them.
+class WordList {
+public:
+    explicit WordList(std::u32string_view literal) {
+        for (std::size_t begin = literal.find_first_not_of(U' '); begin != literal.npos;) {
+            const std::size_t end = std::min(literal.find(U' ', begin), literal.size());
+            words_.insert(literal.substr(begin, end - begin));
+            begin = literal.find_first_not_of(U' ', end);
+        }
+    }
+    [[nodiscard]] bool has(const std::u32string& word) const { return words_.contains(word); }
+
+private:
+    std::unordered_set<std::u32string_view> words_;  // they point into the literal
+};
+
 /// Words that say that there is nothing, or that it stands elsewhere, or that somebody tried a form out. Small letters,
 /// without accents.
-constexpr std::u32string_view k_nothing =
-    // English
+const WordList k_nothing(  // English
     U" unknown unkown unknow unnamed unidentified unspecified undefined undetermined undisclosed unstated unrecorded "
     U"unassigned unavailable none nothing nil null so sa nan void empty blank missing nn absent na nd ns tbd tba tbc "
     U"tbs tbn "
@@ -56,18 +73,18 @@ constexpr std::u32string_view k_nothing =
     U"prueba pruebas si sin blanco rellenar completar ilegible legible conoce sabe pedido solicitud factura "
     U"inspeccionado inspeccionada revisado revisada recibido recibida fulano interno hoy manana "
     // French, Italian: what is filled in by neighbours
-    U"neant inconnu inconnue sconosciuto sconosciuta ";
+    U"neant inconnu inconnue sconosciuto sconosciuta ");
 /// Words that do not change that: articles, particles.
-constexpr std::u32string_view k_particles =
+const WordList k_particles(
     U" a an the of to be is are was were it its in on at for from by with and or as not see this that yet still been "
     U"will our my your their his her all "
     U"der die das des dem den ein eine einer und oder von zu zur zum im am mit ist sind wird werden nicht noch als fur "
     U"fuer nach "
     U"auf an bei vom es gab war waren wurde wurden ihr ihre unser unsere "
     U"el la los las un una de del en por para con es son no se lo al como hubo tal su "
-    U"only on request here up out to ltd inc llc corp co gmbh ag kg sl srl mr mrs ms herr frau senor senora ";
+    U"only on request here up out to ltd inc llc corp co gmbh ag kg sl srl mr mrs ms herr frau senor senora ");
 /// Names of fields, which tell nothing of their own.
-constexpr std::u32string_view k_fields =
+const WordList k_fields(
     U" customer client name names address street city town country number serial serialnumber sn id identification "
     U"item object device thing instrument unit dut uut laboratory lab method procedure standard certificate "
     U"issuer body person manufacturer text string value field reason description condition deviation remark "
@@ -79,37 +96,37 @@ constexpr std::u32string_view k_fields =
     U"procedimiento patron certificado emisor texto valor campo motivo descripcion estado desviacion observacion "
     U"informacion documento contrato site premises plant factory office facility house home werk halle planta "
     U"instalaciones company firma empresa deviations conditions remarks abweichungen bemerkungen "
-    U"desviaciones particular page seite pagina folder ordner procedures ";
+    U"desviaciones particular page seite pagina folder ordner procedures ");
 /// Whole texts that look like names and are those of nobody.
-constexpr std::u32string_view k_of_nobody =
+const WordList k_of_nobody(
     U" johndoe janedoe maxmustermann erikamustermann acme sample example beispiel ejemplo privateperson walkincustomer "
     U"commonpractice fulanodetal 例 "
     U"範例 "
-    U"范例 ";
+    U"范例 ");
 /// Words of a sentence that tell nothing by themselves.
-constexpr std::u32string_view k_talk =
+const WordList k_talk(
     U" we i you he she they do did does done want wants say says said care thing things way ways different differently "
     U"because reason boss letter separate separately follow follows following describe described later else there were "
     U"was have has had must may can could would should only just also very much more most other others "
     U"wir ich sie weil wollen will sagen gesagt sache sachen anders art weise folgen brief gesondert beschrieben "
     U"auch sehr mehr andere anderen habe haben hatte kann konnen soll sollen mussen "
     U"nosotros porque queremos quiere decir dicho cosa cosas manera forma otra otro siguiente carta aparte descrito "
-    U"tambien muy mas puede debe ";
+    U"tambien muy mas puede debe ");
 /// Words in the number of a document that is not issued yet.
-constexpr std::u32string_view k_of_a_draft =
+const WordList k_of_a_draft(
     U" draft drafts entwurf vorabzug vorlaufig vorlaeufig borrador preliminar provisional preliminary preview sample "
     U"specimen muster muestra ejemplo example beispiel espcimen especimen new neu nuevo nueva next copy kopie copia "
-    U"test testing prueba probe ";
+    U"test testing prueba probe ");
 /// Words in an identification that say that it is still to come, wherever they stand.
-constexpr std::u32string_view k_to_come =
+const WordList k_to_come(
     U" tbd tba tbc tbs tbn tbf todo fixme unknown unbekannt desconocido desconocida pending ausstehend pendiente "
-    U"placeholder platzhalter dummy ";
+    U"placeholder platzhalter dummy ");
 /// Words that describe how it is usually done, which identify no method.
-constexpr std::u32string_view k_usual =
+const WordList k_usual(
     U" in house own usual usually common practice hand manual self made like last time always normal ordinary general "
     U"haus hausverfahren hauseigen eigen eigenes ublich uebliches ubliches wie letztes mal gefuhl gefuehl "
     U"ublicherweise "
-    U"propio propia habitual comun siempre casa ultima vez mano inhouse selfmade ";
+    U"propio propia habitual comun siempre casa ultima vez mano inhouse selfmade ");
 /// Chinese, traditional and simplified; longer ones first, because they are taken out of a text one after the other.
 constexpr auto k_ideographs = std::to_array<std::u32string_view>(
     {U"沒有資料", U"没有资料", U"無此資料", U"无此资料", U"尚未提供", U"未提供", U"未填寫", U"未填写", U"未指定",
@@ -130,10 +147,6 @@ constexpr auto k_ideographs_first = std::to_array<std::u32string_view>(
 /// Signs of a number of a document that is not issued yet.
 constexpr auto k_draft_ideographs = std::to_array<std::u32string_view>(
     {U"草稿", U"草案", U"樣本", U"样本", U"範例", U"范例", U"測試", U"测试", U"待定"});
-
-bool stands_in(std::u32string_view list, const std::u32string& word) {
-    return list.find(U' ' + word + U' ') != std::u32string_view::npos;
-}
 
 /// One letter again and again, three times or more; not the Roman numeral III.
 bool is_repeated(const std::u32string& word) {
@@ -183,12 +196,12 @@ std::u32string without_digits_behind(const std::u32string& word) {
 }
 
 bool says_nothing(const std::u32string& word) {
-    return !word.empty() && (stands_in(k_nothing, word) || is_repeated(word) || word == U"x" || word == U"xx" ||
+    return !word.empty() && (k_nothing.has(word) || is_repeated(word) || word == U"x" || word == U"xx" ||
                              is_empty_run(word) || is_run_of_alphabet(word) || is_keys_pressed(word));
 }
 
 bool is_particle_or_field(const std::u32string& word) {
-    return word.size() > 1 && (stands_in(k_particles, word) || stands_in(k_fields, word));
+    return word.size() > 1 && (k_particles.has(word) || k_fields.has(word));
 }
 
 template <class List>
@@ -210,7 +223,7 @@ bool is_placeholder(std::string_view text) {
 bool names_only_a_field(std::string_view text) {
     const std::vector<std::u32string> words = words_of(text);
     const std::u32string letters = letters_of(text);
-    return says_nothing(letters) || (letters.size() > 1 && stands_in(k_fields, letters)) ||
+    return says_nothing(letters) || (letters.size() > 1 && k_fields.has(letters)) ||
            std::all_of(words.begin(), words.end(),
                        [](const std::u32string& word) { return says_nothing(word) || is_particle_or_field(word); });
 }
@@ -224,11 +237,11 @@ bool names_nobody(std::string_view text) {
         const bool says = !number && !(word.size() == 1 && !is_ideograph(word.front())) && !says_nothing(bare) &&
                           !is_particle_or_field(bare);
         if (says) {
-            return stands_in(k_of_nobody, letters_of(text));
+            return k_of_nobody.has(letters_of(text));
         }
         any = any || says_nothing(bare) || is_particle_or_field(bare);
     }
-    return any || stands_in(k_of_nobody, letters_of(text));
+    return any || k_of_nobody.has(letters_of(text));
 }
 
 bool is_still_to_come(std::string_view text) {
@@ -236,7 +249,7 @@ bool is_still_to_come(std::string_view text) {
     const bool asked = text.find("??") != std::string_view::npos;
     return asked || std::any_of(words.begin(), words.end(), [](const std::u32string& word) {
                const bool crossed_out = word.size() > 2 && word.find_first_not_of(U'x') == std::u32string::npos;
-               return crossed_out || stands_in(k_to_come, without_digits_behind(word));
+               return crossed_out || k_to_come.has(without_digits_behind(word));
            });
 }
 
@@ -251,13 +264,13 @@ bool is_of_a_draft(std::string_view text) {
     const std::vector<std::u32string> words = words_of(text);
     return any_within(letters_of(text), k_draft_ideographs) ||
            std::any_of(words.begin(), words.end(),
-                       [](const std::u32string& word) { return stands_in(k_of_a_draft, without_digits_behind(word)); });
+                       [](const std::u32string& word) { return k_of_a_draft.has(without_digits_behind(word)); });
 }
 
 bool describes_the_usual(std::string_view text) {
     const std::vector<std::u32string> words = words_of(text);
     return std::all_of(words.begin(), words.end(), [](const std::u32string& word) {
-        return stands_in(k_usual, word) || says_nothing(word) || is_particle_or_field(word);
+        return k_usual.has(word) || says_nothing(word) || is_particle_or_field(word);
     });
 }
 
@@ -265,8 +278,7 @@ std::size_t telling_words(std::string_view text) {
     std::set<std::u32string> telling;
     for (const std::u32string& word : words_of(text)) {
         const bool number = std::all_of(word.begin(), word.end(), is_digit);
-        if (word.size() > 1 && !number && !says_nothing(word) && !is_particle_or_field(word) &&
-            !stands_in(k_talk, word)) {
+        if (word.size() > 1 && !number && !says_nothing(word) && !is_particle_or_field(word) && !k_talk.has(word)) {
             telling.insert(word);
         }
     }
