@@ -1,5 +1,6 @@
 #include "app/evaluate_job.h"
 
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -64,10 +65,10 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
         }
         throw;
     }
-    const reports::ProgramSentences sentences = reports::read_sentences(templates);
+    const std::shared_ptr<const reports::ProgramSentences> sentences = reports::read_sentences(templates);
     Evaluation evaluation = kind->evaluate(task);
     audit_evaluation(evaluation, job_file);
-    reports::identify_sentences(evaluation.record, sentences);
+    reports::identify_sentences(evaluation.record, *sentences);
     return evaluation;
 }
 

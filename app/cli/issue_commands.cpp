@@ -156,7 +156,7 @@ void judge_issue(reports::EvaluationRecord& record, const std::vector<std::strin
     const bool too_early = certificate::block_issue_ahead_of_time(*record.certificate, today());
     const bool lacking = certificate::judge_printed_languages(*record.certificate, languages);
     if (too_early || lacking) {  // what was found now has to be worded, too
-        reports::identify_sentences(record, reports::read_sentences(templates_folder(share)));
+        reports::identify_sentences(record, *reports::read_sentences(templates_folder(share)));
     }
 }
 
