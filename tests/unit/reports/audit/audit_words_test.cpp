@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "audit/rules/registry.h"
 #include "reports/forms/asset_files.h"
 #include "tests/unit/reports/document_text.h"
 
@@ -39,6 +42,30 @@ TEST_F(AuditWordsIn, SayAChangeInOneLine) {
               "U 0.50 → 0.62\u00A0µm (+24.0 %): U understated; verdict pass → fail; Eₙ 0.91 → 1.10");
     EXPECT_EQ(in("de").change(with_U("0.50"), with_U("0.62"), {.percent = "-24.0", .direction = "overstated"}, ""),
               "U 0,50 → 0,62 (−24,0 %): U zu groß angegeben");
+}
+
+TEST_F(AuditWordsIn, HaveATitleOfTheirOwnForEveryRule) {
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        const AuditWords words = in(language);
+        std::map<std::string, std::string> rule_of_title;
+        for (const audit::Rule& rule : audit::all_rules()) {
+            const std::string english(rule.title);
+            const AuditSentence title = words.sentence(english);
+            EXPECT_FALSE(title.english) << rule.id << " " << language << ": " << title.text;
+            EXPECT_FALSE(title.text.empty()) << rule.id << " " << language;
+            const auto [other, is_new] = rule_of_title.emplace(title.text, rule.id);
+            EXPECT_TRUE(is_new) << rule.id << " has the title of " << other->second << " in " << language;
+        }
+        EXPECT_GE(rule_of_title.size(), 139U);
+    }
+}
+
+TEST_F(AuditWordsIn, KeepATitleOfTheEnglishWordsInEnglish) {
+    for (const audit::Rule& rule : audit::all_rules()) {
+        const AuditSentence title = in("en").sentence(std::string(rule.title));
+        EXPECT_EQ(title.text, rule.title);
+        EXPECT_FALSE(title.english) << rule.id;
+    }
 }
 
 TEST_F(AuditWordsIn, PrintWhatIsAbsentAsADash) {
