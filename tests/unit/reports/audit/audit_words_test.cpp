@@ -79,6 +79,23 @@ TEST_F(AuditWordsIn, PrintWhatIsAbsentAsADash) {
     EXPECT_EQ(words.interval({.number = {}, .low = "1.2", .high = "∞"}), "1.2 … ∞");
 }
 
+TEST_F(AuditWordsIn, SayTheScoreAlsoWhereItStays) {
+    AuditedFileView file;
+    file.results.resize(2);
+    file.results[1].name = "displacement";
+    file.results[1].unit = "µm";
+    EffectView effect;
+    effect.claimed = with_U("0.26", "", "0.50");
+    effect.alone = with_U("0.27", "", "0.50");
+    effect.change_alone = {.percent = "+3.8", .direction = "understated"};
+    effect.result = 1;
+    EXPECT_EQ(in("en").effect_on_score(effect, file),
+              "displacement: U 0.26 → 0.27\u00A0µm (+3.8 %): U understated; Eₙ 0.50 → 0.50");
+    effect.alone.En = "0.49";
+    EXPECT_EQ(in("de").effect_on_score(effect, file),
+              "displacement: U 0,26 → 0,27\u00A0µm (+3,8 %): U zu klein angegeben; Eₙ 0,50 → 0,49");
+}
+
 TEST_F(AuditWordsIn, SayWhatAMissingContributionWouldHaveToBe) {
     const AuditWords words = in("en");
     EXPECT_EQ(
