@@ -432,15 +432,30 @@ void add_side(AuditSubject& subject, const reports::Comparison& comparison, Audi
     subject.budgets.push_back(std::move(side));
 }
 
+/// \param job  what is stated of the inputs; nullptr where the rows are no inputs of a job
 AuditedBudget side_of(const reports::Comparison& comparison, const std::vector<reports::BudgetRow>& rows,
-                      const std::string& name, const std::string& place) {
+                      const std::string& name, const std::string& place, const JobStatements* job = nullptr) {
     AuditedBudget side;
     side.name = name;
     side.unit = comparison.unit;
     side.place = place;
     side.evaluated_here = true;
-    add_rows(side, rows, place, nullptr, nullptr, "");
+    add_rows(side, rows, place, nullptr, job, "");
     return side;
+}
+
+/// What the budget of the reference method of a rotary table states of its inputs: a file of the job.
+JobStatements statements_of_reference(const reports::EvaluationRecord& record) {
+    const json job = json::parse(record.job_json, nullptr, false);
+    const json file = job.is_object() ? job.value(json::json_pointer("/reference_method/budget"), json()) : json();
+    reports::EvaluationRecord of_reference;
+    of_reference.job_files = record.job_files;
+    for (const reports::InputFile& held : record.job_files) {
+        if (file.is_string() && held.name == file.get_ref<const std::string&>()) {
+            of_reference.job_json = reports::bytes_of(held).value_or("");
+        }
+    }
+    return JobStatements(of_reference);
 }
 
 /// The waivers of a certificate that have effect; of another record those that its audit shows beside its findings.
@@ -496,12 +511,13 @@ AuditSubject subject_of(const reports::EvaluationRecord& record, const std::stri
             side_of(comparison, comparison.method_budget,
                     comparison.method_name.empty() ? "displacement of the contact point" : comparison.method_name,
                     "/comparison/method_budget");
+        const JobStatements of_reference = statements_of_reference(record);
         const std::size_t at = compared_point.value_or(point_with_largest_score(comparison));
         add_side(subject, comparison, std::move(method), false, at);
-        add_side(
-            subject, comparison,
-            side_of(comparison, comparison.reference_budget, comparison.reference_name, "/comparison/reference_budget"),
-            true, at);
+        add_side(subject, comparison,
+                 side_of(comparison, comparison.reference_budget, comparison.reference_name,
+                         "/comparison/reference_budget", &of_reference),
+                 true, at);
     }
     return subject;
 }
