@@ -62,6 +62,9 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
     const std::span<const audit::Rule> rules = audit::all_rules();
     audit::AuditSubject subject = audit::subject_of(evaluation.record, job_file);
     subject.kind = audit::AuditSubject::Kind::job;
+    if (evaluation.add_nested_budgets) {
+        evaluation.add_nested_budgets(subject);
+    }
     for (const certificate::Waiver& waiver : evaluation.waivers) {
         if (certificate::has_effect(waiver, "")) {
             subject.waivers.push_back(waiver);

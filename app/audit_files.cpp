@@ -57,23 +57,35 @@ Contents contents_of(const std::string& bytes) {
     return Contents::table;
 }
 
-/// Where a record says something else than its own job gives; nothing where that cannot be found out, and why: not_read.
-std::optional<std::vector<std::string>> disagreements_of(reports::EvaluationRecord record, const std::string& name,
-                                                         unsigned threads, const fs::path& templates,
-                                                         const gum::Progress& progress,
-                                                         std::vector<std::string>& not_read) {
+std::vector<std::string> places_of(const std::vector<gum::Diagnostic>& problems) {
+    std::vector<std::string> places;
+    for (const gum::Diagnostic& problem : problems) {
+        places.push_back(problem.where + ": " + problem.what);
+    }
+    return places;
+}
+
+/// Puts to the subject of a record where it says something else than its own job gives, and, where it does not, the
+/// budgets that its results rest on.
+void hold_against_job(const reports::EvaluationRecord& record, unsigned threads, const fs::path& templates,
+                      const gum::Progress& progress, audit::AuditSubject& subject) {
+    if (const std::optional<gum::Diagnostic> why = not_recomputable(record, subject.name)) {
+        subject.not_read.push_back(subject.name + ": was not held against its own job: " + why->what);
+        if (record.rotary && record.rotary->fixture_budget && !record.rotary->fixture_budget->largest.empty()) {
+            subject.not_read.push_back(subject.name +
+                                       ": the budget of the fixture was not looked at, because the record " +
+                                       "was not evaluated again");
+        }
+        return;
+    }
     try {
-        if (const std::optional<gum::Diagnostic> why = recompute_record(record, name, threads, templates, progress)) {
-            not_read.push_back(name + ": was not held against its own job: " + why->what);
-            return std::nullopt;
+        const Evaluation evaluation = evaluation_of(record, subject.name, threads, templates, progress);
+        subject.disagreements = places_of(disagreements(record, evaluation.record, subject.name));
+        if (subject.disagreements->empty() && evaluation.add_nested_budgets) {
+            evaluation.add_nested_budgets(subject);
         }
-        return std::vector<std::string>{};
     } catch (const gum::InputError& refused) {
-        std::vector<std::string> places;
-        for (const gum::Diagnostic& problem : refused.diagnostics()) {
-            places.push_back(problem.where + ": " + problem.what);
-        }
-        return places;
+        subject.disagreements = places_of(refused.diagnostics());
     }
 }
 
@@ -254,10 +266,9 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
             audit::accept_findings(audited.report, waivers);
             return audited;
         case Contents::record: {
-            reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
+            const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
             subject = audit::subject_of(record, name);
-            subject.disagreements =
-                disagreements_of(std::move(record), name, threads, templates, progress, subject.not_read);
+            hold_against_job(record, threads, templates, progress, subject);
             break;
         }
         case Contents::workbook:

@@ -49,6 +49,8 @@ struct Evaluation {
     std::string covariance_file;  ///< its name; empty where `covariance` is
     bool negative = false;        ///< evaluated, and the answer is no: not validated where validation was demanded
     bool blocked = false;         ///< critical findings block the issue of the certificate
+    /// Puts budgets that the results rest on beside them, for the audit; empty where there are none.
+    std::function<void(audit::AuditSubject&)> add_nested_budgets = {};
     /// What an assessor would remark; set by evaluate_job().
     std::shared_ptr<const audit::AuditReport> audit = {};
     std::vector<certificate::Waiver> waivers = {};  ///< of a job whose record is no certificate

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 
+#include "app/fixture_budget_audit.h"
 #include "engine/rotary_table/rotary_table_model.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/reported_covariance.h"
@@ -111,6 +112,9 @@ Evaluation evaluate_rotary_table_job(const EvaluationTask& task) {
     }
     evaluation.record = reports::rotary_table_record(job, result, parts, files, evaluation.covariance_file);
     evaluation.negative = result.validation_failed;
+    if (job.fixture_budget) {
+        evaluation.add_nested_budgets = audit_of_fixture_budget(job, result.fixture, evaluation.record, task.threads);
+    }
     make_certificate(task, evaluation, job.certificate, profile, {});
     return evaluation;
 }

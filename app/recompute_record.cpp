@@ -164,21 +164,26 @@ std::optional<gum::Diagnostic> files_not_held(const EvaluationRecord& record, co
         .action = "evaluate the job again; a draft can be printed with --draft"};
 }
 
-EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,
-                                 const std::filesystem::path& templates, const gum::Progress& progress,
-                                 std::span<const Kind> kinds) {
+Evaluation evaluation_of(const EvaluationRecord& record, const std::string& where, unsigned threads,
+                         const std::filesystem::path& templates, const gum::Progress& progress,
+                         std::span<const Kind> kinds) {
     const jobs::MemoryFileSource files(files_of(record, where));
     std::string reason;
     try {
         return evaluate_job(files, record.job_files.front().name, covariance_of(record), threads, templates, progress,
-                            kinds)
-            .record;
+                            kinds);
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();
         reason = first.where + ": " + first.what;
     }
     throw refusal("GC-RECORD-0024", where + "#/job", "the job cannot be evaluated: " + reason,
                   "a record comes from a job that can be evaluated");
+}
+
+EvaluationRecord evaluated_again(const EvaluationRecord& record, const std::string& where, unsigned threads,
+                                 const std::filesystem::path& templates, const gum::Progress& progress,
+                                 std::span<const Kind> kinds) {
+    return evaluation_of(record, where, threads, templates, progress, kinds).record;
 }
 
 std::optional<gum::Diagnostic> recompute_record(EvaluationRecord& record, const std::string& where, unsigned threads,

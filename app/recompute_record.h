@@ -33,7 +33,13 @@ inline constexpr std::size_t k_most_disagreements = 20;
 [[nodiscard]] std::optional<gum::Diagnostic> files_not_held(const reports::EvaluationRecord& record,
                                                             const std::string& where);
 
-/// The record that the job in a record gives: its files as the record holds them, evaluated with this program.
+/// What the job in a record gives: its files as the record holds them, evaluated with this program.
+/// \throws gum::InputError  GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated
+[[nodiscard]] Evaluation evaluation_of(const reports::EvaluationRecord& record, const std::string& where,
+                                       unsigned threads, const std::filesystem::path& templates,
+                                       const gum::Progress& progress = {},
+                                       std::span<const Kind> kinds = program_kinds());
+/// The record of it.
 /// \throws gum::InputError  GC-RECORD-0023 if a file is not that of its digest, -0024 if the job cannot be evaluated
 [[nodiscard]] reports::EvaluationRecord evaluated_again(const reports::EvaluationRecord& record,
                                                         const std::string& where, unsigned threads,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "audit/correction_effect.h"
+#include "audit/nested_budgets.h"
 #include "audit/severity.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -49,28 +50,62 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     return outcome;
 }
 
-/// Effects of the corrections of all findings on one budget, put to the findings where they are the largest so far.
-void put_effects(const AuditedBudget& budget, std::size_t position, std::vector<AuditFinding>& findings,
-                 AuditedResult& result) {
-    std::vector<const Correction*> corrections;
-    std::vector<std::size_t> of_finding;
+/// Graver first, then larger.
+std::pair<FindingSeverity, double> rank_of(const Effect& effect) {
+    return {severity_of(effect), size_of(effect)};
+}
+
+/// Positions of the findings whose corrections change a budget.
+std::vector<std::size_t> findings_that_change(std::size_t position, const std::vector<AuditFinding>& findings,
+                                              const NestedCorrections& nested) {
+    std::vector<std::size_t> changing;
     for (std::size_t i = 0; i < findings.size(); ++i) {
-        if (const Correction* correction = correction_of(findings[i], position)) {
-            corrections.push_back(correction);
-            of_finding.push_back(i);
+        if (correction_of(findings[i], position) != nullptr) {
+            changing.push_back(i);
         }
     }
-    std::vector<Effect> effects = effects_of(budget, corrections);
+    if (nested.is_dependent(position)) {
+        std::vector<std::size_t> all;
+        std::set_union(changing.begin(), changing.end(), nested.findings().begin(), nested.findings().end(),
+                       std::back_inserter(all));
+        return all;
+    }
+    return changing;
+}
+
+/// Effects of the corrections of all findings on one budget, put to the findings where they are the largest so far.
+void put_effects(const AuditedBudget& budget, std::size_t position, std::vector<AuditFinding>& findings,
+                 const NestedCorrections& nested, AuditedResult& result) {
+    const std::vector<std::size_t> of_finding = findings_that_change(position, findings, nested);
+    const bool is_dependent = nested.is_dependent(position);
+    std::vector<Effect> effects;
+    if (is_dependent) {
+        effects = nested.effects_on(position, of_finding);
+        result.sampled_shares = !nested.division(position, of_finding).is_exact;
+    } else {
+        std::vector<const Correction*> corrections;
+        for (const std::size_t finding : of_finding) {
+            corrections.push_back(correction_of(findings[finding], position));
+        }
+        effects = effects_of(budget, corrections);
+        result.sampled_shares = corrections.size() > k_exact_shares;
+    }
     for (std::size_t i = 0; i < effects.size(); ++i) {
         effects[i].budget = position;
         result.audited = effects[i].audited;
-        std::optional<Effect>& held = findings[of_finding[i]].effect;
-        const auto rank = [](const Effect& effect) { return std::pair(severity_of(effect), size_of(effect)); };
-        if (!held || rank(effects[i]) > rank(*held)) {
-            held = std::move(effects[i]);
+        AuditFinding& finding = findings[of_finding[i]];
+        if (is_dependent && effects[i].claimed.en && !finding.effect_on_score) {
+            finding.effect_on_score = effects[i];
+        }
+        // What a nested budget is for are the results that rest on it: an effect on it alone stands where it has none on
+        // those, which come first.
+        const bool is_known_of_results =
+            nested.is_nested(position) &&
+            std::binary_search(nested.findings().begin(), nested.findings().end(), of_finding[i]);
+        if (!is_known_of_results && (!finding.effect || rank_of(effects[i]) > rank_of(*finding.effect))) {
+            finding.effect = std::move(effects[i]);
         }
     }
-    result.sampled_shares = corrections.size() > k_exact_shares;
 }
 
 /// What errors hide: rules that found nothing look at the budgets as they are with all corrections.
@@ -173,9 +208,10 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         }
     }
     look_again(subject, rules, report.findings, policies);
+    const NestedCorrections nested(subject, report.findings);
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
-        AuditedResult result{.name = budget.name, .unit = budget.unit, .budget = i};
+        AuditedResult result{.name = budget.name, .unit = budget.unit, .budget = i, .is_nested = nested.is_nested(i)};
         try {
             AuditedBudget of_rows = budget;
             of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = 1.0;
@@ -188,13 +224,18 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             subject.not_read.push_back(gum::message(error.diagnostics().front()));
             continue;
         }
-        put_effects(budget, i, report.findings, result);
+        put_effects(budget, i, report.findings, nested, result);
         report.results.push_back(std::move(result));
     }
     for (std::size_t i = 0; i < report.findings.size(); ++i) {
         AuditFinding& finding = report.findings[i];
         if (policies[i] == SeverityPolicy::by_effect && finding.effect) {
-            finding.severity = std::min(severity_of(*finding.effect), finding.at_most);
+            const FindingSeverity on_score =
+                finding.effect_on_score ? severity_of(*finding.effect_on_score) : FindingSeverity::information;
+            finding.severity = std::min(std::max(severity_of(*finding.effect), on_score), finding.at_most);
+        }
+        if (finding.effect && finding.effect_on_score && finding.effect->budget == finding.effect_on_score->budget) {
+            finding.effect_on_score.reset();
         }
         if (finding.contribution_missing && !finding.budgets.empty()) {
             finding.missing_term = missing_term(subject.budgets[finding.budgets.front()]);

@@ -33,6 +33,7 @@ struct AuditedResult {
     BudgetOutcome audited = {};     ///< all corrections applied
     OutcomeIntervals allowed = {};  ///< what the printed digits of the rows allow
     bool sampled_shares = false;    ///< more corrections than are divided exactly
+    bool is_nested = false;         ///< of a budget that the results rest on (NestedBudgets)
 };
 
 struct AuditReport {

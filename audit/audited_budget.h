@@ -55,6 +55,9 @@ struct AuditedRow {
     std::string place;  ///< "row 3" or "Budget!A5", for findings
     /// Of a row that is one part of a quantity that is a sum: that quantity. Its parts have one unit and one sensitivity.
     std::string part_of;
+    /// Of a row of a job: its input quantity, and which component of it; "" of a table.
+    std::string input = {};
+    std::size_t component = 0;
     std::optional<StatedNumber> estimate;
     std::optional<StatedNumber> stated;   ///< what was divided: half-width, MPE, U of a certificate
     std::optional<StatedNumber> divisor;  ///< k, √3 …
@@ -126,6 +129,10 @@ struct ComparedReference {
     double value = 0.0, expanded_uncertainty = 0.0;
     double correlation = 0.0;
     std::string name;
+    std::size_t point = 0;  ///< which one of a comparison
+    /// Where another point of the comparison has a larger |E_n|: what takes the place of value − reference, so that E_n is
+    /// that of the other point.
+    std::optional<double> largest_difference = {};
 };
 
 /// What a budget says of the Monte Carlo trials that its uncertainty comes from.

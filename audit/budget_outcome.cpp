@@ -178,10 +178,16 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         const double U_difference = gum::uncertainty_of_difference(outcome.U, budget.reference->expanded_uncertainty,
                                                                    budget.reference->correlation);
         if (U_difference > 0.0) {
-            outcome.en = gum::settled_score(*outcome.value, budget.reference->value, U_difference);
+            outcome.en = budget.reference->largest_difference
+                             ? gum::settled_score(*budget.reference->largest_difference, 0.0, U_difference)
+                             : gum::settled_score(*outcome.value, budget.reference->value, U_difference);
         }
     }
     return outcome;
+}
+
+double difference_of_score(double en, double U, const ComparedReference& reference) {
+    return en * gum::uncertainty_of_difference(U, reference.expanded_uncertainty, reference.correlation);
 }
 
 Interval student_factors(const CoverageRule& rule, const Interval& nu_eff) {

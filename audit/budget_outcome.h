@@ -18,7 +18,7 @@ struct BudgetOutcome {
     bool at_capability = false;  ///< U is the capability, because k u_c is smaller
     std::string printed_value, printed_U;
     std::string verdict;       ///< "" without limits, rule or value
-    std::optional<double> en;  ///< none without value or reference
+    std::optional<double> en;  ///< the largest by its amount; none without value or reference
 };
 
 /// Evaluates a budget.
@@ -30,6 +30,9 @@ struct BudgetOutcome {
 [[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget);
 /// The same with another rule of coverage.
 [[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage);
+
+/// value − reference of a result with an expanded uncertainty U that has an E_n, in the unit of the result.
+[[nodiscard]] double difference_of_score(double en, double U, const ComparedReference& reference);
 
 /// What the printed digits of the rows allow of u_c, ν_eff and U: the claimed numbers are reproducible where they lie
 /// within.

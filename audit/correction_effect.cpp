@@ -14,64 +14,19 @@
 namespace gumcert::audit {
 namespace {
 
-/// A set of corrections as a list of yes and no.
-using Chosen = std::vector<bool>;
-
-/// A budget without the texts of its rows: corrections change numbers, and it is copied for every set of them.
-AuditedBudget without_texts(AuditedBudget budget) {
-    for (AuditedRow& row : budget.rows) {
-        for (std::string* text : {&row.quantity, &row.unit, &row.place, &row.source, &row.comment, &row.shape_text,
-                                  &row.sensitivity_unit}) {
-            *text = std::string();
-        }
-        for (std::optional<StatedNumber>* number :
-             {&row.estimate, &row.stated, &row.divisor, &row.u, &row.sensitivity, &row.contribution, &row.nu}) {
-            if (*number) {
-                (*number)->text = (*number)->place = std::string();
-            }
-        }
-    }
-    return budget;
-}
-
 /// Outcomes of sets of corrections, each evaluated once.
 class Outcomes {
 public:
-    Outcomes(const AuditedBudget& budget, const std::vector<const Correction*>& corrections)
-        : budget_(without_texts(budget)), corrections_(corrections) {}
+    explicit Outcomes(const std::function<BudgetOutcome(const ChosenCorrections&)>& outcome) : outcome_(outcome) {}
 
-    /// Random orders of which the shares are the mean: fewer for a table of hundreds of rows that are all corrected.
-    [[nodiscard]] std::size_t sampled_orders() const {
-        constexpr std::size_t k_most_rows_copied = 20'000'000;
-        const std::size_t an_order = corrections_.size() * std::max<std::size_t>(budget_.rows.size(), 1);
-        return std::clamp<std::size_t>(k_most_rows_copied / an_order, 1, k_sampled_orders);
-    }
-
-    /// A set whose correction leaves nothing to evaluate changes nothing: the outcome of the budget itself.
-    const BudgetOutcome& of(const Chosen& chosen) {
+    const BudgetOutcome& of(const ChosenCorrections& chosen) {
         const auto found = known_.find(chosen);
-        if (found != known_.end()) {
-            return found->second;
-        }
-        AuditedBudget corrected = budget_;
-        for (std::size_t i = 0; i < corrections_.size(); ++i) {
-            if (chosen[i]) {
-                (*corrections_[i])(corrected);
-            }
-        }
-        BudgetOutcome outcome;
-        try {
-            outcome = evaluate(corrected);
-        } catch (const gum::DiagnosedError&) {
-            outcome = evaluate(budget_);
-        }
-        return known_.emplace(chosen, std::move(outcome)).first->second;
+        return found != known_.end() ? found->second : known_.emplace(chosen, outcome_(chosen)).first->second;
     }
 
 private:
-    const AuditedBudget budget_;
-    const std::vector<const Correction*>& corrections_;
-    std::map<Chosen, BudgetOutcome> known_;
+    const std::function<BudgetOutcome(const ChosenCorrections&)>& outcome_;
+    std::map<ChosenCorrections, BudgetOutcome> known_;
 };
 
 /// The mean over all sets without i of the change that i makes: weights s!(n − s − 1)!/n! of sets of s corrections.
@@ -87,7 +42,7 @@ std::vector<double> exact_shares(Outcomes& outcomes, std::size_t n) {
     }
     std::vector<double> shares(n, 0.0);
     for (std::uint32_t set = 0; set < (1U << n); ++set) {
-        Chosen chosen(n);
+        ChosenCorrections chosen(n);
         std::size_t size = 0;
         for (std::size_t i = 0; i < n; ++i) {
             chosen[i] = ((set >> i) & 1U) != 0U;
@@ -106,7 +61,7 @@ std::vector<double> exact_shares(Outcomes& outcomes, std::size_t n) {
 }
 
 /// The same over random orders. The generator is written out, so that every build has the same orders.
-std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n) {
+std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n, std::size_t orders) {
     std::uint64_t state = 1;
     const auto next = [&state](std::size_t below) {  // SplitMix64
         state += 0x9E3779B97F4A7C15ULL;
@@ -118,12 +73,11 @@ std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n) {
     std::vector<double> shares(n, 0.0);
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), 0U);
-    const std::size_t orders = outcomes.sampled_orders();
     for (std::size_t round = 0; round < orders; ++round) {
         for (std::size_t i = n - 1; i > 0; --i) {
             std::swap(order[i], order[next(i + 1)]);
         }
-        Chosen chosen(n, false);
+        ChosenCorrections chosen(n, false);
         double before = std::log(outcomes.of(chosen).U);
         for (const std::size_t i : order) {
             chosen[i] = true;
@@ -145,24 +99,54 @@ bool changes_decision(const BudgetOutcome& before, const BudgetOutcome& after) {
 
 }  // namespace
 
-std::vector<Effect> effects_of(const AuditedBudget& budget, const std::vector<const Correction*>& corrections) {
-    const std::size_t n = corrections.size();
-    Outcomes outcomes(budget, corrections);
-    try {
-        static_cast<void>(outcomes.of(Chosen(n, false)));
-    } catch (const gum::DiagnosedError&) {
-        return {};
+AuditedBudget without_texts(AuditedBudget budget) {
+    for (AuditedRow& row : budget.rows) {
+        for (std::string* text : {&row.quantity, &row.unit, &row.place, &row.source, &row.comment, &row.shape_text,
+                                  &row.sensitivity_unit, &row.input}) {
+            *text = std::string();
+        }
+        for (std::optional<StatedNumber>* number :
+             {&row.estimate, &row.stated, &row.divisor, &row.u, &row.sensitivity, &row.contribution, &row.nu}) {
+            if (*number) {
+                (*number)->text = (*number)->place = std::string();
+            }
+        }
     }
+    return budget;
+}
+
+ShareDivision share_division(std::size_t corrections, std::size_t rows) {
+    // Fewer orders for a table of hundreds of rows that are all corrected.
+    constexpr std::size_t k_most_rows_copied = 20'000'000;
+    const std::size_t an_order = std::max<std::size_t>(corrections, 1) * std::max<std::size_t>(rows, 1);
+    return {.is_exact = corrections <= k_exact_shares,
+            .orders = std::clamp<std::size_t>(k_most_rows_copied / an_order, 1, k_sampled_orders)};
+}
+
+ShareDivision share_division(std::size_t corrections, std::size_t rows, std::size_t nested) {
+    constexpr std::size_t k_exact_nested = 4, k_evaluations = 32;
+    const ShareDivision of_rows = share_division(corrections, rows);
+    if (nested <= k_exact_nested) {
+        return of_rows;
+    }
+    return {.is_exact = false, .orders = std::min(of_rows.orders, std::max<std::size_t>(1, k_evaluations / nested))};
+}
+
+std::vector<Effect> effects_of(std::size_t n, const ShareDivision& division,
+                               const std::function<BudgetOutcome(const ChosenCorrections&)>& outcome) {
     if (n == 0) {
         return {};
     }
-    const BudgetOutcome claimed = outcomes.of(Chosen(n, false)), audited = outcomes.of(Chosen(n, true));
-    const std::vector<double> shares = n <= k_exact_shares ? exact_shares(outcomes, n) : sampled_shares(outcomes, n);
+    Outcomes outcomes(outcome);
+    const BudgetOutcome claimed = outcomes.of(ChosenCorrections(n, false)),
+                        audited = outcomes.of(ChosenCorrections(n, true));
+    const std::vector<double> shares =
+        division.is_exact ? exact_shares(outcomes, n) : sampled_shares(outcomes, n, division.orders);
     const double log_total = std::accumulate(shares.begin(), shares.end(), 0.0);
     const double total = audited.U / claimed.U - 1.0;
     std::vector<Effect> effects(n);
     for (std::size_t i = 0; i < n; ++i) {
-        Chosen only(n, false), all_others(n, true);
+        ChosenCorrections only(n, false), all_others(n, true);
         only[i] = true;
         all_others[i] = false;
         effects[i].claimed = claimed;
@@ -173,6 +157,30 @@ std::vector<Effect> effects_of(const AuditedBudget& budget, const std::vector<co
         effects[i].share = std::abs(log_total) > 1e-12 ? total * shares[i] / log_total : shares[i];
     }
     return effects;
+}
+
+std::vector<Effect> effects_of(const AuditedBudget& budget, const std::vector<const Correction*>& corrections) {
+    const AuditedBudget bare = without_texts(budget);
+    BudgetOutcome itself;
+    try {
+        itself = evaluate(bare);
+    } catch (const gum::DiagnosedError&) {
+        return {};
+    }
+    return effects_of(corrections.size(), share_division(corrections.size(), bare.rows.size()),
+                      [&](const ChosenCorrections& chosen) {
+                          AuditedBudget corrected = bare;
+                          for (std::size_t i = 0; i < corrections.size(); ++i) {
+                              if (chosen[i]) {
+                                  (*corrections[i])(corrected);
+                              }
+                          }
+                          try {
+                              return evaluate(corrected);
+                          } catch (const gum::DiagnosedError&) {
+                              return itself;  // a correction that leaves nothing to evaluate changes nothing
+                          }
+                      });
 }
 
 std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,29 @@ namespace gumcert::audit {
 /// \return one an entry of `corrections`; empty where the budget itself has no outcome
 [[nodiscard]] std::vector<Effect> effects_of(const AuditedBudget& budget,
                                              const std::vector<const Correction*>& corrections);
+
+/// A set of corrections: true at i where the i-th one is made.
+using ChosenCorrections = std::vector<bool>;
+
+/// How shares are found: over all sets of corrections, or as means over some random orders.
+struct ShareDivision {
+    bool is_exact = true;
+    std::size_t orders = 1;  ///< where it is not exact
+};
+/// That of effects_of() for a budget.
+[[nodiscard]] ShareDivision share_division(std::size_t corrections, std::size_t rows);
+/// The same where each set that changes nested budgets is a new evaluation of the job: exact up to 2⁴ of them, else over
+/// so many orders that there are about 32.
+/// \param nested  how many of the corrections change nested budgets
+[[nodiscard]] ShareDivision share_division(std::size_t corrections, std::size_t rows, std::size_t nested);
+
+/// The same for whatever gives the outcome of a set; each set is asked for once.
+/// \param outcome  that of the budget itself for the set without corrections
+[[nodiscard]] std::vector<Effect> effects_of(std::size_t corrections, const ShareDivision& division,
+                                             const std::function<BudgetOutcome(const ChosenCorrections&)>& outcome);
+
+/// A budget without the texts of its rows: corrections change numbers, and it is copied for every set of them.
+[[nodiscard]] AuditedBudget without_texts(AuditedBudget budget);
 
 inline constexpr std::size_t k_exact_shares = 12;
 inline constexpr std::size_t k_sampled_orders = 200;

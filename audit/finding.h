@@ -59,6 +59,9 @@ struct AuditFinding {
     bool of_gate = false;               ///< taken over from the gates of a certificate, which have it already
     bool contribution_missing = false;  ///< no `correct`, because nobody knows how large the missing contribution is
     std::optional<Effect> effect;
+    /// On the result that is compared with a reference, where the correction changes it through a nested budget and
+    /// `effect` is that on another result.
+    std::optional<Effect> effect_on_score;
     std::optional<MissingTerm> missing_term;  ///< of the first of `budgets`, where a contribution is missing
 };
 

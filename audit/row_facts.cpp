@@ -205,6 +205,37 @@ void read_averaged(std::string_view text, AuditedRow& row) {
     }
 }
 
+std::optional<std::size_t> whole_number(const std::optional<NumberInText>& number) {
+    constexpr double k_most = 1000.0;
+    const bool is_whole = number && !number->percent && number->value >= 2.0 && number->value <= k_most &&
+                          number->value == std::floor(number->value);
+    return is_whole ? std::optional(static_cast<std::size_t>(number->value)) : std::nullopt;
+}
+
+/// Several series of n readings each: "largest s of 9 points, n = 3", "spread of the daily s 0.10, 0.12, 0.09; n = 10".
+void read_series(std::string_view text, AuditedRow& row) {
+    if (!row.group_sizes.empty() || !row.n || *row.n < 2) {
+        return;
+    }
+    const std::size_t largest = after_word(
+        text, {"largest s of ", "largest of ", "maximum of ", "größte s von ", "größtes s von ", "größte von "});
+    if (largest != std::string_view::npos) {
+        row.group_sizes.assign(whole_number(next_number(text, largest, 1)).value_or(0), *row.n);
+        return;
+    }
+    const std::size_t list = after_word(text, {"daily s ", "s of the series ", "s of the days ", "tägliche s ",
+                                               "täglichen s ", "s der serien ", "s der tage "});
+    if (list == std::string_view::npos) {
+        return;
+    }
+    for (std::optional<NumberInText> number = next_number(text, list, 1); number && number->value > 0.0;) {
+        row.group_deviations.push_back(number->value);
+        const std::size_t end = text.size() - number->behind.size();
+        number = number->behind.starts_with(',') ? next_number(text, end + 1, 2) : std::nullopt;
+    }
+    row.group_sizes.assign(row.group_deviations.size(), *row.n);
+}
+
 /// "0.4 + 1.176E-7 L": a number, a plus sign, a number, and the letter of the length. Such a specification has a value at a
 /// length only, so that no number of the text is the value itself; where u was not divided, u is it.
 void read_length_dependent_limit(const std::string& text, AuditedRow& row) {
@@ -250,6 +281,7 @@ void note_row_facts(AuditedRow& row) {
         read_reliability(text, row);
         read_correction(text, row);
         read_averaged(text, row);
+        read_series(text, row);
         read_length_dependent_limit(text, row);
         row.cyclic = row.cyclic || has_word(text, {"cyclic", "cycling", "sinusoidal", "zyklisch", "two-point control",
                                                    "zweipunktreg", "sinusf"});

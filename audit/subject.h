@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +34,20 @@ struct AuditedComparison {
 
 struct AuditedWorkbook;
 
+/// What multiplies the standard uncertainties of the rows of some budgets: one list a budget, one factor a row.
+using RowFactors = std::vector<std::vector<double>>;
+
+/// Budgets whose results are inputs of other results of the subject, as that of a fixture is of all that is measured with
+/// it. What correcting them does to the others, only a new evaluation says.
+struct NestedBudgets {
+    std::size_t first = 0, count = 0;    ///< their positions in AuditSubject::budgets: first … first + count − 1
+    std::vector<std::size_t> dependent;  ///< positions of the budgets that rest on them
+    /// The dependent ones in their order, everything evaluated again with the factors; empty where these cannot be put into
+    /// the job. Remembers what it was asked.
+    /// \throws gum::DiagnosedError where there is no result then
+    std::function<std::vector<AuditedBudget>(const RowFactors& factors)> evaluate_again;
+};
+
 /// What an audit is made of: one file, or several that belong together.
 struct AuditSubject {
     enum class Kind { job, record, table, workbook, certificate };
@@ -40,6 +56,7 @@ struct AuditSubject {
     std::vector<AuditedBudget> budgets;                   ///< one a result and point
     std::optional<certificate::Certificate> certificate;  ///< data, certified tables and findings of the gates
     std::optional<AuditedComparison> comparison;
+    std::optional<NestedBudgets> nested = {};
     std::shared_ptr<const AuditedWorkbook> workbook;  ///< audit/audited_workbook.h; none where no formulas are known
     /// Of a record that was evaluated again: where it says something else than its own job gives, as sentences.
     std::optional<std::vector<std::string>> disagreements;

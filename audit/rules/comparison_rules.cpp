@@ -147,11 +147,12 @@ void passes_by_inflation_only(const AuditSubject& subject, std::span<const Audit
                               FindingCollector& findings) {
     std::vector<bool> said(subject.budgets.size(), false);
     for (const AuditFinding& other : others) {
-        if (!other.effect || !other.effect->claimed.en || !other.effect->audited.en) {
+        const std::optional<Effect>& effect = other.effect_on_score ? other.effect_on_score : other.effect;
+        if (!effect || !effect->claimed.en || !effect->audited.en) {
             continue;
         }
-        const double claimed = *other.effect->claimed.en, audited = *other.effect->audited.en;
-        const std::size_t budget = other.effect->budget;
+        const double claimed = *effect->claimed.en, audited = *effect->audited.en;
+        const std::size_t budget = effect->budget;
         if (std::abs(claimed) > 1.0 || std::abs(audited) <= 1.0 || said[budget]) {
             continue;
         }

@@ -716,9 +716,28 @@ void implausible_length_part(const AuditSubject& subject, FindingCollector& find
     });
 }
 
+/// S15 of the words of a row: a rate per year times days, divided by the months of a year.
+void days_over_months(const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&findings](const RowAt& at) {
+        if (!mentions(at.is, {"/yr", "/year", "per year", "/a ", "/a)", "/jahr", "pro jahr"}) ||
+            !mentions(at.is, {"days/12", "days / 12", "d/12", "tage/12", "tage / 12"})) {
+            return;
+        }
+        AuditFinding finding =
+            finding_at(at, "u", "a rate per year times days divided by 12: the units of time do not close");
+        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+        finding.expected = "days/365";
+        finding.actual = "days/12";
+        finding.question = "Is the age of the calibration meant in days, months or years?";
+        finding.correct = scale_u(at.row, 12.0 / 365.0);
+        findings.add(std::move(finding));
+    });
+}
+
 /// S15
 void implausible_constant(const AuditSubject& subject, FindingCollector& findings) {
     implausible_length_part(subject, findings);
+    days_over_months(subject, findings);
     for_each_row(subject, [&findings](const RowAt& at) {
         const ConstantRange* range = constant_range(at.is);
         const std::optional<gum::Unit> unit = unit_in(at.is.unit);
@@ -969,7 +988,9 @@ std::vector<Rule> model_rules() {
          .clause = {.text = "JCGM 100:2008, 4.3.1", .verified = false},
          .severity = major,
          .needs = {Need::rows},
-         .detection = "a constant whose words name material and kind, outside of the range that any grade of it has",
+         .detection = "a constant whose words name material and kind, outside of the range that any grade of it has; "
+                      "in the words "
+                      "of a row a rate per year times days/12",
          .correction = "Correct the power of ten or the unit.",
          .question = "Is the number in the unit that the table states?",
          .examine = implausible_constant},

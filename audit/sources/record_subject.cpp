@@ -153,7 +153,8 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
                 const reports::BudgetRow& part = stated.components[c];
                 budget.rows.push_back(row_of(part, name + ": " + part.input, place + "/components/" + std::to_string(c),
                                              budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
-                budget.rows.back().part_of = stated.input;
+                budget.rows.back().part_of = budget.rows.back().input = stated.input;
+                budget.rows.back().component = c;
             }
             continue;
         }
@@ -162,6 +163,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
             statement = job->of(stated.input, point);
         }
         budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
+        budget.rows.back().input = stated.input;
     }
 }
 
@@ -385,25 +387,39 @@ AuditedComparison comparison_of(const reports::Comparison& stated) {
     return comparison;
 }
 
-/// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at the point
-/// with the largest |E_n|.
+std::size_t point_with_largest_score(const reports::Comparison& comparison) {
+    const auto score = [](const reports::ComparisonPoint& point) { return std::abs(point.En.number.value_or(0.0)); };
+    return static_cast<std::size_t>(
+        std::max_element(comparison.points.begin(), comparison.points.end(),
+                         [&](const auto& a, const auto& b) { return score(a) < score(b); }) -
+        comparison.points.begin());
+}
+
+/// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at one point.
 /// \param side  with its rows, name and place
-void add_side(AuditSubject& subject, const reports::Comparison& comparison, AuditedBudget side, bool is_reference) {
-    const auto largest =
-        std::max_element(comparison.points.begin(), comparison.points.end(), [](const auto& a, const auto& b) {
-            return std::abs(a.En.number.value_or(0.0)) < std::abs(b.En.number.value_or(0.0));
-        });
-    if (side.rows.empty() || largest == comparison.points.end() || !largest->U.number || !largest->reference_U.number) {
+/// \param at    position of the point
+void add_side(AuditSubject& subject, const reports::Comparison& comparison, AuditedBudget side, bool is_reference,
+              std::size_t at) {
+    if (side.rows.empty() || at >= comparison.points.size()) {
         return;
     }
-    const double U = is_reference ? *largest->reference_U.number : *largest->U.number;
-    const double other_U = is_reference ? *largest->U.number : *largest->reference_U.number;
-    side.value = is_reference ? largest->reference_value.number : largest->value.number;
-    side.reference = ComparedReference{.value = is_reference ? largest->value.number : largest->reference_value.number,
+    const reports::ComparisonPoint& point = comparison.points[at];
+    if (!point.U.number || !point.reference_U.number) {
+        return;
+    }
+    const double U = is_reference ? *point.reference_U.number : *point.U.number;
+    const double other_U = is_reference ? *point.U.number : *point.reference_U.number;
+    side.value = is_reference ? point.reference_value.number : point.value.number;
+    side.reference = ComparedReference{.value = is_reference ? point.value.number : point.reference_value.number,
                                        .expanded_uncertainty = other_U,
-                                       .correlation = largest->correlation.value_or(0.0),
-                                       .name = is_reference ? comparison.method_name : comparison.reference_name};
-    const double u = is_reference ? largest->reference_u.value_or(0.0) : largest->u.value_or(0.0);
+                                       .correlation = point.correlation.value_or(0.0),
+                                       .name = is_reference ? comparison.method_name : comparison.reference_name,
+                                       .point = at};
+    const reports::ComparisonPoint& largest = comparison.points[point_with_largest_score(comparison)];
+    if (point.En.number && std::abs(largest.En.number.value_or(0.0)) > std::abs(*point.En.number)) {
+        side.reference->largest_difference = difference_of_score(*largest.En.number, U, *side.reference);
+    }
+    const double u = is_reference ? point.reference_u.value_or(0.0) : point.u.value_or(0.0);
     if (u > 0.0) {
         side.coverage = {.kind = CoverageRule::Kind::fixed, .k = U / u, .probability = comparison.score_probability};
         side.claims.k = exact_number(U / u, side.place);
@@ -412,64 +428,34 @@ void add_side(AuditSubject& subject, const reports::Comparison& comparison, Audi
         side.correlation_variance = u * u - variance_of_rows(side);
     }
     side.claims.U = exact_number(U, side.place);
-    side.claims.en = largest->En.number ? std::optional(exact_number(*largest->En.number, side.place)) : std::nullopt;
+    side.claims.en = point.En.number ? std::optional(exact_number(*point.En.number, side.place)) : std::nullopt;
     subject.budgets.push_back(std::move(side));
 }
 
+/// \param job  what is stated of the inputs; nullptr where the rows are no inputs of a job
 AuditedBudget side_of(const reports::Comparison& comparison, const std::vector<reports::BudgetRow>& rows,
-                      const std::string& name, const std::string& place) {
+                      const std::string& name, const std::string& place, const JobStatements* job = nullptr) {
     AuditedBudget side;
     side.name = name;
     side.unit = comparison.unit;
     side.place = place;
     side.evaluated_here = true;
-    add_rows(side, rows, place, nullptr, nullptr, "");
+    add_rows(side, rows, place, nullptr, job, "");
     return side;
 }
 
-/// What the job of the fixture states of its inputs: a file of the job of a rotary table.
-JobStatements statements_of_fixture(const reports::EvaluationRecord& record, const std::string& file) {
-    reports::EvaluationRecord of_fixture;
-    of_fixture.job_files = record.job_files;
+/// What the budget of the reference method of a rotary table states of its inputs: a file of the job.
+JobStatements statements_of_reference(const reports::EvaluationRecord& record) {
+    const json job = json::parse(record.job_json, nullptr, false);
+    const json file = job.is_object() ? job.value(json::json_pointer("/reference_method/budget"), json()) : json();
+    reports::EvaluationRecord of_reference;
+    of_reference.job_files = record.job_files;
     for (const reports::InputFile& held : record.job_files) {
-        if (held.name == file) {
-            of_fixture.job_json = reports::bytes_of(held).value_or("");
+        if (file.is_string() && held.name == file.get_ref<const std::string&>()) {
+            of_reference.job_json = reports::bytes_of(held).value_or("");
         }
     }
-    return JobStatements(of_fixture);
-}
-
-/// Puts the budget of the fixture, where it has one of its own, into the place of what the fixture contributes to the
-/// laboratory's side, scaled to it: so correcting it is seen in E_n. The uncertainties of all coordinates are taken to
-/// change by the same factor as that of the coordinate with the largest one.
-void put_budget_of_fixture(AuditedBudget& side, const reports::EvaluationRecord& record) {
-    constexpr std::string_view k_fixture = "fixture CMM";  // source of budgets of rotary tables
-    if (!record.rotary || !record.rotary->fixture_budget || record.rotary->fixture_budget->largest.empty()) {
-        return;
-    }
-    const auto row = std::find_if(side.rows.begin(), side.rows.end(),
-                                  [&](const AuditedRow& one) { return one.quantity == k_fixture; });
-    if (row == side.rows.end()) {
-        return;
-    }
-    const reports::FixtureBudget& fixture = *record.rotary->fixture_budget;
-    const JobStatements job = statements_of_fixture(record, fixture.file);
-    AuditedBudget of_fixture;
-    of_fixture.unit = side.unit;
-    add_rows(of_fixture, fixture.largest, "/rotary/fixture_budget/largest", nullptr, &job, fixture.largest_coordinate);
-    const double variance = variance_of_rows(of_fixture);
-    if (!(variance > 0.0)) {
-        return;
-    }
-    const double factor = std::abs(row->used_sensitivity) * row->used_u / std::sqrt(variance);
-    for (AuditedRow& one : of_fixture.rows) {
-        one.quantity = "fixture, " + one.quantity;
-        one.used_sensitivity *= factor;
-        one.sensitivity = exact_number(one.used_sensitivity, one.place + "/sensitivity");
-    }
-    const auto after = side.rows.erase(row);
-    side.rows.insert(after, std::make_move_iterator(of_fixture.rows.begin()),
-                     std::make_move_iterator(of_fixture.rows.end()));
+    return JobStatements(of_reference);
 }
 
 /// The waivers of a certificate that have effect; of another record those that its audit shows beside its findings.
@@ -504,7 +490,8 @@ std::vector<certificate::Waiver> waivers_of(const reports::EvaluationRecord& rec
 
 }  // namespace
 
-AuditSubject subject_of(const reports::EvaluationRecord& record, const std::string& name) {
+AuditSubject subject_of(const reports::EvaluationRecord& record, const std::string& name,
+                        std::optional<std::size_t> compared_point) {
     AuditSubject subject;
     subject.kind = AuditSubject::Kind::record;
     subject.name = name;
@@ -524,12 +511,13 @@ AuditSubject subject_of(const reports::EvaluationRecord& record, const std::stri
             side_of(comparison, comparison.method_budget,
                     comparison.method_name.empty() ? "displacement of the contact point" : comparison.method_name,
                     "/comparison/method_budget");
-        put_budget_of_fixture(method, record);
-        add_side(subject, comparison, std::move(method), false);
-        add_side(
-            subject, comparison,
-            side_of(comparison, comparison.reference_budget, comparison.reference_name, "/comparison/reference_budget"),
-            true);
+        const JobStatements of_reference = statements_of_reference(record);
+        const std::size_t at = compared_point.value_or(point_with_largest_score(comparison));
+        add_side(subject, comparison, std::move(method), false, at);
+        add_side(subject, comparison,
+                 side_of(comparison, comparison.reference_budget, comparison.reference_name,
+                         "/comparison/reference_budget", &of_reference),
+                 true, at);
     }
     return subject;
 }

@@ -41,6 +41,25 @@ StatedQuantity state_observations(std::vector<double> observations) {
     return stated;
 }
 
+StatedQuantity with_scaled_uncertainty(StatedQuantity quantity, double factor) {
+    if (factor == 0.0) {
+        quantity.distribution = Distribution::constant(quantity.value);
+    } else {
+        Distribution& distribution = quantity.distribution;
+        distribution.location = quantity.value + factor * (distribution.location - quantity.value);
+        distribution.scale *= factor;
+    }
+    quantity.u *= factor;
+    if (quantity.sample_rows) {
+        std::vector<double> rows = *quantity.sample_rows;
+        for (double& value : rows) {
+            value = quantity.value + factor * (value - quantity.value);
+        }
+        quantity.sample_rows = std::make_shared<const std::vector<double>>(std::move(rows));
+    }
+    return quantity;
+}
+
 StatedQuantity state_constant(double value) {
     require_finite(value, "value");
     StatedQuantity stated;

@@ -61,6 +61,11 @@ struct StatedQuantity {
 /// \throws InputError  as evaluate_type_a(); GC-GUM-0003 where all observations are equal
 [[nodiscard]] StatedQuantity state_observations(std::vector<double> observations);
 
+/// The same quantity with its standard uncertainty multiplied: its distribution becomes wider about the estimate, degrees of
+/// freedom stay. With the factor 0 it is a constant.
+/// \param factor  ≥ 0, [1]
+[[nodiscard]] StatedQuantity with_scaled_uncertainty(StatedQuantity quantity, double factor);
+
 /// A number without uncertainty, on purpose.
 [[nodiscard]] StatedQuantity state_constant(double value);
 

@@ -88,8 +88,8 @@ private:
         builder_.definitions(facts);
         if (file_.results.empty()) {
             builder_.paragraph(words_("no_results"));
-        } else if (file_.results.size() > 1) {
-            builder_.paragraph(words_.filled("worst_of", {{"count", std::to_string(file_.results.size())}}));
+        } else if (file_.own_results() > 1) {
+            builder_.paragraph(words_.filled("worst_of", {{"count", std::to_string(file_.own_results())}}));
         }
     }
 
@@ -230,6 +230,9 @@ private:
                 add_fact(facts, words_("alone"), words_.effect_alone(effect, file_));
                 add_fact(facts, words_("last"), words_.effect_last(effect, file_));
                 add_fact(facts, words_("share_of_change"), words_.number(effect.share_percent) + " %");
+            }
+            if (finding.effect_on_score) {
+                add_fact(facts, words_("score"), words_.effect_on_score(*finding.effect_on_score, file_));
             }
             if (finding.missing_term) {
                 add_fact(facts, words_("bound"), words_.missing_term(*finding.missing_term));

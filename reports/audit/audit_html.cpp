@@ -127,8 +127,8 @@ private:
             add(facts, words_("measurand"), result.name + (result.unit.empty() ? "" : " / " + result.unit));
             add(facts, words_("place"), result.place);
             add(facts, words_("method"), words_.method(file_, result));
-            if (file_.results.size() > 1) {
-                add(facts, words_("points"), std::to_string(file_.results.size()));
+            if (file_.own_results() > 1) {
+                add(facts, words_("points"), std::to_string(file_.own_results()));
             }
             for (const AuditedFileView::ScopeLine& line : file_.scope) {
                 std::string text = line.id;
@@ -181,8 +181,8 @@ private:
     json worst_result() const {
         const AuditedResultView& result = worst();
         return {{"answer", once(answer_of(result))},
-                {"several", file_.results.size() > 1
-                                ? one_text(words_.filled("worst_of", {{"count", std::to_string(file_.results.size())}}))
+                {"several", file_.own_results() > 1
+                                ? one_text(words_.filled("worst_of", {{"count", std::to_string(file_.own_results())}}))
                                 : json::array()},
                 {"equation", one_text(result.equation)},
                 {"no_equation", once_if(result.equation.empty())},
@@ -331,6 +331,12 @@ private:
                 {{"text", words_.effect_alone(effect, file_)},
                  {"arrow", once({{"svg", change_arrow(effect.claimed.number.U, effect.alone.number.U, largest)}})},
                  {"direction", effect.change_alone.direction}});
+        }
+        if (finding.effect_on_score) {
+            const EffectView& effect = *finding.effect_on_score;
+            lines.push_back({{"text", words_.effect_on_score(effect, file_)},
+                             {"arrow", json::array()},
+                             {"direction", effect.change_alone.direction}});
         }
         if (finding.missing_term) {
             lines.push_back({{"text", words_.missing_term(*finding.missing_term)},

@@ -81,6 +81,13 @@ json finding(const AuditFindingView& one, const AuditedFileView& file, const Aud
                            {"share", number(one.effect->share)}};
         entry["effect_on"] = file.results[one.effect->result].name;
     }
+    if (one.effect_on_score) {
+        const EffectView& effect = *one.effect_on_score;
+        entry["effect_on_score"] = {{"result", file.results[effect.result].name},
+                                    {"alone", outcome_with_score(effect.alone)},
+                                    {"last", outcome_with_score(effect.last)},
+                                    {"share", number(effect.share)}};
+    }
     if (one.missing_term) {
         entry["missing_term"] = {{"u_for_digit", number(one.missing_term->number.u_for_digit)},
                                  {"u_for_verdict", number(one.missing_term->number.u_for_verdict)}};

@@ -93,6 +93,9 @@ std::string finding_text(const AuditFindingView& finding, std::size_t position, 
         out += labelled(words("last"), words.effect_last(effect, file));
         out += labelled(words("share_of_change"), words.number(effect.share_percent) + " %");
     }
+    if (finding.effect_on_score) {
+        out += labelled(words("score"), words.effect_on_score(*finding.effect_on_score, file));
+    }
     if (finding.missing_term) {
         out += labelled(words("bound"), words.missing_term(*finding.missing_term));
     }
@@ -162,8 +165,8 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
         out += "\n" + paragraph_of("  ", worst.name + ": " +
                                              words.change(worst.claimed, worst.audited, worst.change, worst.unit));
         out += outcomes_of(worst, words);
-        if (file.results.size() > 1) {
-            out += paragraph_of("  ", words.filled("worst_of", {{"count", std::to_string(file.results.size())}}));
+        if (file.own_results() > 1) {
+            out += paragraph_of("  ", words.filled("worst_of", {{"count", std::to_string(file.own_results())}}));
         }
     }
     out += list_of(words("not_looked_at"), words.limits(file));

@@ -261,6 +261,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.claim_U = claim_of(budget.claims.U, result.allowed.U);
     view.change = change_of(result.claimed, result.audited);
     view.sampled_shares = result.sampled_shares;
+    view.is_nested = result.is_nested;
     view.budget_U_number = result.recomputed.k * result.recomputed.u_c;
     view.budget_U = rounded(view.budget_U_number, 2);
 
@@ -280,10 +281,10 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     return view;
 }
 
-/// How much the corrections change a result: a decision before U.
-std::pair<bool, double> rank_of(const AuditedResultView& result) {
+/// How much the corrections change a result: a result of the file before a nested one, a decision before U.
+std::tuple<bool, bool, double> rank_of(const AuditedResultView& result) {
     const double ratio = result.audited.number.U / result.claimed.number.U;
-    return {result.change.decision_turns(), ratio > 0.0 ? std::abs(std::log(ratio)) : 0.0};
+    return {!result.is_nested, result.change.decision_turns(), ratio > 0.0 ? std::abs(std::log(ratio)) : 0.0};
 }
 
 std::string form_of(const certificate::ScopeEntry& entry) {
@@ -344,6 +345,19 @@ ResultOfBudget results_by_budget(const audit::AuditReport& report) {
     return results;
 }
 
+EffectView effect_view(const audit::Effect& effect, const ResultOfBudget& result_of) {
+    const auto result = result_of.find(effect.budget);
+    return {.claimed = printed(effect.claimed),
+            .alone = printed(effect.alone),
+            .last = printed(effect.last),
+            .audited = printed(effect.audited),
+            .share = effect.share,
+            .share_percent = signed_percent(effect.share),
+            .change_alone = change_of(effect.claimed, effect.alone),
+            .change_last = change_of(effect.last, effect.audited),
+            .result = result == result_of.end() ? 0 : result->second};
+}
+
 AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::AuditReport& report,
                               const ResultOfBudget& result_of, std::span<const audit::Rule> rules,
                               const std::vector<PrintedWaiver>& waivers) {
@@ -372,17 +386,10 @@ AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::A
         }
     }
     if (finding.effect) {
-        const audit::Effect& effect = *finding.effect;
-        const auto result = result_of.find(effect.budget);
-        view.effect = EffectView{.claimed = printed(effect.claimed),
-                                 .alone = printed(effect.alone),
-                                 .last = printed(effect.last),
-                                 .audited = printed(effect.audited),
-                                 .share = effect.share,
-                                 .share_percent = signed_percent(effect.share),
-                                 .change_alone = change_of(effect.claimed, effect.alone),
-                                 .change_last = change_of(effect.last, effect.audited),
-                                 .result = result == result_of.end() ? 0 : result->second};
+        view.effect = effect_view(*finding.effect, result_of);
+    }
+    if (finding.effect_on_score) {
+        view.effect_on_score = effect_view(*finding.effect_on_score, result_of);
     }
     if (finding.missing_term) {
         const audit::MissingTerm& term = *finding.missing_term;
@@ -441,7 +448,8 @@ std::tuple<std::size_t, bool, double> rank_of(const AuditedFileView& file) {
     for (std::size_t i = 0; i < file.counts.size() && gravest == 0; ++i) {
         gravest = file.counts[i] > 0 ? file.counts.size() - i : 0;
     }
-    const auto [turns, change] = file.results.empty() ? std::pair(false, 0.0) : rank_of(file.results[file.worst]);
+    const auto [own, turns, change] =
+        file.results.empty() ? std::tuple(false, false, 0.0) : rank_of(file.results[file.worst]);
     return {gravest, turns, change};
 }
 
@@ -456,6 +464,11 @@ std::size_t add_waiver(PrintedWaiver waiver, std::vector<PrintedWaiver>& waivers
 }
 
 }  // namespace
+
+std::size_t AuditedFileView::own_results() const {
+    return static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(), [](const AuditedResultView& one) { return !one.is_nested; }));
+}
 
 Change change_of(const BudgetOutcome& before, const BudgetOutcome& after) {
     Change change;

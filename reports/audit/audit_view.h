@@ -101,6 +101,7 @@ struct AuditedResultView {
     Claim claim_u_c, claim_nu_eff, claim_k, claim_U;
     Change change;  ///< from claimed to audited
     bool sampled_shares = false;
+    bool is_nested = false;            ///< of a budget that the results rest on
     std::vector<AuditedRowView> rows;  ///< the largest contribution first
     std::vector<ContributorView> contributors;
     std::vector<std::size_t> findings;  ///< that touch it: positions in AuditedFileView::findings
@@ -137,6 +138,8 @@ struct AuditFindingView {
     std::vector<std::string> evidence;
     std::vector<std::size_t> results;  ///< that it touches: positions in AuditedFileView::results
     std::optional<EffectView> effect;
+    std::optional<EffectView>
+        effect_on_score;  ///< on the result that is compared with a reference, where it is another one
     std::optional<MissingTermView> missing_term;
     std::optional<std::size_t> waiver;  ///< position in the waivers of its file; in a view of several in those of all
 };
@@ -166,7 +169,9 @@ struct AuditedFileView {
     std::vector<ScopeLine> scope;
     std::string method;  ///< of the certificate; "" none is stated
     std::vector<AuditedResultView> results;
-    std::size_t worst = 0;                   ///< of `results`, where there are any
+    std::size_t worst = 0;  ///< of `results`, where there are any
+    /// How many of the results are no nested ones: those of the file itself.
+    [[nodiscard]] std::size_t own_results() const;
     std::vector<AuditFindingView> findings;  ///< the gravest first
     std::array<std::size_t, 4> counts{};     ///< of findings: critical, major, minor, information
     std::vector<RuleAnswer> linearity;       ///< of the rules on the linear model and on Monte Carlo
@@ -205,7 +210,7 @@ void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(st
 /// The view of the audits of one file or of a folder.
 ///
 /// The worst result of a file is the one that the corrections change most: a verdict or |E_n| > 1 that turns counts
-/// before U, then the largest relative change of U, then the first. The worst file is the one with the gravest finding,
+/// before U, then the largest relative change of U, then the first; nested ones are not among them. The worst file is the one with the gravest finding,
 /// then by its worst result.
 /// \param files    one or more, in the order in which they are shown
 [[nodiscard]] AuditView make_audit_view(std::vector<AuditedFileView> files, const AuditContext& context);

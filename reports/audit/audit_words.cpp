@@ -103,6 +103,16 @@ std::string AuditWords::effect_last(const EffectView& effect, const AuditedFileV
            change(effect.last, effect.audited, effect.change_last, result.unit);
 }
 
+std::string AuditWords::effect_on_score(const EffectView& effect, const AuditedFileView& file) const {
+    const AuditedResultView& result = file.results[effect.result];
+    std::string text = result.name + ": " + change(effect.claimed, effect.alone, effect.change_alone, result.unit);
+    if (effect.claimed.En == effect.alone.En) {  // else the change says so
+        text +=
+            "; " + filled("change_of_En", {{"before", number(effect.claimed.En)}, {"after", number(effect.alone.En)}});
+    }
+    return text;
+}
+
 std::string AuditWords::missing_term(const MissingTermView& term) const {
     std::string text = filled("bound_of_digit", {{"u", with_unit(term.u_for_digit, term.unit)}});
     text += " " + (term.u_for_verdict.empty()

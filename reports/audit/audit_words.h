@@ -51,6 +51,8 @@ public:
     [[nodiscard]] std::string effect_alone(const EffectView& effect, const AuditedFileView& file) const;
     /// The same as the last of all corrections.
     [[nodiscard]] std::string effect_last(const EffectView& effect, const AuditedFileView& file) const;
+    /// What correcting a finding alone does to E_n of the compared result, and to its U.
+    [[nodiscard]] std::string effect_on_score(const EffectView& effect, const AuditedFileView& file) const;
     /// What a missing contribution would have to be.
     [[nodiscard]] std::string missing_term(const MissingTermView& term) const;
     /// The clause, and that nobody held it against the document where that is so.

@@ -4,7 +4,7 @@ script under its own policy, and its filter.
 
     audit_page_test.py --pages PROGRAM      PROGRAM writes the pages into a folder: write_audit_pages
 
-Skipped (77) where Chromium or axe-core is missing: `apt-get install chromium`, and `npm ci` in tests/browser.
+Skipped (77) where Chromium or axe-core is missing: `scripts/setup test` installs both.
 """
 
 import argparse
@@ -65,7 +65,7 @@ def main():
     pages = parser.parse_args().pages
     chromium = shutil.which("chromium")
     if chromium is None or not AXE.exists():
-        print("skipped: chromium or axe-core is missing: apt-get install chromium, and npm ci in tests/browser")
+        print("skipped: chromium or axe-core is missing: scripts/setup test installs both")
         return SKIPPED
     problems = []
     with tempfile.TemporaryDirectory() as name:

@@ -91,6 +91,9 @@ TEST_F(AuditProgram, TheEndingOfAFileSaysItsForm) {
     const fs::path page = folder() / "page.html";
     (void)audit({example("paper_fixture_budget/budget.csv").string(), "-o", page.string(), "--language", "de"});
     EXPECT_NE(bytes_of(page).find("lang=\"de\""), std::string::npos);
+    EXPECT_NE(bytes_of(page).find("Größte zulässige Messabweichung als Standardunsicherheit verwendet"),
+              std::string::npos)
+        << "titles of rules are in the language of the page";
 }
 
 TEST_F(AuditProgram, AFolderIsAuditedFileByFile) {

@@ -85,6 +85,16 @@ TEST(BudgetOutcome, DecidesAndScores) {
     EXPECT_NEAR(*evaluate(budget).en, -70.0 / std::hypot(evaluate(budget).U, 40.0), 1e-12);
 }
 
+TEST(BudgetOutcome, ScoresThePointThatIsWorse) {
+    AuditedBudget budget = test::budget_of({test::row("a", 0.3)});
+    budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0};
+    budget.value = 1.0;
+    budget.reference = ComparedReference{.value = 0.5, .expanded_uncertainty = 0.8, .name = ""};
+    EXPECT_NEAR(evaluate(budget).en.value_or(0.0), 0.5, 1e-12);
+    budget.reference->largest_difference = difference_of_score(-0.7, 0.6, *budget.reference);
+    EXPECT_NEAR(evaluate(budget).en.value_or(0.0), -0.7, 1e-12);
+}
+
 TEST(BudgetOutcome, TakesKFromTheConvolution) {
     AuditedBudget budget = budget_of({row("limit", 1.0)});
     budget.rows[0].shape = Shape::rectangular;

@@ -68,6 +68,25 @@ TEST(RowFacts, ReadTheRest) {
     EXPECT_FALSE(row_saying("mean of s").averaged);
 }
 
+TEST(RowFacts, ReadSeriesOfReadings) {
+    const auto row = [](const std::string& comment) {
+        AuditedRow one;
+        one.comment = comment;
+        one.n = 3;
+        note_row_facts(one);
+        return one;
+    };
+    EXPECT_EQ(row("largest s of 9 points").group_sizes, std::vector<std::size_t>(9, 3));
+    EXPECT_EQ(row("größte s von 4 Tagen").group_sizes, std::vector<std::size_t>(4, 3));
+    EXPECT_TRUE(row("largest of all").group_sizes.empty());
+    EXPECT_TRUE(row("s of 9 points").group_sizes.empty());
+    const AuditedRow daily = row("spread of the daily s 0.10, 0.12 , 0.09; n = 3");
+    EXPECT_EQ(daily.group_deviations, (std::vector<double>{0.10, 0.12, 0.09}));
+    EXPECT_EQ(daily.group_sizes, std::vector<std::size_t>(3, 3));
+    EXPECT_TRUE(row("daily s of the balance").group_sizes.empty());
+    EXPECT_TRUE(row_saying("largest s of 9 points").group_sizes.empty()) << "nobody says how many readings each has";
+}
+
 TEST(RowFacts, KeepWhatIsSetAndLeaveLongTexts) {
     AuditedRow row;
     row.comment = "mean of 5";

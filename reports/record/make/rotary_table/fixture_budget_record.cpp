@@ -7,6 +7,16 @@
 
 namespace gumcert::reports {
 
+reports::EvaluationRecord record_of_fixture_budget(const jobs::RotaryTableJob& job,
+                                                   const gum::FixtureUncertainty& fixture,
+                                                   const std::vector<reports::InputFile>& files) {
+    jobs::BudgetJob budget = *job.fixture_budget_job;
+    budget.points =
+        gum::in_order_of_coordinates(std::move(budget.points), job.measurement.reflectors, job.fixture_budget_file);
+    budget.monte_carlo.reset();
+    return budget_record(budget, *fixture.budget, files, {}, "");
+}
+
 reports::FixtureBudget fixture_budget_record(const jobs::RotaryTableJob& job, const gum::FixtureUncertainty& fixture) {
     reports::FixtureBudget record;
     record.method = "stated";
@@ -22,13 +32,10 @@ reports::FixtureBudget fixture_budget_record(const jobs::RotaryTableJob& job, co
             "The square of 0.4 + 1.176·10⁻⁷ L is taken without its cross term."};
     } else if (fixture.budget) {
         const std::vector<std::string>& reflectors = job.measurement.reflectors;
-        jobs::BudgetJob budget = *job.fixture_budget_job;
-        budget.points = gum::in_order_of_coordinates(std::move(budget.points), reflectors, job.fixture_budget_file);
-        budget.monte_carlo.reset();
         record.method = "budget";
         record.file = job.fixture_budget_file;
         record.largest_coordinate = gum::fixture_coordinate_name(reflectors[fixture.largest / 3], fixture.largest % 3);
-        reports::EvaluationRecord of_budget = budget_record(budget, *fixture.budget, {}, {}, "");
+        reports::EvaluationRecord of_budget = record_of_fixture_budget(job, fixture, {});
         record.largest = std::move(of_budget.results[fixture.largest].budget);
         record.remarks.emplace_back(
             "The coordinates are correlated through the input quantities that their budgets have in common; the "

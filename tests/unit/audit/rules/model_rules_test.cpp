@@ -257,6 +257,18 @@ TEST(ModelRules, S15FindsSlipsOfAPowerOfTen) {
     EXPECT_TRUE(findings_of("S15", subject_of(difference)).empty());
 }
 
+TEST(ModelRules, S15FindsDaysDividedByMonths) {
+    AuditedRow drift = row("drift", 0.3);
+    drift.comment = "0.5 um/yr x days/365";
+    EXPECT_TRUE(findings_of("S15", subject_of(drift)).empty());
+    drift.comment = "0.5 um/yr x days/12";
+    const std::vector<AuditFinding> findings = findings_of("S15", subject_of(drift));
+    ASSERT_EQ(findings.size(), 1U);
+    AuditedBudget budget = subject_of(drift).budgets.front();
+    findings[0].correct(budget);
+    EXPECT_DOUBLE_EQ(budget.rows[0].used_u, 0.3 * 12.0 / 365.0);
+}
+
 TEST(ModelRules, S16KnowsOneContributionUnderTwoNames) {
     const auto two = [](const std::string& first, const std::string& second) {
         return budget_of({row(first, 0.3, 2.0), row(second, 0.3, 2.0)});

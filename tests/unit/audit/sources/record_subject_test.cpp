@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "audit/audit.h"
@@ -76,6 +77,58 @@ TEST(SubjectOfRecord, WhatCorrelationsAddStaysAsItIs) {
     const AuditSubject subject = subject_of(record, "record.json");
     EXPECT_NEAR(subject.budgets.front().correlation_variance, 0.36 - 0.25, 1e-12);
     EXPECT_NEAR(evaluate(subject.budgets.front()).u_c, 0.6, 1e-12);
+}
+
+/// A comparison at two points, E_n = −0.5 and 0.8; the reference has a budget in a file of the job.
+reports::EvaluationRecord compared() {
+    reports::EvaluationRecord record;
+    record.kind = "rotary_table";
+    record.job_json = R"({"reference_method": {"budget": "indicator.json"}})";
+    reports::InputFile file;
+    file.name = "indicator.json";
+    file.content = R"({"inputs": {"b": {"value": 0, "unit": "um", "u": 0.4, "note": "MPE 0.4 um"}}})";
+    record.job_files = {file};
+    reports::Comparison& comparison = record.comparison.emplace();
+    comparison.unit = "um";
+    comparison.reference_name = "indicator";
+    comparison.score_probability = 0.9545;
+    for (const double difference : {-0.5, 0.8}) {
+        reports::ComparisonPoint point;
+        point.value.number = difference;
+        point.reference_value.number = 0.0;
+        point.u = 0.3;
+        point.U.number = 0.6;
+        point.reference_u = 0.4;
+        point.reference_U.number = 0.8;
+        point.En.number = difference;
+        comparison.points.push_back(point);
+    }
+    comparison.reference_budget = {two_rows().results[0].budget[1]};
+    comparison.method_budget = {two_rows().results[0].budget[0]};
+    return record;
+}
+
+TEST(SubjectOfRecord, ReadsTheStatementsOfAReference) {
+    const AuditSubject subject = subject_of(compared(), "record.json");
+    ASSERT_EQ(subject.budgets.size(), 2U);
+    EXPECT_EQ(subject.budgets[1].name, "indicator");
+    EXPECT_EQ(subject.budgets[1].rows.at(0).origin, Origin::specification);
+    const AuditReport report = audit(subject, all_rules());
+    const auto mpe = std::find_if(report.findings.begin(), report.findings.end(),
+                                  [](const AuditFinding& finding) { return finding.rule == "U10"; });
+    ASSERT_NE(mpe, report.findings.end());
+    ASSERT_TRUE(mpe->effect && mpe->effect->alone.en);
+    EXPECT_NEAR(std::abs(*mpe->effect->alone.en), 0.8 / std::hypot(0.6, 0.8 / std::sqrt(3.0)), 1e-9);
+}
+
+TEST(SubjectOfRecord, ComparesAtThePointThatIsAskedFor) {
+    const AuditSubject largest = subject_of(compared(), "record.json");
+    EXPECT_EQ(largest.budgets[0].reference->point, 1U);
+    EXPECT_FALSE(largest.budgets[0].reference->largest_difference);
+    EXPECT_NEAR(evaluate(largest.budgets[0]).en.value_or(0.0), 0.8, 1e-9);
+    const AuditSubject first = subject_of(compared(), "record.json", 0);
+    EXPECT_EQ(first.budgets[0].value, -0.5);
+    EXPECT_NEAR(evaluate(first.budgets[0]).en.value_or(0.0), 0.8, 1e-9) << "of the other point";
 }
 
 TEST(SubjectOfRecord, ComponentsAreRowsOfTheirOwn) {

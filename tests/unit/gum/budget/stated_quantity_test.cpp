@@ -52,6 +52,26 @@ TEST(StatedQuantity, OfObservationsIsTheirMean) {
     EXPECT_EQ(code_of<InputError>([] { (void)state_observations({1.0}); }), "GC-GUM-0021");
 }
 
+TEST(StatedQuantity, IsScaledAboutItsEstimate) {
+    for (const Distribution& distribution :
+         {Distribution::normal(3.0, 0.4), Distribution::uniform(-2.0, 0.5),
+          Distribution{.kind = DistributionKind::gamma, .location = 1.0, .scale = 0.2, .shape = 3.0},
+          Distribution{.kind = DistributionKind::lognormal, .location = -1.0, .scale = 2.0, .shape = 0.3}}) {
+        const StatedQuantity stated = state_distribution(distribution);
+        for (const double factor : {0.25, 1.0, 3.0}) {
+            const StatedQuantity scaled = with_scaled_uncertainty(stated, factor);
+            EXPECT_EQ(scaled.value, stated.value);
+            EXPECT_NEAR(scaled.u, factor * stated.u, 1e-15);
+            EXPECT_NEAR(expectation(scaled.distribution), stated.value, 1e-12);
+            EXPECT_NEAR(standard_deviation(scaled.distribution), factor * stated.u, 1e-12);
+        }
+        const StatedQuantity exact = with_scaled_uncertainty(stated, 0.0);
+        EXPECT_EQ(exact.u, 0.0);
+        EXPECT_EQ(exact.distribution.kind, DistributionKind::constant);
+        EXPECT_EQ(exact.distribution.location, stated.value);
+    }
+}
+
 TEST(StatedQuantity, OfAConstantHasNoUncertainty) {
     const StatedQuantity constant = state_constant(299792458.0);
     EXPECT_EQ(constant.u, 0.0);

@@ -57,6 +57,19 @@ TEST(AuditJson, HasTheFormOfTheContract) {
     EXPECT_FALSE(all.contains("files"));
 }
 
+TEST(AuditJson, TellsOfTheScoreWhereTheEffectIsOnAnotherResult) {
+    audit::AuditReport report = test::sample_audit();
+    EXPECT_FALSE(json::parse(json_text({report})).at("findings").at(0).contains("effect_on_score"));
+    report.findings[0].effect_on_score = report.findings[0].effect;
+    report.findings[0].effect_on_score->alone.en = 0.25;
+    const json all = json::parse(json_text({report}));
+    const json& score = all.at("findings").at(0).at("effect_on_score");
+    EXPECT_EQ(names_of(score), (std::set<std::string>{"alone", "last", "result", "share"}));
+    EXPECT_EQ(score.at("alone").at("En"), 0.25);
+    EXPECT_EQ(score.at("result"), all.at("findings").at(0).at("effect_on"));
+    EXPECT_EQ(test::JsonSchema("audit-1.schema.json").refusals(all), "");
+}
+
 TEST(AuditJson, InfiniteDegreesOfFreedomAreNull) {
     audit::AuditSubject subject;
     subject.name = "a.csv";

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "audit/rules/registry.h"
 #include "reports/forms/asset_files.h"
 #include "tests/unit/reports/document_text.h"
 
@@ -41,6 +44,30 @@ TEST_F(AuditWordsIn, SayAChangeInOneLine) {
               "U 0,50 → 0,62 (−24,0 %): U zu groß angegeben");
 }
 
+TEST_F(AuditWordsIn, HaveATitleOfTheirOwnForEveryRule) {
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        const AuditWords words = in(language);
+        std::map<std::string, std::string> rule_of_title;
+        for (const audit::Rule& rule : audit::all_rules()) {
+            const std::string english(rule.title);
+            const AuditSentence title = words.sentence(english);
+            EXPECT_FALSE(title.english) << rule.id << " " << language << ": " << title.text;
+            EXPECT_FALSE(title.text.empty()) << rule.id << " " << language;
+            const auto [other, is_new] = rule_of_title.emplace(title.text, rule.id);
+            EXPECT_TRUE(is_new) << rule.id << " has the title of " << other->second << " in " << language;
+        }
+        EXPECT_GE(rule_of_title.size(), 139U);
+    }
+}
+
+TEST_F(AuditWordsIn, KeepATitleOfTheEnglishWordsInEnglish) {
+    for (const audit::Rule& rule : audit::all_rules()) {
+        const AuditSentence title = in("en").sentence(std::string(rule.title));
+        EXPECT_EQ(title.text, rule.title);
+        EXPECT_FALSE(title.english) << rule.id;
+    }
+}
+
 TEST_F(AuditWordsIn, PrintWhatIsAbsentAsADash) {
     const AuditWords words = in("en");
     EXPECT_EQ(words.number(""), "–");
@@ -50,6 +77,23 @@ TEST_F(AuditWordsIn, PrintWhatIsAbsentAsADash) {
     EXPECT_EQ(words.verdict("OK"), "OK") << "as a file states it";
     EXPECT_EQ(words.interval({.number = {}, .low = "1.2", .high = "1.2"}), "1.2");
     EXPECT_EQ(words.interval({.number = {}, .low = "1.2", .high = "∞"}), "1.2 … ∞");
+}
+
+TEST_F(AuditWordsIn, SayTheScoreAlsoWhereItStays) {
+    AuditedFileView file;
+    file.results.resize(2);
+    file.results[1].name = "displacement";
+    file.results[1].unit = "µm";
+    EffectView effect;
+    effect.claimed = with_U("0.26", "", "0.50");
+    effect.alone = with_U("0.27", "", "0.50");
+    effect.change_alone = {.percent = "+3.8", .direction = "understated"};
+    effect.result = 1;
+    EXPECT_EQ(in("en").effect_on_score(effect, file),
+              "displacement: U 0.26 → 0.27\u00A0µm (+3.8 %): U understated; Eₙ 0.50 → 0.50");
+    effect.alone.En = "0.49";
+    EXPECT_EQ(in("de").effect_on_score(effect, file),
+              "displacement: U 0,26 → 0,27\u00A0µm (+3,8 %): U zu klein angegeben; Eₙ 0,50 → 0,49");
 }
 
 TEST_F(AuditWordsIn, SayWhatAMissingContributionWouldHaveToBe) {
