@@ -294,7 +294,7 @@ gum::OutputBound BudgetModel::tangent_bound(const std::vector<double>& x, const 
     if (!system_ || !low.allFinite() || !high.allFinite()) {
         return none;
     }
-    gum::OutputBound bound = gum::tangent_bounds(equations_, inputs_, at, low, high)[output_];
+    gum::OutputBound bound = gum::tangent_bound(equations_, inputs_, output_, at, low, high);
     if (bound.bound) {
         const auto converted = [this](double si) { return result_unit_.difference_from_si(si); };
         bound.bound = gum::TangentBound{.low = converted(bound.bound->low),

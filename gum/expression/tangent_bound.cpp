@@ -33,6 +33,8 @@ public:
     }
 
     [[nodiscard]] const std::vector<std::size_t>& steps() const { return needed_; }
+    /// Whether the root depends on a leaf.
+    [[nodiscard]] bool needs_leaf(std::size_t leaf) const { return is_needed_[leaf]; }
     [[nodiscard]] const Enclosure& output() const { return value_[root_]; }
 
     /// Values over leaves.
@@ -113,14 +115,14 @@ private:
         return step.operation == Operation::multiply && step.a == step.b;
     }
 
-    /// Steps that the root depends on, in their order.
+    /// Steps and leaves that the root depends on, steps in their order: a budget may have hundreds of results.
     void find_needed() {
-        std::vector<bool> needed(value_.size(), false);
-        needed[root_] = true;
+        is_needed_.assign(value_.size(), false);
+        is_needed_[root_] = true;
         for (std::size_t k = tape_.step_count(); k-- > 0;) {
-            if (needed[base_ + k]) {
-                needed[slot_of(tape_.steps()[k].a)] = true;
-                needed[slot_of(tape_.steps()[k].b)] = true;
+            if (is_needed_[base_ + k]) {
+                is_needed_[slot_of(tape_.steps()[k].a)] = true;
+                is_needed_[slot_of(tape_.steps()[k].b)] = true;
                 needed_.push_back(k);
             }
         }
@@ -130,6 +132,7 @@ private:
     const Tape& tape_;
     std::size_t base_, root_;
     std::vector<std::size_t> needed_;
+    std::vector<bool> is_needed_;  // by slot
     std::vector<Enclosure> value_, adjoint_, tangent_, adjoint_tangent_;
     std::vector<EnclosedStep> step_;
 };
@@ -142,16 +145,16 @@ Enclosure common(const Enclosure& a, const Enclosure& b) {
 /// The box, and the deviations from its centre.
 struct Box {
     std::vector<Enclosure> leaves, centre, deviation;
-    std::vector<std::size_t> moving;
+    std::vector<std::size_t> moving;  // of the leaves that the root depends on
 };
 
-Box box_of(const Eigen::VectorXd& x, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+Box box_of(const BoxedTape& tape, const Eigen::VectorXd& x, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
     Box box;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
         box.leaves.push_back({low(i), high(i)});
         box.centre.push_back(enclosure_of(x(i)));
         box.deviation.push_back(box.leaves.back() - box.centre.back());
-        if (low(i) < high(i)) {
+        if (low(i) < high(i) && tape.needs_leaf(static_cast<std::size_t>(i))) {
             box.moving.push_back(static_cast<std::size_t>(i));
         }
     }
@@ -259,38 +262,32 @@ std::string why_no_bound(const CompiledEquations& compiled, std::optional<std::s
 
 }  // namespace
 
-std::vector<TapeBound> tangent_bounds(const Tape& tape, const Eigen::VectorXd& x, const Eigen::VectorXd& low,
-                                      const Eigen::VectorXd& high) {
-    const Box box = box_of(x, low, high);
-    std::vector<TapeBound> bounds(tape.roots().size());
-    for (std::size_t root = 0; root < bounds.size(); ++root) {
-        BoxedTape boxed(tape, root);
-        if (boxed.steps().size() * box.moving.size() > k_largest_bounded_model) {
-            continue;
-        }
-        if (const std::optional<std::size_t> step = boxed.partials(box.leaves)) {
-            bounds[root].step = step;
-            continue;
-        }
-        const Enclosure remainder = remainder_over(boxed, box);
-        if (remainder.is_finite()) {
-            bounds[root].bound =
-                TangentBound{.low = remainder.low, .high = remainder.high, .certain = certain_remainder(boxed, box)};
-        }
+TapeBound tangent_bound(const Tape& tape, std::size_t root, const Eigen::VectorXd& x, const Eigen::VectorXd& low,
+                        const Eigen::VectorXd& high) {
+    BoxedTape boxed(tape, root);
+    const Box box = box_of(boxed, x, low, high);
+    TapeBound result;
+    if (boxed.steps().size() * box.moving.size() > k_largest_bounded_model) {
+        return result;
     }
-    return bounds;
+    result.step = boxed.partials(box.leaves);
+    if (result.step) {
+        return result;
+    }
+    const Enclosure remainder = remainder_over(boxed, box);
+    if (remainder.is_finite()) {
+        result.bound =
+            TangentBound{.low = remainder.low, .high = remainder.high, .certain = certain_remainder(boxed, box)};
+    }
+    return result;
 }
 
-std::vector<OutputBound> tangent_bounds(std::span<const EquationText> equations, std::span<const InputSymbol> inputs,
-                                        const Eigen::VectorXd& x, const Eigen::VectorXd& low,
-                                        const Eigen::VectorXd& high) {
+OutputBound tangent_bound(std::span<const EquationText> equations, std::span<const InputSymbol> inputs,
+                          std::size_t output, const Eigen::VectorXd& x, const Eigen::VectorXd& low,
+                          const Eigen::VectorXd& high) {
     const CompiledEquations compiled = compile_equations(equations, inputs, {}, {}, {});
-    const std::vector<TapeBound> bounds = tangent_bounds(compiled.tape, x, low, high);
-    std::vector<OutputBound> outputs;
-    for (const TapeBound& bound : bounds) {
-        outputs.push_back({.bound = bound.bound, .why_not = bound.bound ? "" : why_no_bound(compiled, bound.step)});
-    }
-    return outputs;
+    const TapeBound bound = tangent_bound(compiled.tape, output, x, low, high);
+    return {.bound = bound.bound, .why_not = bound.bound ? "" : why_no_bound(compiled, bound.step)};
 }
 
 }  // namespace gumcert::gum

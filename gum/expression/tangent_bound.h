@@ -28,7 +28,7 @@ struct TapeBound {
     std::optional<std::size_t> step;  ///< none beside no bound: the sum of all of them is not finite
 };
 
-/// Bounds of all outputs of a tape without residuals.
+/// The bound of one output of a tape without residuals.
 ///
 /// Taylor's theorem with the remainder of Lagrange: f(x) − f(x0) − J (x − x0) = ½ Σ_ij H_ij(ξ) d_i d_j for a ξ between x0
 /// and x. The Hessian is enclosed over the whole box by the rules of derivation in interval arithmetic
@@ -36,22 +36,24 @@ struct TapeBound {
 /// outside. `certain` is the largest |f − tangent| that is sure at the ends of each input alone, and at the two points
 /// x ± V c/u_r where the tangent changes by u_r: c the slope, r half the box, V = diag(r²), u_r² = cᵀ V c. With r = k u
 /// these are the ends of the coverage interval, where a normal distribution is densest.
+/// \param root       position of the output
 /// \param x          centre, n leaves
 /// \param low, high  the box, low ≤ x ≤ high; a leaf with low = high does not vary
-[[nodiscard]] std::vector<TapeBound> tangent_bounds(const Tape& tape, const Eigen::VectorXd& x,
-                                                    const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+[[nodiscard]] TapeBound tangent_bound(const Tape& tape, std::size_t root, const Eigen::VectorXd& x,
+                                      const Eigen::VectorXd& low, const Eigen::VectorXd& high);
 
 /// The bound of one output, or why there is none, as a phrase.
 struct OutputBound {
     std::optional<TangentBound> bound;  ///< in coherent SI
     std::string why_not;                ///< "" where there is one
 };
-/// Bounds of all outputs of explicit equations, in the order of EquationSystem::compile().
+/// The bound of one output of explicit equations.
+/// \param output     its position, in the order of EquationSystem::compile()
 /// \param low, high  a box about the estimates x, low ≤ x ≤ high; all in coherent SI
 /// \throws InputError  as EquationSystem::compile()
-[[nodiscard]] std::vector<OutputBound> tangent_bounds(std::span<const EquationText> equations,
-                                                      std::span<const InputSymbol> inputs, const Eigen::VectorXd& x,
-                                                      const Eigen::VectorXd& low, const Eigen::VectorXd& high);
+[[nodiscard]] OutputBound tangent_bound(std::span<const EquationText> equations, std::span<const InputSymbol> inputs,
+                                        std::size_t output, const Eigen::VectorXd& x, const Eigen::VectorXd& low,
+                                        const Eigen::VectorXd& high);
 
 /// Steps times leaves that vary, at most: more would take too long.
 inline constexpr std::size_t k_largest_bounded_model = 20'000'000;

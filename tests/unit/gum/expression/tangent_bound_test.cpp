@@ -18,7 +18,7 @@ OutputBound bound_of(const std::string& equation, const std::vector<InputSymbol>
                      const std::vector<double>& reach) {
     const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
     const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(reach.data(), static_cast<Eigen::Index>(reach.size()));
-    return tangent_bounds(equations({equation}), inputs, at, at - d, at + d).front();
+    return tangent_bound(equations({equation}), inputs, 0, at, at - d, at + d);
 }
 
 TEST(TangentBound, IsTightForASquareAndAProduct) {
@@ -45,6 +45,24 @@ TEST(TangentBound, IsNothingForALinearEquation) {
 TEST(TangentBound, LooksOnlyAtWhatVaries) {
     EXPECT_LT(bound_of("y = a/b", numbers({"a", "b"}), {1.0, 2.0}, {0.5, 0.0}).bound->largest(), 1e-300);
     EXPECT_GT(bound_of("y = a/b", numbers({"a", "b"}), {1.0, 2.0}, {0.0, 0.5}).bound->largest(), 0.01);
+}
+
+TEST(TangentBound, IsThatOfTheResultAloneAmongManyResults) {
+    std::vector<InputSymbol> inputs = numbers({"a", "b"});
+    std::vector<std::string> texts{"y = a*b + a^2"};
+    for (int i = 0; i < 30; ++i) {
+        inputs.push_back(input("c" + std::to_string(i)));
+        texts.push_back("z" + std::to_string(i) + " = a*exp(c" + std::to_string(i) + ")");
+    }
+    const auto n = static_cast<Eigen::Index>(inputs.size());
+    const Eigen::VectorXd at = Eigen::VectorXd::Constant(n, 1.0), reach = Eigen::VectorXd::Constant(n, 0.25);
+    const OutputBound alone = tangent_bound(equations({texts.front()}), numbers({"a", "b"}), 0, at.head(2),
+                                            (at - reach).head(2), (at + reach).head(2));
+    const OutputBound among = tangent_bound(equations(texts), inputs, 0, at, at - reach, at + reach);
+    ASSERT_TRUE(alone.bound && among.bound);
+    EXPECT_EQ(among.bound->low, alone.bound->low);
+    EXPECT_EQ(among.bound->high, alone.bound->high);
+    EXPECT_EQ(among.bound->certain, alone.bound->certain);
 }
 
 TEST(TangentBound, SaysWhyThereIsNone) {
