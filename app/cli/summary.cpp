@@ -50,9 +50,9 @@ void print_results(const reports::EvaluationRecord& record) {
         print_reported(result);
         if (result.monte_carlo) {
             const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
-            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.printed.trials,
-                       monte_carlo.u ? monte_carlo.printed.u : "does not exist", monte_carlo.printed.symmetric[0],
-                       monte_carlo.printed.symmetric[1]);
+            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
+                       monte_carlo.u.number ? monte_carlo.u.text : "does not exist", monte_carlo.symmetric.text[0],
+                       monte_carlo.symmetric.text[1]);
             if (monte_carlo.validation) {
                 fmt::print("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
                                  : monte_carlo.validation->validated     ? "; law of propagation validated"

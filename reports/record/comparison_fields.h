@@ -7,11 +7,12 @@ namespace gumcert::reports {
 
 // Every struct of a comparison is described once, by a function `describe(archive, value)` as in
 // certificate/certificate_fields.h; reader, writer and schema of a record walk it. What an archive has in addition:
-//   a.added(key, member, R)   a key that a later release added: written always, may be missing where it is read
-//   a.summary(key, member)    an object keyed by direction
-//   a(key, Shown member, R)   the number, and its text in the object `printed`
-//   a.text(key, member)       a text of that object that has no number of its key
-//   a.text_added(key, …)      the same, and a number whose text may be missing where it is read
+//   a.added(key, member, R)             a key that a later release added: written always, may be missing where it is read
+//   a.summary(key, member)              an object keyed by direction
+//   a(key, Shown member, R)             the number, and its text under the same key of the object `printed`
+//   a.shown(key, text key, member, R)   the same, and the text has another key
+//   a.text(key, member)                 a text of that object, or several, that has no number of its key
+//   a.text_added(key, …)                the same, and a number whose text may be missing where it is read
 
 template <class Archive, certificate::Described<BiasLineSummary> Struct>
 void describe(Archive& a, Struct& r) {

@@ -64,11 +64,6 @@ void describe(Archive& a, Struct& r) {
     a("first_order_u", r.first_order_u, NumberRule::not_negative);
     a("u", r.u, NumberRule::not_negative);
     a("shift", r.shift);
-    a.group("printed", [&](auto& b) {
-        b("first_order_u", r.printed.first_order_u);
-        b("u", r.printed.u);
-        b("shift", r.printed.shift);
-    });
 }
 
 template <class Archive, certificate::Described<GufValidation> Struct>
@@ -80,11 +75,6 @@ void describe(Archive& a, Struct& r) {
     a("precise_enough", r.precise_enough);
     a("interval", r.interval, {"symmetric", "shortest"});
     a("digits", r.digits, NumberRule::positive);
-    a.group("printed", [&](auto& b) {
-        b("delta", r.printed.delta);
-        b("d_low", r.printed.d_low);
-        b("d_high", r.printed.d_high);
-    });
 }
 
 template <class Archive, certificate::Described<MonteCarloSummary> Struct>
@@ -108,13 +98,6 @@ void describe(Archive& a, Struct& r) {
         b("low", r.histogram_low);
         b("high", r.histogram_high);
         b("counts", r.histogram, NumberRule::not_negative);
-    });
-    a.group("printed", [&](auto& b) {
-        b("trials", r.printed.trials);
-        b("mean", r.printed.mean);
-        b("u", r.printed.u);
-        b("symmetric", r.printed.symmetric);
-        b("shortest", r.printed.shortest);
     });
 }
 
@@ -191,7 +174,6 @@ void describe(Archive& a, Struct& r) {
     a("correlation", r.correlation);
     a("file", r.file);
     a.added("method", r.method);
-    a.group("printed", [&](auto& b) { b("correlation", r.printed_correlation); });
 }
 
 template <class Archive, certificate::Described<CoverageRegion::SmallestRegion> Struct>
@@ -220,12 +202,12 @@ void describe(Archive& a, Struct& r) {
     a("from", r.from, {"law of propagation", "Monte Carlo"});
     a("nu", r.degrees_of_freedom, NumberRule::positive);
     a.group("ellipsoid", [&](auto& b) {
-        b("k_p", r.k_p, NumberRule::positive);
-        b("printed_k_p", r.printed.k_p);
+        b("k_p", r.k_p.number, NumberRule::positive);
+        b("printed_k_p", r.k_p.text);
     });
     a.group("parallelepiped", [&](auto& b) {
-        b("k_q", r.k_q, NumberRule::positive);
-        b("printed_k_q", r.printed.k_q);
+        b("k_q", r.k_q.number, NumberRule::positive);
+        b("printed_k_q", r.k_q.text);
     });
     a("smallest_region", r.smallest_region);
     a("validation", r.validation);
@@ -237,21 +219,16 @@ void describe(Archive& a, Struct& r) {
     a("unit", r.unit);
     a("value", r.value);
     a("u", r.u, NumberRule::not_negative);
+    a.text("unit", r.printed_unit);
     a.added("scaled_u", r.scaled_u, NumberRule::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("u", r.printed.u);
-        b("unit", r.printed.unit);
-        b.added("scaled_u", r.printed.scaled_u);
-    });
 }
 
 template <class Archive, certificate::Described<FitSummary::Regressor> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("unit", r.unit);
-    a("values", r.values);
-    a("printed", r.printed);
+    a("values", r.values.number);
+    a("printed", r.values.text);
 }
 
 template <class Archive, certificate::Described<FitSummary> Struct>
@@ -263,11 +240,14 @@ void describe(Archive& a, Struct& r) {
     a("covariance", r.covariance);
     a("correlation", r.correlation);
     a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
-    a("sum_of_squares", r.sum_of_squares, NumberRule::not_negative);
+    // The schema lists numbers and texts in orders of their own.
+    a("sum_of_squares", r.sum_of_squares.number, NumberRule::not_negative);
     a("residual_standard_deviation", r.residual_standard_deviation, NumberRule::not_negative);
-    a("r_squared", r.r_squared);
+    a.text("sum_of_squares", r.sum_of_squares.text);
+    a("r_squared", r.r_squared.number);
     a("condition_number", r.condition_number, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
+    a.text("r_squared", r.r_squared.text);
     a.added("consistency", r.consistency, {"", "consistent", "refuted", "overstated"});
     a("iterations", r.iterations, NumberRule::not_negative);
     a("covariance_scaled", r.covariance_scaled);
@@ -276,25 +256,19 @@ void describe(Archive& a, Struct& r) {
         b("x_unit", r.x_unit);
         b("y_name", r.y_name);
         b("y_unit", r.y_unit);
-        b("x", r.x);
-        b("y", r.y);
+        b("x", r.x.number);
+        b("y", r.y.number);
         b("fitted", r.fitted);
-        b("residual", r.residual);
-        b.added("u_x", r.u_x, NumberRule::not_negative);
-        b.added("u_y", r.u_y, NumberRule::not_negative);
+        b("residual", r.residual.number);
+        b.added("u_x", r.u_x.number, NumberRule::not_negative);
+        b.added("u_y", r.u_y.number, NumberRule::not_negative);
         b.added("regressors", r.regressors);
     });
-    a.group("printed", [&](auto& b) {
-        b("residual_standard_deviation", r.printed.residual_standard_deviation);
-        b("sum_of_squares", r.printed.sum_of_squares);
-        b("p_value", r.printed.p_value);
-        b("r_squared", r.printed.r_squared);
-        b.added("x", r.printed.x);
-        b.added("y", r.printed.y);
-        b.added("u_x", r.printed.u_x);
-        b.added("u_y", r.printed.u_y);
-        b.added("residual", r.printed.residual);
-    });
+    a.text_added("x", r.x.text);
+    a.text_added("y", r.y.text);
+    a.text_added("u_x", r.u_x.text);
+    a.text_added("u_y", r.u_y.text);
+    a.text_added("residual", r.residual.text);
 }
 
 template <class Archive, certificate::Described<OutlyingReading> Struct>
@@ -310,11 +284,6 @@ void describe(Archive& a, Struct& r) {
     a("value", r.value);
     a("G", r.G, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("G", r.printed.G);
-        b("p_value", r.printed.p_value);
-    });
 }
 
 template <class Archive, certificate::Described<ReadingsSummary> Struct>
@@ -332,15 +301,9 @@ void describe(Archive& a, Struct& r) {
     a.added("pooled_degrees_of_freedom", r.pooled_degrees_of_freedom, NumberRule::positive);
     a.added("pooled_F", r.pooled_F, NumberRule::not_negative);
     a("autocorrelation", r.autocorrelation);
-    a("autocorrelation_limit", r.autocorrelation_limit, NumberRule::not_negative);
+    a.text("r1", r.printed_r1);
+    a.shown("autocorrelation_limit", "limit", r.autocorrelation_limit, NumberRule::not_negative);
     a("dependent", r.dependent);
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("standard_deviation", r.printed.standard_deviation);
-        b("standard_deviation_of_mean", r.printed.standard_deviation_of_mean);
-        b("r1", r.printed.r1);
-        b("limit", r.printed.limit);
-    });
 }
 
 template <class Archive, certificate::Described<VarianceAnalysis> Struct>
@@ -358,26 +321,20 @@ void describe(Archive& a, Struct& r) {
     a("degrees_of_freedom_within", r.degrees_of_freedom_within, NumberRule::positive);
     a("mean_square_between", r.mean_square_between, NumberRule::not_negative);
     a("mean_square_within", r.mean_square_within, NumberRule::not_negative);
+    // The schema lists numbers and texts in orders of their own.
     a("F", r.F, NumberRule::not_negative);
-    a("p_value", r.p_value, NumberRule::probability);
+    a("p_value", r.p_value.number, NumberRule::probability);
     a("F_critical", r.F_critical, NumberRule::not_negative);
+    a.text("p_value", r.p_value.text);
     a("r_squared", r.r_squared);
-    a("standard_deviation_within", r.standard_deviation_within, NumberRule::not_negative);
-    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means, NumberRule::not_negative);
-    a("standard_deviation_between", r.standard_deviation_between, NumberRule::not_negative);
+    a.shown("standard_deviation_within", "within", r.standard_deviation_within, NumberRule::not_negative);
+    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means.number, NumberRule::not_negative);
+    a.shown("standard_deviation_between", "between", r.standard_deviation_between, NumberRule::not_negative);
+    a.text("group_means", r.standard_deviation_of_group_means.text);
+    a.text("mean_square", r.printed_mean_square);
     a("u_with_between_effect", r.u_with_between_effect, NumberRule::not_negative);
     a("u_without_between_effect", r.u_without_between_effect, NumberRule::not_negative);
     a("conclusion", r.conclusion, {"significant", "not significant"});
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("F", r.printed.F);
-        b("F_critical", r.printed.F_critical);
-        b("p_value", r.printed.p_value);
-        b("within", r.printed.within);
-        b("between", r.printed.between);
-        b("group_means", r.printed.group_means);
-        b("mean_square", r.printed.mean_square);
-    });
 }
 
 /// The keys of a stated value that have been in a record from the beginning.

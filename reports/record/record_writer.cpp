@@ -54,13 +54,24 @@ public:
 
     template <class Number>
     void operator()(const char* key, const Shown<Number>& v, Range range = Range::any) {
+        shown(key, key, v, range);
+    }
+
+    template <class Number>
+    void shown(const char* key, const char* text_key, const Shown<Number>& v, Range range = Range::any) {
         (*this)(key, v.number, range);
-        text(key, v.text);
+        text(text_key, v.text);
     }
 
     /// What documents print, in the object `printed`.
-    void text(const char* key, const std::string& v) { object["printed"][key] = v; }
-    void text_added(const char* key, const std::string& v) { text(key, v); }
+    template <class Text>
+    void text(const char* key, const Text& v) {
+        object["printed"][key] = v;
+    }
+    template <class Text>
+    void text_added(const char* key, const Text& v) {
+        text(key, v);
+    }
 
     /// A number whose text a later release added.
     template <class Number>

@@ -516,10 +516,9 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
             ++left_out;
             continue;
         }
-        exceptions.push_back({c.name, c.law.value, c.law.U, c.trials->printed.mean, c.trials->printed.u,
-                              c.trials->printed.symmetric[0], c.trials->printed.symmetric[1],
-                              c.trials->printed.shortest[0], c.trials->printed.shortest[1], c.law.unit,
-                              verdict_of(*c.trials, words)});
+        exceptions.push_back({c.name, c.law.value, c.law.U, c.trials->mean.text, c.trials->u.text,
+                              c.trials->symmetric.text[0], c.trials->symmetric.text[1], c.trials->shortest.text[0],
+                              c.trials->shortest.text[1], c.law.unit, verdict_of(*c.trials, words)});
     }
     if (groups.empty()) {
         builder.paragraph(words("sentence", "nothing_compared"));

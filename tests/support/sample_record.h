@@ -43,30 +43,26 @@ inline reports::StatedValue stated_value(double value, double u, const std::stri
 /// Monte Carlo of one quantity that agrees with the law of propagation, or does not.
 inline reports::MonteCarloSummary trials_of(double value, double u, bool validated = true, bool precise = true) {
     reports::MonteCarloSummary m;
-    m.trials = 100000;
+    m.trials = {100000, "100000"};
     m.seed = 7;
-    m.mean = value;
-    m.u = u;
+    m.mean = {value, decimals(value, 3)};
+    m.u = {u, decimals(u, 3)};
     const double stretch = validated ? 2.0 : 2.3;
-    m.symmetric = {value - 2.0 * u, value + stretch * u};
-    m.shortest = {value - 2.01 * u, value + stretch * u};
+    m.symmetric.number = {value - 2.0 * u, value + stretch * u};
+    m.shortest.number = {value - 2.01 * u, value + stretch * u};
     m.numerical_error = {
         .mean = 0.003 * u, .u = 0.002 * u, .symmetric = {0.01 * u, 0.01 * u}, .shortest = {0.02 * u, 0.02 * u}};
     reports::GufValidation v;
-    v.delta = 0.05 * u;
-    v.d_low = 0.01 * u;
-    v.d_high = (stretch - 2.0) * u;
+    v.delta = {0.05 * u, "0.005"};
+    v.d_low = {0.01 * u, "0.002"};
+    v.d_high = {(stretch - 2.0) * u, validated ? "0.002" : "0.063"};
     v.validated = validated && precise;
     v.precise_enough = precise;
     v.interval = "symmetric";
     v.digits = 2;
-    v.printed = {.delta = "0.005", .d_low = "0.002", .d_high = validated ? "0.002" : "0.063"};
     m.validation = v;
-    m.printed.trials = "100000";
-    m.printed.mean = decimals(value, 3);
-    m.printed.u = decimals(u, 3);
-    m.printed.symmetric = {decimals(m.symmetric[0], 2), decimals(m.symmetric[1], 2)};
-    m.printed.shortest = {decimals(m.shortest[0], 2), decimals(m.shortest[1], 2)};
+    m.symmetric.text = {decimals(m.symmetric.number[0], 2), decimals(m.symmetric.number[1], 2)};
+    m.shortest.text = {decimals(m.shortest.number[0], 2), decimals(m.shortest.number[1], 2)};
     return m;
 }
 

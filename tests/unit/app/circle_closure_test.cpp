@@ -204,13 +204,14 @@ TEST(CircleClosureRecord, MonteCarloConfirmsTheLawOfPropagation) {
     for (std::size_t i = 0; i < 10; ++i) {
         const reports::Result& result = record.results[i];
         ASSERT_TRUE(result.monte_carlo) << result.name;
-        const double half_width = 0.5 * (result.monte_carlo->symmetric[1] - result.monte_carlo->symmetric[0]);
+        const double half_width =
+            0.5 * (result.monte_carlo->symmetric.number[1] - result.monte_carlo->symmetric.number[0]);
         EXPECT_NEAR(half_width, *result.U, 0.02 * *result.U) << result.name;
     }
     // The readings share one s: drawn with independent t-distributions, u would be too small by the root of ν/(ν − 2).
     const double nu = record.circle_closure->degrees_of_freedom;
     const EvaluationRecord alone = record_of({.steps = 5}, R"(, "monte_carlo": {"trials": 250000})");
-    EXPECT_NEAR(*alone.results[0].monte_carlo->u, alone.results[0].u * std::sqrt(nu / (nu - 2.0)),
+    EXPECT_NEAR(*alone.results[0].monte_carlo->u.number, alone.results[0].u * std::sqrt(nu / (nu - 2.0)),
                 0.01 * alone.results[0].u);
 }
 

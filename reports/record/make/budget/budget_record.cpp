@@ -299,13 +299,13 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
     }
     const Eigen::MatrixXd correlation = gum::correlation_matrix(covariance);
     out.matrix = rows_of(in_units(covariance, units));
-    out.correlation = rows_of(correlation);
+    out.correlation.number = rows_of(correlation);
     for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Eigen::Index j = 0; j < correlation.cols(); ++j) {
             row.push_back(gum::round_to_quantum(correlation(i, j), 3));
         }
-        out.printed_correlation.push_back(std::move(row));
+        out.correlation.text.push_back(std::move(row));
     }
     return out;
 }
@@ -318,8 +318,8 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
         const gum::MonteCarloRegions& from = *point.monte_carlo->regions;
         region.from = "Monte Carlo";
         region.coverage_probability = point.monte_carlo->coverage_probability;
-        region.k_p = from.ellipsoid_factor;
-        region.k_q = from.parallelepiped_factor;
+        region.k_p.number = from.ellipsoid_factor;
+        region.k_q.number = from.parallelepiped_factor;
         if (from.smallest_cells > 0) {
             region.smallest_region = {.volume = from.smallest_volume,
                                       .probability = from.smallest_probability,
@@ -342,11 +342,12 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
         const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
                               !(point.propagation.standard_uncertainty.minCoeff() > 0.0);
         if (!std::isnan(nu) && !singular && (std::isinf(nu) || nu > static_cast<double>(m) - 1.0)) {
-            region.k_p = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
+            region.k_p.number = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
         }
         // Each interval with probability 1 − (1 − p)/m, so that all hold together with p at least (Bonferroni).
         if (!std::isnan(nu)) {
-            region.k_q = gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
+            region.k_q.number =
+                gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
         }
     }
     if (point.joint_validation) {
@@ -363,11 +364,11 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
                              .d_k_p = from.factor_distance,
                              .validated = from.validated};
     }
-    if (region.k_p) {
-        region.printed.k_p = rounded(*region.k_p, 3);
+    if (region.k_p.number) {
+        region.k_p.text = rounded(*region.k_p.number, 3);
     }
-    if (region.k_q) {
-        region.printed.k_q = rounded(*region.k_q, 3);
+    if (region.k_q.number) {
+        region.k_q.text = rounded(*region.k_q.number, 3);
     }
     return region;
 }
@@ -433,13 +434,11 @@ void warn_of_lost_digits(const gum::BudgetResult& result, reports::EvaluationRec
 /// A number that does not exist stands nowhere.
 void without_missing_moments(const gum::BudgetOutputResult& from, reports::MonteCarloSummary& trials) {
     if (!from.has_mean) {
-        trials.mean.reset();
-        trials.printed.mean.clear();
+        trials.mean = {};
         trials.numerical_error.mean = 0.0;
     }
     if (!from.has_u) {
-        trials.u.reset();
-        trials.printed.u.clear();
+        trials.u = {};
         trials.numerical_error.u = 0.0;
         trials.numerical_error.mean = 0.0;
     }
@@ -567,14 +566,12 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
                 out.correlation = correlation_row(point, out.budget, job.inputs.size(), index, unit);
             }
             if (from.second_order_matters) {
-                reports::SecondOrder second;
-                second.first_order_u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
-                second.printed.first_order_u = rounded(second.first_order_u, reports::k_digits_of_u);
-                second.u = unit.difference_from_si(point.second_order->standard_uncertainty(index));
-                second.shift = unit.difference_from_si(point.second_order->shift(index));
-                second.printed.u = rounded(second.u, reports::k_digits_of_u);
-                second.printed.shift = rounded(second.shift, reports::k_digits_of_u);
-                out.second_order = second;
+                const auto shown = [&](double si) {
+                    return shown_significant(unit.difference_from_si(si), reports::k_digits_of_u);
+                };
+                out.second_order = {.first_order_u = shown(point.propagation.standard_uncertainty(index)),
+                                    .u = shown(point.second_order->standard_uncertainty(index)),
+                                    .shift = shown(point.second_order->shift(index))};
             }
             if (from.monte_carlo) {
                 out.monte_carlo = reports::monte_carlo_summary(

@@ -363,13 +363,13 @@ reports::ResultCovariance covariance_of(const CircleClosureJob& job, const gum::
     const Eigen::MatrixXd V = covariance_in_unit(job, result);
     const Eigen::MatrixXd correlation = gum::correlation_matrix(V);
     out.matrix = rows_of(V);
-    out.correlation = rows_of(correlation);
+    out.correlation.number = rows_of(correlation);
     for (Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Index j = 0; j < correlation.cols(); ++j) {
             row.push_back(gum::round_to_quantum(correlation(i, j), 3));
         }
-        out.printed_correlation.push_back(std::move(row));
+        out.correlation.text.push_back(std::move(row));
     }
     return out;
 }

@@ -516,10 +516,10 @@ TEST(BudgetRecord, WriterRefusesPartsThatDoNotFitTogether) {
     r.results[0].U.reset();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
     r = test::sample_budget_record();
-    r.results[0].monte_carlo->u = std::numeric_limits<double>::infinity();
+    r.results[0].monte_carlo->u.number = std::numeric_limits<double>::infinity();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
     r = test::sample_two_results_record();
-    r.fits[0].y.pop_back();
+    r.fits[0].y.number.pop_back();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
 }
 

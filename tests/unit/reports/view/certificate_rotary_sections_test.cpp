@@ -170,10 +170,10 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     const auto rows = rows_of(view, "monte-carlo-exceptions");
     ASSERT_EQ(rows.size(), 3U);
     const StatedValue& e = r.rotary->errors[3].errors[0];
-    EXPECT_THAT(rows[0], ElementsAre("EXA (30°)", e.printed.value, e.printed.U, e.monte_carlo->printed.mean,
-                                     e.monte_carlo->printed.u, e.monte_carlo->printed.symmetric[0],
-                                     e.monte_carlo->printed.symmetric[1], e.monte_carlo->printed.shortest[0],
-                                     e.monte_carlo->printed.shortest[1], "µm", "not validated"));
+    EXPECT_THAT(rows[0],
+                ElementsAre("EXA (30°)", e.printed.value, e.printed.U, e.monte_carlo->mean.text, e.monte_carlo->u.text,
+                            e.monte_carlo->symmetric.text[0], e.monte_carlo->symmetric.text[1],
+                            e.monte_carlo->shortest.text[0], e.monte_carlo->shortest.text[1], "µm", "not validated"));
     EXPECT_EQ(rows[1].back(), "not validated") << "what cannot be said is counted, not listed";
     EXPECT_THAT(rotary_text_of(r), HasSubstr("more trials decide it"));
     EXPECT_THAT(rotary_text_of(r), HasSubstr("Steps of a trial until it converged 2.31 on average, 4 at most"));

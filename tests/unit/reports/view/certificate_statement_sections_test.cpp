@@ -197,9 +197,9 @@ TEST(CertificateStatement, SaysWhichValuesEachSentenceHoldsFor) {
     EvaluationRecord record = of_values(
         {value("normal", "2.00", {}), value("convolution", "1.65", {}), interval, value("student_t", "2.13", 20.0)});
     MonteCarloSummary trials;
-    trials.trials = 1000000;
-    trials.symmetric = {0.6, 1.3};
-    trials.shortest = {0.7, 1.4};
+    trials.trials.number = 1000000;
+    trials.symmetric.number = {0.6, 1.3};
+    trials.shortest.number = {0.7, 1.4};
     record.results.front().monte_carlo = trials;
     const std::string text = statement(record);
     EXPECT_THAT(text, HasSubstr("(a) The reported expanded uncertainty"));

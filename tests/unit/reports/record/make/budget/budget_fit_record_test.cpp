@@ -47,28 +47,28 @@ TEST(BudgetFitRecord, OffersWhatScalingByTheResidualsGives) {
     const EvaluationRecord scaled =
         record_of_fit(jobs::test::read_budget(line(1.0, R"("scale_by_residuals": true, )")));
     for (std::size_t i = 0; i < 2; ++i) {
-        ASSERT_TRUE(refuted.fits[0].parameters[i].scaled_u);
-        EXPECT_NEAR(*refuted.fits[0].parameters[i].scaled_u, scaled.fits[0].parameters[i].u,
-                    1e-12 * scaled.fits[0].parameters[i].u);
-        EXPECT_FALSE(scaled.fits[0].parameters[i].scaled_u);
+        ASSERT_TRUE(refuted.fits[0].parameters[i].scaled_u.number);
+        EXPECT_NEAR(*refuted.fits[0].parameters[i].scaled_u.number, scaled.fits[0].parameters[i].u.number,
+                    1e-12 * scaled.fits[0].parameters[i].u.number);
+        EXPECT_FALSE(scaled.fits[0].parameters[i].scaled_u.number);
     }
 }
 
 TEST(BudgetFitRecord, LeavesOutWhatHasNoMeaning) {
     const EvaluationRecord both = record_of_fit(jobs::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)")));
-    EXPECT_FALSE(both.fits[0].r_squared);
-    EXPECT_EQ(both.fits[0].printed.r_squared, "");
-    EXPECT_TRUE(record_of_fit(jobs::test::read_budget(line(0.1))).fits[0].r_squared);
+    EXPECT_FALSE(both.fits[0].r_squared.number);
+    EXPECT_EQ(both.fits[0].r_squared.text, "");
+    EXPECT_TRUE(record_of_fit(jobs::test::read_budget(line(0.1))).fits[0].r_squared.number);
 }
 
 TEST(BudgetFitRecord, PrintsTheDataWithTheirUncertainties) {
     const reports::FitSummary fit =
         record_of_fit(jobs::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)"))).fits.at(0);
-    EXPECT_EQ(fit.printed.x, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
-    EXPECT_EQ(fit.printed.y, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
-    EXPECT_EQ(fit.printed.u_x, std::vector<std::string>(6, "0.050"));
-    EXPECT_EQ(fit.printed.u_y, std::vector<std::string>(6, "0.10"));
-    EXPECT_EQ(fit.printed.residual.size(), 6U);
+    EXPECT_EQ(fit.x.text, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
+    EXPECT_EQ(fit.y.text, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
+    EXPECT_EQ(fit.u_x.text, std::vector<std::string>(6, "0.050"));
+    EXPECT_EQ(fit.u_y.text, std::vector<std::string>(6, "0.10"));
+    EXPECT_EQ(fit.residual.text.size(), 6U);
 }
 
 /// Over generated fits: the row of a fit is what the variance has beyond the inputs, its data add up to it, and no

@@ -343,7 +343,7 @@ EvaluationRecord with_trials(double value, double low, double high) {
     record.results[0].coverage = "monte_carlo";
     reports::MonteCarloSummary m = test::trials_of(value, 0.25 * (high - low));
     m.validation.reset();
-    m.symmetric = {low, high};
+    m.symmetric.number = {low, high};
     record.results[0].monte_carlo = m;
     return record;
 }
