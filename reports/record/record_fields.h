@@ -905,12 +905,6 @@ void describe(Archive& a, Struct& r) {
     a("drift", r.drift);
     a("residual_rms", r.residual_rms, NumberRule::not_negative);
     a("misclosure", r.misclosure);
-    a.group("printed", [&](auto& b) {
-        b("zero", r.printed.zero);
-        b("drift", r.printed.drift);
-        b("residual_rms", r.printed.residual_rms);
-        b("misclosure", r.printed.misclosure);
-    });
 }
 
 template <class Archive, certificate::Described<ClosureResidualRow> Struct>
@@ -922,10 +916,6 @@ void describe(Archive& a, Struct& r) {
     a("reading", r.reading);
     a("residual", r.residual);
     a("redundancy", r.redundancy, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("reading", r.printed.reading);
-        b("residual", r.printed.residual);
-    });
 }
 
 template <class Archive, certificate::Described<ClosureTestRow> Struct>
@@ -936,12 +926,6 @@ void describe(Archive& a, Struct& r) {
     a("nu_reference", r.nu_reference, NumberRule::positive);
     a("p_value", r.p_value, NumberRule::probability);
     a("accepted", r.accepted);
-    a.group("printed", [&](auto& b) {
-        b("statistic", r.printed.statistic);
-        b("nu", r.printed.nu);
-        b("nu_reference", r.printed.nu_reference);
-        b("p_value", r.printed.p_value);
-    });
 }
 
 template <class Archive, certificate::Described<CircleClosure> Struct>
@@ -969,11 +953,7 @@ void describe(Archive& a, Struct& r) {
     a("tests", r.tests);
     a("series", r.series);
     a("residuals", r.residuals);
-    a.group("printed", [&](auto& b) {
-        b("residual_standard_deviation", r.printed.residual_standard_deviation);
-        b("u_reading", r.printed.u_reading);
-        b("unit", r.printed.unit);
-    });
+    a.text("unit", r.printed_unit);
 }
 
 template <class Archive, certificate::Described<EvaluationRecord> Struct>

@@ -105,7 +105,7 @@ TEST(CircleClosureRecord, StatesTheClosedFormWithItsBudget) {
     EXPECT_EQ(at45.quantity, "ECC");
     EXPECT_EQ(at45.point, "45");
     ASSERT_EQ(at45.budget.size(), 4U);
-    const double scatter = closure.residual_standard_deviation * std::sqrt(7.0) / 8.0;
+    const double scatter = closure.residual_standard_deviation.number * std::sqrt(7.0) / 8.0;
     const double seating = 0.05 * std::sqrt(7.0 / 8.0);
     const double drift = 0.04 / std::sqrt(3.0) * std::abs(1.0 - 3.5) / 8.0;  // (j − mean j)/n of a full turn
     EXPECT_NEAR(at45.budget[0].contribution, scatter, 1e-12);
