@@ -195,15 +195,16 @@ Plot temperature_plot(const Environment& environment, const Wording& words) {
     for (std::size_t i = 0; i < environment.stations.size(); ++i) {
         const StationEnvironment& s = environment.stations[i];
         const auto x = static_cast<double>(i + 1);
-        fixture.points.push_back({.x = x, .y = s.fixture_degC - environment.reference_degC, .U = 2.0 * s.u_fixture_K});
-        if (s.air_degC) {
-            air.points.push_back({.x = x, .y = *s.air_degC - environment.reference_degC, .U = 0.0});
+        fixture.points.push_back(
+            {.x = x, .y = s.fixture_degC.number - environment.reference_degC.number, .U = 2.0 * s.u_fixture_K.number});
+        if (s.air_degC.number) {
+            air.points.push_back({.x = x, .y = *s.air_degC.number - environment.reference_degC.number, .U = 0.0});
         }
     }
     PlotPanel panel{
         .heading = "",
         .y_label =
-            words.filled("plot", "temperature_axis", {{"reference", words.number(environment.printed.reference)}})
+            words.filled("plot", "temperature_axis", {{"reference", words.number(environment.reference_degC.text)}})
                 .first(),
         .series = {fixture},
         .limits = {}};

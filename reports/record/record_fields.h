@@ -632,19 +632,11 @@ void describe(Archive& a, Struct& r) {
     a("station", r.station);
     a("reflector", r.reflector);
     a("pass", r.pass);
-    a("angle_deg", r.angle_deg);
+    a.shown("angle_deg", "angle", r.angle_deg);
     a("estimate", r.estimate);
     a("unit", r.unit, {"um", "ppm", "1"});
     a("minimal_detectable", r.minimal_detectable, NumberRule::not_negative);
     a("suspicious", r.suspicious);
-    a.group("printed", [&](auto& b) {
-        b("test_value", r.printed.test_value);
-        b("critical_value", r.printed.critical_value);
-        b("p_value", r.printed.p_value);
-        b("angle", r.printed.angle);
-        b("estimate", r.printed.estimate);
-        b("minimal_detectable", r.printed.minimal_detectable);
-    });
 }
 
 template <class Archive, certificate::Described<GroupTestSummary> Struct>
@@ -652,7 +644,6 @@ void describe(Archive& a, Struct& r) {
     a("alpha", r.alpha, NumberRule::probability);
     a("scale", r.scale, NumberRule::not_negative);
     a("kinds", r.kinds);
-    a.group("printed", [&](auto& b) { b("scale", r.printed_scale); });
 }
 
 template <class Archive, certificate::Described<ReversalTestRow> Struct>
@@ -665,11 +656,6 @@ void describe(Archive& a, Struct& r) {
     a("spread", r.spread, NumberRule::not_negative);
     a("unit", r.unit, {"um", "arcsec"});
     a("depends_on_angle", r.depends_on_angle);
-    a.group("printed", [&](auto& b) {
-        b("test_value", r.printed.test_value);
-        b("p_value", r.printed.p_value);
-        b("spread", r.printed.spread);
-    });
 }
 
 template <class Archive, certificate::Described<ReversalModel> Struct>
@@ -710,12 +696,7 @@ void describe(Archive& a, Struct& r) {
     a("amplitude", r.amplitude, NumberRule::not_negative);
     a("u", r.u, NumberRule::not_negative);
     a("U", r.U, NumberRule::not_negative);
-    a("phase_deg", r.phase_deg);
-    a.group("printed", [&](auto& b) {
-        b("amplitude", r.printed.amplitude);
-        b("U", r.printed.U);
-        b("phase", r.printed.phase);
-    });
+    a.shown("phase_deg", "phase", r.phase_deg);
 }
 
 template <class Archive, certificate::Described<HarmonicRow> Struct>
@@ -723,8 +704,7 @@ void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("unit", r.unit, {"um", "arcsec"});
     a("orders", r.orders);
-    a("rms_rest", r.rms_rest, NumberRule::not_negative);
-    a.group("printed", [&](auto& b) { b("rest", r.printed_rest); });
+    a.shown("rms_rest", "rest", r.rms_rest, NumberRule::not_negative);
 }
 
 template <class Archive, certificate::Described<ExcludedDistances> Struct>
@@ -742,41 +722,26 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<StationEnvironment> Struct>
 void describe(Archive& a, Struct& r) {
     a("station", r.station);
-    a("fixture_degC", r.fixture_degC);
-    a("u_fixture_K", r.u_fixture_K, NumberRule::not_negative);
-    a("air_degC", r.air_degC);
-    a("pressure_hPa", r.pressure_hPa);
-    a("humidity_percent", r.humidity_percent);
-    a("expansion_um", r.expansion_um);
-    a.group("printed", [&](auto& b) {
-        b("fixture", r.printed.fixture);
-        b("u_fixture", r.printed.u_fixture);
-        b("air", r.printed.air);
-        b("pressure", r.printed.pressure);
-        b("humidity", r.printed.humidity);
-        b("expansion", r.printed.expansion);
-    });
+    a.shown("fixture_degC", "fixture", r.fixture_degC);
+    a.shown("u_fixture_K", "u_fixture", r.u_fixture_K, NumberRule::not_negative);
+    a.shown("air_degC", "air", r.air_degC);
+    a.shown("pressure_hPa", "pressure", r.pressure_hPa);
+    a.shown("humidity_percent", "humidity", r.humidity_percent);
+    a.shown("expansion_um", "expansion", r.expansion_um);
 }
 
 template <class Archive, certificate::Described<Environment> Struct>
 void describe(Archive& a, Struct& r) {
-    a("reference_degC", r.reference_degC);
-    a("expansion_per_K", r.expansion_per_K);
-    a("u_expansion_per_K", r.u_expansion_per_K, NumberRule::not_negative);
-    a("largest_distance_mm", r.largest_distance_mm, NumberRule::not_negative);
+    a.shown("reference_degC", "reference", r.reference_degC);
+    a.shown("expansion_per_K", "expansion", r.expansion_per_K);
+    a.shown("u_expansion_per_K", "u_expansion", r.u_expansion_per_K, NumberRule::not_negative);
+    a.shown("largest_distance_mm", "largest_distance", r.largest_distance_mm, NumberRule::not_negative);
     a("largest_share", r.largest_share);
     a("stations", r.stations);
-    a.group("printed", [&](auto& b) {
-        b("reference", r.printed.reference);
-        b("expansion", r.printed.expansion);
-        b("u_expansion", r.printed.u_expansion);
-        b("largest_distance", r.printed.largest_distance);
-        b("largest_share", r.printed.largest_share);
-        b("lowest", r.printed.lowest);
-        b("highest", r.printed.highest);
-        b("least_expansion", r.printed.least_expansion);
-        b("most_expansion", r.printed.most_expansion);
-    });
+    a.text("lowest", r.printed_lowest);
+    a.text("highest", r.printed_highest);
+    a.text("least_expansion", r.printed_least_expansion);
+    a.text("most_expansion", r.printed_most_expansion);
 }
 
 template <class Archive, certificate::Described<InputFile> Struct>

@@ -44,6 +44,10 @@ Shown<double> shown_to_quantum(double number, int decimals) {
     return {number, gum::round_to_quantum(number, decimals)};
 }
 
+Shown<double> shown_share(double share) {
+    return {share, gum::percent(share)};
+}
+
 std::optional<double> finite_or_none(double value) {
     return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }

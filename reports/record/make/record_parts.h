@@ -42,6 +42,8 @@ inline constexpr int k_digits_of_u = 2;
 [[nodiscard]] Shown<double> shown_significant(double number, int digits);
 /// A number and its text with so many decimals.
 [[nodiscard]] Shown<double> shown_to_quantum(double number, int decimals);
+/// A share, [1], and its text in percent.
+[[nodiscard]] Shown<double> shown_share(double share);
 
 /// Degrees of freedom as a record holds them: none stands for infinite, or for none that can be stated.
 [[nodiscard]] std::optional<double> finite_or_none(double value);

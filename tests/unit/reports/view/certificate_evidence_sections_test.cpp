@@ -66,7 +66,7 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
 TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     EvaluationRecord record = record_with_evidence();
     GroupTestRow drift = test::sample_group_test("drift", true);
-    drift.station = drift.pass = drift.printed.minimal_detectable = "";
+    drift.station = drift.pass = drift.minimal_detectable.text = "";
     GroupTestRow point = test::sample_group_test("reflector", false);
     point.station = point.pass = "";
     point.reflector = "R3";
