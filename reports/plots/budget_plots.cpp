@@ -61,11 +61,11 @@ BarPlot share_plot(const Result& result, const Wording& words, const std::string
                  .bars = {}};
     for (const BudgetRow& row : result.budget) {
         plot.bars.push_back(
-            {shortened(printable(row.input), k_label), 100.0 * row.share, words.number(row.printed.share).first()});
+            {shortened(printable(row.input), k_label), 100.0 * row.share.number, words.number(row.share.text).first()});
     }
     if (result.correlation) {
-        plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share,
-                             words.number(result.correlation->printed.share).first()});
+        plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share.number,
+                             words.number(result.correlation->share.text).first()});
     }
     std::stable_sort(plot.bars.begin(), plot.bars.end(),
                      [](const ShareBar& a, const ShareBar& b) { return std::abs(a.share) > std::abs(b.share); });

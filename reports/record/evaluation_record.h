@@ -48,34 +48,29 @@ struct ReportedResult {
 /// One row of an uncertainty budget (JCGM 100:2008, 7.2.7; layout of table H.1).
 struct BudgetRow {
     std::string input;
-    std::optional<double> value;  ///< estimate, in `unit`; none where the row stands for many input quantities
+    /// Estimate, in `unit`, and its text without it; none where the row stands for many input quantities
+    Shown<std::optional<double>> value = {};
     std::string unit;
-    double u = 0.0;            ///< standard uncertainty (of one typical quantity of the row), in `unit`
-    std::optional<double> nu;  ///< degrees of freedom; none = infinite
-    std::string type;          ///< "A" or "B"
+    Shown<double> u = {};                  ///< standard uncertainty (of one typical quantity of the row), in `unit`
+    Shown<std::optional<double>> nu = {};  ///< degrees of freedom; none = infinite
+    std::string type;                      ///< "A" or "B"
     std::string distribution;
-    std::optional<double> sensitivity;  ///< none where the row stands for many input quantities
-    double contribution = 0.0;          ///< |c| u, in the unit of the result
-    double share = 0.0;                 ///< contribution² / u²
+    Shown<std::optional<double>> sensitivity = {};  ///< none where the row stands for many input quantities
+    Shown<double> contribution = {};                ///< |c| u, in the unit of the result
+    Shown<double> share = {};                       ///< contribution² / u²; its text in percent
     std::string source;
     std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
     /// "" for an input. "fit" for all parameters of a fit together, their covariances included; its components are
     /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
     /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure
     std::string role = {};
-    struct {
-        std::string value, u, nu, sensitivity, contribution, share;  ///< share in percent; value without its unit
-    } printed;
 };
 
 /// What the correlations of the inputs add to the variance of a result: 2 Σ c_i c_j u_i u_j r_ij, often negative.
 struct CorrelationRow {
-    double variance = 0.0;  ///< in the square of the unit of the result
-    double share = 0.0;     ///< variance / u²
-    struct {
-        std::string contribution;  ///< root of |variance| with its sign
-        std::string share;         ///< percent
-    } printed;
+    double variance = 0.0;                  ///< in the square of the unit of the result
+    std::string printed_contribution = {};  ///< root of |variance| with its sign
+    Shown<double> share = {};               ///< variance / u²; its text in percent
 };
 
 /// `results.NAME`

@@ -27,36 +27,25 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<BudgetRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("input", r.input);
-    a("value", r.value);
+    a.text_added("value", r.value);
     a("unit", r.unit);
     a("u", r.u, NumberRule::not_negative);
-    a("nu", r.nu, NumberRule::positive);
+    a.text_added("nu", r.nu, NumberRule::positive);
     a("type", r.type, {"A", "B"});
     a("distribution", r.distribution);
-    a("sensitivity", r.sensitivity);
+    a.text_added("sensitivity", r.sensitivity);
     a("contribution", r.contribution, NumberRule::not_negative);
     a("share", r.share, NumberRule::not_negative);
     a("source", r.source);
     a.added("components", r.components);
     a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
-    a.group("printed", [&](auto& b) {
-        b.added("value", r.printed.value);
-        b("u", r.printed.u);
-        b.added("nu", r.printed.nu);
-        b.added("sensitivity", r.printed.sensitivity);
-        b("contribution", r.printed.contribution);
-        b("share", r.printed.share);
-    });
 }
 
 template <class Archive, certificate::Described<CorrelationRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("variance", r.variance);
+    a.text("contribution", r.printed_contribution);
     a("share", r.share);
-    a.group("printed", [&](auto& b) {
-        b("contribution", r.printed.contribution);
-        b("share", r.printed.share);
-    });
 }
 
 template <class Archive, certificate::Described<SecondOrder> Struct>

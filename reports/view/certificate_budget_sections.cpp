@@ -436,14 +436,14 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
     return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
             : row.role == "scatter" ? words("label", "scatter_of_readings")
                                     : Text(row.input),
-            with_unit(row.printed.value, gum::unit_for_people(row.unit)),
-            with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
+            with_unit(row.value.text, gum::unit_for_people(row.unit)),
+            with_unit(row.u.text, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
             type_of(row),
-            row.printed.nu.empty() ? degrees_of_freedom(row.nu, words) : Text(row.printed.nu),
-            with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
-            bracketed(row.printed.contribution),
-            bracketed(row.printed.share)};
+            row.nu.text.empty() ? degrees_of_freedom(row.nu.number, words) : Text(row.nu.text),
+            with_unit(row.sensitivity.text, sensitivity_unit(result.unit, row.unit)),
+            bracketed(row.contribution.text),
+            bracketed(row.share.text)};
 }
 
 void budget(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
@@ -458,8 +458,8 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
         }
     }
     if (result.correlation) {
-        rows.push_back({words("label", "correlation"), "", "", "", "", "", "", result.correlation->printed.contribution,
-                        result.correlation->printed.share});
+        rows.push_back({words("label", "correlation"), "", "", "", "", "", "", result.correlation->printed_contribution,
+                        result.correlation->share.text});
         kinds.push_back(RowKind::plain);
     }
     const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;

@@ -364,8 +364,8 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
     Rows rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({source_name(row.input, words), source_name(row.source, words), row.type,
-                        distribution_name(row.distribution, words), degrees_of_freedom(row.nu, words), row.printed.u,
-                        gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
+                        distribution_name(row.distribution, words), degrees_of_freedom(row.nu.number, words),
+                        row.u.text, gum::unit_for_people(row.unit), row.contribution.text, row.share.text});
     }
     builder.table(id, caption,
                   {{words("label", "input"), ""},

@@ -28,17 +28,17 @@ inline reports::BudgetRow budget_row(const std::string& input, double value, con
                                      double sensitivity, double u_result) {
     reports::BudgetRow row;
     row.input = input;
-    row.value = value;
+    row.value.number = value;
     row.unit = unit;
-    row.u = u;
-    row.nu = nu;
+    row.u.number = u;
+    row.nu.number = nu;
     row.type = type;
     row.distribution = distribution;
-    row.sensitivity = sensitivity;
-    row.contribution = std::abs(sensitivity) * u;
-    row.share = std::pow(row.contribution / u_result, 2);
-    row.printed.contribution = decimals(row.contribution, row.contribution < 1.0 ? 4 : 1);
-    row.printed.share = decimals(100.0 * row.share, 1);
+    row.sensitivity.number = sensitivity;
+    row.contribution.number = std::abs(sensitivity) * u;
+    row.share.number = std::pow(row.contribution.number / u_result, 2);
+    row.contribution.text = decimals(row.contribution.number, row.contribution.number < 1.0 ? 4 : 1);
+    row.share.text = decimals(100.0 * row.share.number, 1);
     return row;
 }
 
@@ -72,42 +72,47 @@ inline reports::EvaluationRecord sample_budget_record() {
     l.printed = {.value = "50000838", .U = "93", .unit = "nm"};
     BudgetRow l_s = budget_row("l_s", 50000623.0, "nm", 25.0, 18.0, "B", "t", 1.0, l.u);
     l_s.source = "certificate of the standard, No. 4711";
-    l_s.printed.value = "50000623";
-    l_s.printed.u = "25";
-    l_s.printed.nu = "18";
-    l_s.printed.sensitivity = "1";
+    l_s.value.text = "50000623";
+    l_s.u.text = "25";
+    l_s.nu.text = "18";
+    l_s.sensitivity.text = "1";
     BudgetRow d = budget_row("d", 215.0, "nm", 9.7, 25.6, "A", "t", 1.0, l.u);
-    d.printed.value = "215.0";
-    d.printed.u = "9.7";
-    d.printed.nu = "25";
-    d.printed.sensitivity = "1";
+    d.value.text = "215.0";
+    d.u.text = "9.7";
+    d.nu.text = "25";
+    d.sensitivity.text = "1";
     const auto part = [&](const char* name, double value, double u, double nu, const char* type, const char* source) {
         BudgetRow row = budget_row(name, value, "nm", u, nu, type, "t", 1.0, l.u);
         row.source = source;
-        row.printed.value = decimals(value, 1);
-        row.printed.u = decimals(u, 1);
-        row.printed.nu = decimals(nu, 0);
-        row.printed.sensitivity = "1";
+        row.value.text = decimals(value, 1);
+        row.u.text = decimals(u, 1);
+        row.nu.text = decimals(nu, 0);
+        row.sensitivity.text = "1";
         return row;
     };
     d.components = {part("repeatability", 215.0, 5.8, 24.0, "A", "five readings"),
                     part("comparator, random", 0.0, 3.9, 5.0, "B", "certificate of the comparator"),
                     part("comparator, systematic", 0.0, 6.7, 8.0, "B", "certificate of the comparator")};
     BudgetRow alpha_s = budget_row("alpha_s", 11.5e-6, "1/K", 1.2e-6, {}, "B", "uniform", 0.0, l.u);
-    alpha_s.printed = {
-        .value = "1.15E-5", .u = "1.2E-6", .nu = "", .sensitivity = "0", .contribution = "0", .share = "0.0"};
+    alpha_s.value.text = "1.15E-5";
+    alpha_s.u.text = "1.2E-6";
+    alpha_s.sensitivity.text = "0";
+    alpha_s.contribution.text = "0";
     BudgetRow d_alpha = budget_row("d_alpha", 0.0, "1/K", 0.58e-6, 50.0, "B", "uniform", 5000062.3, l.u);
-    d_alpha.printed.value = "0";
-    d_alpha.printed.u = "5.8E-7";
-    d_alpha.printed.nu = "50";
-    d_alpha.printed.sensitivity = "5.00E+6";
+    d_alpha.value.text = "0";
+    d_alpha.u.text = "5.8E-7";
+    d_alpha.nu.text = "50";
+    d_alpha.sensitivity.text = "5.00E+6";
     BudgetRow theta = budget_row("theta", -0.1, "degC", 0.41, {}, "B", "normal", 0.0, l.u);
-    theta.printed = {.value = "-0.10", .u = "0.41", .nu = "", .sensitivity = "0", .contribution = "0", .share = "0.0"};
+    theta.value.text = "-0.10";
+    theta.u.text = "0.41";
+    theta.sensitivity.text = "0";
+    theta.contribution.text = "0";
     BudgetRow d_theta = budget_row("d_theta", 0.0, "K", 0.029, 2.0, "B", "uniform", -575.0, l.u);
-    d_theta.printed.value = "0";
-    d_theta.printed.u = "0.029";
-    d_theta.printed.nu = "2";
-    d_theta.printed.sensitivity = "-575";
+    d_theta.value.text = "0";
+    d_theta.u.text = "0.029";
+    d_theta.nu.text = "2";
+    d_theta.sensitivity.text = "-575";
     l.budget = {l_s, d, alpha_s, d_alpha, theta, d_theta};
     l.second_order = SecondOrder{.first_order_u = {31.7, "32"}, .u = {33.8, "34"}, .shift = {0.0, "0"}};
 
@@ -177,30 +182,29 @@ inline reports::EvaluationRecord sample_two_results_record() {
         y.distribution = "t";
         y.printed = n.printed;
         BudgetRow V = budget_row("V", 4.999, "V", 0.0032, 4.0, "A", "t", n.c_V, n.u);
-        V.printed.value = "4.9990";
-        V.printed.u = "0.0032";
-        V.printed.nu = "4";
-        V.printed.sensitivity = decimals(n.c_V, 2);
+        V.value.text = "4.9990";
+        V.u.text = "0.0032";
+        V.nu.text = "4";
+        V.sensitivity.text = decimals(n.c_V, 2);
         V.source = "voltmeter 17";
         BudgetRow I = budget_row("I", 0.019661, "A", 0.0000095, 4.0, "A", "t", n.c_I, n.u);
-        I.printed.value = "0.0196610";
-        I.printed.u = "0.0000095";
-        I.printed.nu = "4";
-        I.printed.sensitivity = decimals(n.c_I, 1);
+        I.value.text = "0.0196610";
+        I.u.text = "0.0000095";
+        I.nu.text = "4";
+        I.sensitivity.text = decimals(n.c_I, 1);
         BudgetRow phi = budget_row("phi", 1.04446, "rad", 0.00075, 4.0, "A", "t", n.c_phi, n.u);
-        phi.printed.value = "1.04446";
-        phi.printed.u = "0.00075";
-        phi.printed.nu = "4";
-        phi.printed.sensitivity = decimals(n.c_phi, 2);
+        phi.value.text = "1.04446";
+        phi.u.text = "0.00075";
+        phi.nu.text = "4";
+        phi.sensitivity.text = decimals(n.c_phi, 2);
         y.budget = {V, I, phi};
         double sum = 0.0;
         for (const BudgetRow& row : y.budget) {
-            sum += row.contribution * row.contribution;
+            sum += row.contribution.number * row.contribution.number;
         }
         const double variance = n.u * n.u - sum;
-        y.correlation = CorrelationRow{.variance = variance,
-                                       .share = variance / (n.u * n.u),
-                                       .printed = {.contribution = n.correlation, .share = n.share}};
+        y.correlation = CorrelationRow{
+            .variance = variance, .printed_contribution = n.correlation, .share = {variance / (n.u * n.u), n.share}};
         r.results.push_back(y);
     }
     // The second result takes its coverage from elsewhere, so that a document needs two sentences.

@@ -136,16 +136,13 @@ BudgetRow joint_row(const std::string& name, const std::string& role, double var
     row.role = role;
     row.unit = unit.text();
     const double contribution_si = std::sqrt(std::max(0.0, variance_si));
-    row.contribution = unit.difference_from_si(contribution_si);
-    row.u = row.contribution;
-    row.nu = reports::finite_or_none(nu);
+    row.contribution = shown_significant(unit.difference_from_si(contribution_si), reports::k_digits_of_u);
+    row.u.number = row.contribution.number;
+    row.nu = shown_degrees_of_freedom(nu);
     row.type = is_scaled ? "A" : "B";
     row.distribution = is_scaled ? "student_t" : "normal";
     const double ratio = result_u > 0.0 ? contribution_si / result_u : 0.0;  // nothing to share of 0
-    row.share = ratio * ratio;
-    row.printed.nu = printed_degrees_of_freedom(nu);
-    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.share = shown_share(ratio * ratio);
     return row;
 }
 
@@ -202,14 +199,13 @@ BudgetRow fit_row(const gum::BudgetFit& fit, const engine::CurveFit& solved, con
             joint_row(parameter.name, "fit_parameter", sensitivity(i) * sensitivity(i) * solved.covariance(i, i), nu,
                       scaled, result_unit, result_u);
         part.unit = parameter.unit.text();
-        part.value = parameter.unit.from_si(solved.parameters(i));
-        part.u = parameter.unit.difference_from_si(u);
-        part.sensitivity = result_unit.difference_from_si(sensitivity(i) * parameter.unit.difference_to_si(1.0));
-        part.printed.value = printed_estimate(*part.value, part.u);
-        part.printed.u = rounded(part.u, reports::k_digits_of_u);
-        part.printed.sensitivity = rounded(*part.sensitivity, 4);
-        part.printed.contribution.clear();  // alone it says nothing: the parameters of a fit are correlated
-        part.printed.share.clear();
+        const double value = parameter.unit.from_si(solved.parameters(i));
+        part.u = shown_significant(parameter.unit.difference_from_si(u), reports::k_digits_of_u);
+        part.value = {value, printed_estimate(value, part.u.number)};
+        part.sensitivity =
+            shown_significant(result_unit.difference_from_si(sensitivity(i) * parameter.unit.difference_to_si(1.0)), 4);
+        part.contribution.text.clear();  // alone it says nothing: the parameters of a fit are correlated
+        part.share.text.clear();
         row.components.push_back(std::move(part));
     }
     return row;

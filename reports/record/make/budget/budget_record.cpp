@@ -77,19 +77,16 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     BudgetRow row;
     row.input = name;
     row.unit = unit.text();
-    row.value = unit.from_si(si.value);
-    row.u = unit.difference_from_si(si.u);
-    row.nu = reports::finite_or_none(si.nu);
-    row.sensitivity = result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0));
-    row.contribution = result_unit.difference_from_si(std::abs(si.sensitivity) * si.u);
+    const double value = unit.from_si(si.value);
+    const double u = unit.difference_from_si(si.u);
+    row.value = {value, printed_estimate(value, u)};
+    row.u = shown_significant(u, reports::k_digits_of_u);
+    row.nu = shown_degrees_of_freedom(si.nu);
+    row.sensitivity = shown_significant(result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0)), 4);
+    row.contribution =
+        shown_significant(result_unit.difference_from_si(std::abs(si.sensitivity) * si.u), reports::k_digits_of_u);
     const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
-    row.share = ratio * ratio;
-    row.printed.value = printed_estimate(*row.value, row.u);
-    row.printed.u = rounded(row.u, reports::k_digits_of_u);
-    row.printed.nu = printed_degrees_of_freedom(si.nu);
-    row.printed.sensitivity = rounded(*row.sensitivity, 4);
-    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.share = shown_share(ratio * ratio);
     return row;
 }
 
@@ -123,8 +120,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         row.source = first.source;
         row.distribution = std::string(gum::distribution_name(first.distribution.kind));
         if (input.components.size() == 1) {
-            row.value = first.stated_value;
-            row.printed.value = printed_estimate(first.stated_value, row.u);
+            row.value = {first.stated_value, printed_estimate(first.stated_value, row.u.number)};
         } else {
             row.distribution = "sum";
             for (const StatedQuantity& component : input.components) {
@@ -133,8 +129,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
                            .nu = component.degrees_of_freedom,
                            .sensitivity = sensitivity[i]};
                 BudgetRow part = budget_row(component.name, input.unit, numbers, unit, u);
-                part.value = component.stated_value;
-                part.printed.value = printed_estimate(component.stated_value, part.u);
+                part.value = {component.stated_value, printed_estimate(component.stated_value, part.u.number)};
                 part.type = reports::type_letter(component.evaluation);
                 part.source = component.source;
                 part.distribution = std::string(gum::distribution_name(component.distribution.kind));
@@ -198,27 +193,25 @@ std::optional<reports::CorrelationRow> correlation_row(const gum::BudgetPointRes
     const double u = unit.difference_from_si(point.propagation.standard_uncertainty(output));
     double shown = 0.0;
     for (const BudgetRow& row : rows) {
-        shown += row.contribution * row.contribution;
+        shown += row.contribution.number * row.contribution.number;
     }
     reports::CorrelationRow row;
     row.variance = u * u - shown;
     if (std::abs(row.variance) < 1e-13 * std::max(u * u, shown)) {
         row.variance = 0.0;
     }
-    row.share = u > 0.0 ? row.variance / (u * u) : 0.0;
+    row.share = shown_share(u > 0.0 ? row.variance / (u * u) : 0.0);
     const double root = std::sqrt(std::abs(row.variance));
-    row.printed.contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.printed_contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, reports::k_digits_of_u);
     return row;
 }
 
 /// Without a derivative no row has a sensitivity, and none has a share.
 void without_sensitivities(std::vector<BudgetRow>& rows) {
     for (BudgetRow& row : rows) {
-        row.sensitivity.reset();
-        row.printed.sensitivity.clear();
-        row.printed.contribution.clear();
-        row.printed.share.clear();
+        row.sensitivity = {};
+        row.contribution.text.clear();
+        row.share.text.clear();
         without_sensitivities(row.components);
     }
 }

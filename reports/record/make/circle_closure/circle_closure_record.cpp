@@ -79,25 +79,21 @@ reports::BudgetRow budget_row(const CircleClosureJob& job, const gum::CircleClos
     reports::BudgetRow row;
     row.input = of.name;
     row.unit = own.text();
-    row.u = own.difference_from_si(std::sqrt(of.covariance.col(0).mean()));
-    row.nu = finite_or_none(of.degrees_of_freedom);
+    row.u = shown_significant(own.difference_from_si(std::sqrt(of.covariance.col(0).mean())), k_digits_of_u);
+    if (const std::optional<double> nu = finite_or_none(of.degrees_of_freedom)) {
+        row.nu = shown_to_quantum(*nu, 0);
+    }
     row.type = type_letter(of.evaluation);
     row.distribution = of.distribution;
-    row.contribution = job.unit.difference_from_si(contribution);
-    row.share = contribution * contribution / (u * u);
+    row.contribution = shown_significant(job.unit.difference_from_si(contribution), k_digits_of_u);
+    row.share = shown_share(contribution * contribution / (u * u));
     row.source = of.source;
     row.role = group == 0 ? "scatter" : "";
     if (of.size() == 1) {
-        row.value = own.from_si(of.value(0));
-        row.sensitivity =
-            job.unit.difference_from_si(result.propagation.jacobian(output, first)) / own.difference_from_si(1.0);
-        row.printed.value = rounded(*row.value, 4);
-        row.printed.sensitivity = rounded(*row.sensitivity, 4);
+        row.value = shown_significant(own.from_si(of.value(0)), 4);
+        row.sensitivity = shown_significant(
+            job.unit.difference_from_si(result.propagation.jacobian(output, first)) / own.difference_from_si(1.0), 4);
     }
-    row.printed.u = rounded(row.u);
-    row.printed.nu = row.nu ? gum::round_to_quantum(*row.nu, 0) : "";
-    row.printed.contribution = rounded(row.contribution);
-    row.printed.share = gum::percent(row.share);
     return row;
 }
 

@@ -79,20 +79,18 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
         row.input = group.name;
         const DocumentUnit input_unit = budget_unit(group.unit);
         row.unit = input_unit.record;
-        row.u = std::sqrt(variance.mean()) / input_unit.si;  // of one typical quantity of the group
-        row.nu = finite_or_none(group.degrees_of_freedom);
+        row.u =
+            shown_significant(std::sqrt(variance.mean()) / input_unit.si, 2);  // of one typical quantity of the group
+        row.nu.number = finite_or_none(group.degrees_of_freedom);
         row.type = type_letter(group.evaluation);
         row.distribution = group.distribution;
-        row.contribution = std::sqrt(propagation.budget[g].variance[output]) / unit.si;
-        row.share = propagation.budget[g].share[output];
+        row.contribution = shown_significant(std::sqrt(propagation.budget[g].variance[output]) / unit.si, 2);
+        row.share = shown_share(propagation.budget[g].share[output]);
         row.source = group.source;
         if (group.size() == 1) {
-            row.value = group.value[0] / input_unit.si;
-            row.sensitivity = uncertainty.sensitivity[g][output] * input_unit.si / unit.si;
+            row.value.number = group.value[0] / input_unit.si;
+            row.sensitivity.number = uncertainty.sensitivity[g][output] * input_unit.si / unit.si;
         }
-        row.printed.u = gum::round_significant(row.u, 2);
-        row.printed.contribution = gum::round_significant(row.contribution, 2);
-        row.printed.share = gum::percent(row.share);
         result.budget.push_back(std::move(row));
     }
     result.reported = reports::reported_result(result);

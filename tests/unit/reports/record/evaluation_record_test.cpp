@@ -410,7 +410,7 @@ TEST(BudgetRecord, ReadsBackToTheSameBytes) {
         EXPECT_EQ(to_canonical_json(record_from_json(text, "record.json")), text);
     }
     const EvaluationRecord again = record_from_json(to_canonical_json(test::sample_budget_record()), "x");
-    EXPECT_EQ(again.results[0].budget[1].components[2].printed.u, "6.7");
+    EXPECT_EQ(again.results[0].budget[1].components[2].u.text, "6.7");
     EXPECT_EQ(again.results[0].monte_carlo->histogram, test::sample_budget_record().results[0].monte_carlo->histogram);
     EXPECT_EQ(again.results[0].monte_carlo->numerical_error.shortest[1], 0.55);
 }

@@ -105,19 +105,19 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
         EXPECT_FALSE(z.correlation);
         const BudgetRow& fit = z.budget[1];
         ASSERT_EQ(fit.role, "fit");
-        EXPECT_NEAR(std::hypot(z.budget[0].contribution, fit.contribution), z.u, 1e-10 * z.u);
-        EXPECT_LE(fit.share, 1.0 + 1e-12);
+        EXPECT_NEAR(std::hypot(z.budget[0].contribution.number, fit.contribution.number), z.u, 1e-10 * z.u);
+        EXPECT_LE(fit.share.number, 1.0 + 1e-12);
         double squares = 0.0;
         std::size_t sources = 0;
         for (const BudgetRow& part : fit.components) {
             if (part.role == "fit_data") {
-                squares += part.contribution * part.contribution;
-                EXPECT_GT(part.contribution, 0.0);
+                squares += part.contribution.number * part.contribution.number;
+                EXPECT_GT(part.contribution.number, 0.0);
                 ++sources;
             }
         }
         EXPECT_EQ(sources, trial % 3 == 2 ? 2U : 1U);
-        EXPECT_NEAR(std::sqrt(squares), fit.contribution, 1e-10 * fit.contribution);
+        EXPECT_NEAR(std::sqrt(squares), fit.contribution.number, 1e-10 * fit.contribution.number);
         EXPECT_EQ(fit.components.size(), sources + (quadratic ? 3U : 2U));
     }
 }
@@ -126,7 +126,7 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
 TEST(BudgetFitRecord, SplitsTheVarianceByColumn) {
     const auto part_of = [](const std::string& data, std::size_t part) {
         const EvaluationRecord record = record_of_fit(jobs::test::read_budget(line(0.1, "", data)));
-        return record.results.at(0).budget.at(1).components.at(part).contribution;
+        return record.results.at(0).budget.at(1).components.at(part).contribution.number;
     };
     const double alone = part_of(R"("u_y": 0.1)", 0);
     EXPECT_NEAR(part_of(R"("u_y": 0.1, "u_x": 0.0001)", 0), alone, 1e-5 * alone);
@@ -146,7 +146,7 @@ TEST(BudgetFitRecord, ParametersAreResultsOfTheirData) {
         ASSERT_EQ(result.budget.size(), 1U) << result.name;
         const BudgetRow& row = result.budget[0];
         EXPECT_EQ(row.input, "f");
-        EXPECT_NEAR(row.contribution, result.u, 1e-12 * result.u);
+        EXPECT_NEAR(row.contribution.number, result.u, 1e-12 * result.u);
         ASSERT_EQ(row.components.size(), 3U);
         EXPECT_EQ(row.components[0].input, "y");
         EXPECT_EQ(row.components[1].input, "x");

@@ -147,7 +147,7 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
             for (std::size_t i = 0; i < inputs; ++i) {
                 const reports::BudgetRow& row = record.results.at(p).budget.at(i);
                 EXPECT_EQ(row.input, job.inputs[i].name);
-                EXPECT_NEAR(*row.value, gum::input_at(job, i, p).components[0].stated_value, 1e-9);
+                EXPECT_NEAR(*row.value.number, gum::input_at(job, i, p).components[0].stated_value, 1e-9);
             }
         }
     }

@@ -362,8 +362,8 @@ TEST(ReportedResult, IsThatOfTheLawForOutputsBesideOneWithoutDerivative) {
     EXPECT_EQ(e.record.results[0].reported.because, "no_derivative");
     EXPECT_EQ(e.record.results[1].reported.method, "law_of_propagation");
     EXPECT_NEAR(e.record.results[1].u, std::sqrt(2.0), 1e-12);
-    EXPECT_FALSE(e.record.results[0].budget.front().sensitivity) << "there is none";
-    EXPECT_TRUE(e.record.results[1].budget.front().sensitivity);
+    EXPECT_FALSE(e.record.results[0].budget.front().sensitivity.number) << "there is none";
+    EXPECT_TRUE(e.record.results[1].budget.front().sensitivity.number);
 }
 
 TEST(ReportedResult, StatesNoMomentThatDoesNotExist) {

@@ -177,7 +177,7 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
     EXPECT_THAT(all_remarks(record), HasSubstr("Both budgets name laser."));
     // Tables of the points with the largest uncertainty: B of the method.
     ASSERT_EQ(record.method_budget.size(), 2U);
-    EXPECT_EQ(record.method_budget[1].printed.u, "0.50");
+    EXPECT_EQ(record.method_budget[1].u.text, "0.50");
     EXPECT_EQ(record.reference_budget.size(), 2U);
 }
 
@@ -236,8 +236,8 @@ TEST(EvaluateMethods, TablesOfBudgetsAreInTheUnitOfTheComparison) {
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_NEAR(record.points[0].value.number, 10100.0, 1e-8);
     EXPECT_NEAR(*record.points[0].u, 500.0, 1e-9);
-    EXPECT_NEAR(record.method_budget[0].contribution, 400.0, 1e-9);
-    EXPECT_NEAR(record.method_budget[0].sensitivity.value(), 1000.0, 1e-9);
+    EXPECT_NEAR(record.method_budget[0].contribution.number, 400.0, 1e-9);
+    EXPECT_NEAR(record.method_budget[0].sensitivity.number.value(), 1000.0, 1e-9);
     EXPECT_NEAR(*record.summary.front().D_fail.number, *record.points[0].U_D.number, 1e-9);
 }
 
