@@ -240,7 +240,7 @@ void print_comparison(const reports::EvaluationRecord& record) {
         return;
     }
     if (record.comparison->form == "laboratories") {
-        print_laboratories(*record.comparison, record.printed_coverage);
+        print_laboratories(*record.comparison, record.coverage_probability.text);
     } else {
         print_methods(*record.comparison);
     }
@@ -248,7 +248,7 @@ void print_comparison(const reports::EvaluationRecord& record) {
 
 void print_rotary_table(const reports::EvaluationRecord& record) {
     const reports::RotaryTable& rotary = *record.rotary;
-    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.printed_coverage);
+    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
     for (const reports::Result& result : record.results) {
         fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
                    result.printed.unit, result.description);
@@ -260,8 +260,8 @@ void print_rotary_table(const reports::EvaluationRecord& record) {
         fmt::print("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
     fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
-               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,
-               rotary.adjustment.degrees_of_freedom, rotary.adjustment.printed.p_value);
+               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
+               rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
     std::size_t removed = 0;
     for (const reports::FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;

@@ -116,8 +116,8 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<ResultWeight> Struct>
 void describe(Archive& a, Struct& r) {
     a("participant", r.participant);
-    a("weight", r.weight);
-    a("printed", r.printed);
+    a("weight", r.weight.number);
+    a("printed", r.weight.text);
 }
 
 template <class Archive, certificate::Described<ComparisonItemEvaluation> Struct>
@@ -242,8 +242,8 @@ void describe(Archive& a, Struct& r) {
     a("first", r.first);
     a("second", r.second);
     a("covariance", r.covariance);
-    a("correlation", r.correlation);
-    a("printed_correlation", r.printed_correlation);
+    a("correlation", r.correlation.number);
+    a("printed_correlation", r.correlation.text);
 }
 
 template <class Archive, certificate::Described<ComparisonPoint> Struct>
@@ -369,8 +369,8 @@ void describe(Archive& a, Struct& r) {
     a.added("shared_sources", r.shared_sources);
     a.added("audit_finding", r.audit_finding);
     a.added("published_source", r.published_source);
-    a.added("tolerance", r.tolerance, certificate::NumberRule::not_negative);
-    a.added("printed_tolerance", r.printed_tolerance);
+    a.added("tolerance", r.tolerance.number, certificate::NumberRule::not_negative);
+    a.added("printed_tolerance", r.tolerance.text);
     a.added("items", r.items);
     a.added("items_without_result", r.items_without_result);
     a.added("languages", r.languages);

@@ -85,8 +85,8 @@ void check_rotary(const RotaryTable& r, const RecordBreach& report) {
     }
     for (std::size_t i = 0; i < r.budget_summary.size(); ++i) {
         const std::string at = "/budget_summary/" + std::to_string(i);
-        length(at + "/shares", r.budget_summary[i].shares.size(), r.budget_sources.size(), "one share a source");
-        length(at + "/printed/shares", r.budget_summary[i].printed_shares.size(), r.budget_sources.size(),
+        length(at + "/shares", r.budget_summary[i].shares.number.size(), r.budget_sources.size(), "one share a source");
+        length(at + "/printed/shares", r.budget_summary[i].shares.text.size(), r.budget_sources.size(),
                "one share a source");
     }
     for (std::size_t i = 0; i < r.stations.size(); ++i) {
@@ -124,8 +124,8 @@ void check_rotary(const RotaryTable& r, const RecordBreach& report) {
     for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
         symmetric("/reflectors/" + std::to_string(i) + "/covariance_mm2", r.reflectors[i].covariance_mm2);
     }
-    if (const GlobalTest& test = r.adjustment.global_test; test.lower > test.upper) {
-        report("/adjustment/global_test/lower", record_number(test.lower), "must not be above the upper limit");
+    if (const GlobalTest& test = r.adjustment.global_test; test.lower.number > test.upper.number) {
+        report("/adjustment/global_test/lower", record_number(test.lower.number), "must not be above the upper limit");
     }
     std::set<std::pair<StatedGroup, std::string>> names;
     for (const auto& place : stated_values(r)) {

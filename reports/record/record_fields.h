@@ -413,10 +413,6 @@ void describe(Archive& a, Struct& r) {
     a("rms_u", r.rms_u, NumberRule::not_negative);
     a("unit", r.unit);
     a("shares", r.shares, NumberRule::any);
-    a.group("printed", [&](auto& b) {
-        b("rms_u", r.printed_rms_u);
-        b("shares", r.printed_shares);
-    });
 }
 
 template <class Archive, certificate::Described<GlobalTest> Struct>
@@ -426,10 +422,6 @@ void describe(Archive& a, Struct& r) {
     a("upper", r.upper, NumberRule::not_negative);
     a("accepted", r.accepted);
     a("meaning", r.meaning);
-    a.group("printed", [&](auto& b) {
-        b("lower", r.printed_lower);
-        b("upper", r.printed_upper);
-    });
 }
 
 template <class Archive, certificate::Described<AdjustmentSummary> Struct>
@@ -441,20 +433,15 @@ void describe(Archive& a, Struct& r) {
     a("iterations", r.iterations);
     a("chi_square", r.chi_square, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
+    a.text("variance_factor", r.variance_factor.a_posteriori.text);
     a("condition_number", r.condition_number, NumberRule::not_negative);
     a.group("variance_factor", [&](auto& b) {
         b("a_priori", r.variance_factor.a_priori, NumberRule::not_negative);
-        b("a_posteriori", r.variance_factor.a_posteriori, NumberRule::not_negative);
+        b("a_posteriori", r.variance_factor.a_posteriori.number, NumberRule::not_negative);
         b("used", r.variance_factor.used, {"a_priori", "a_posteriori"});
         b.added("reason", r.variance_factor.reason);
     });
     a.added("global_test", r.global_test);
-    a.group("printed", [&](auto& b) {
-        b("chi_square", r.printed.chi_square);
-        b("p_value", r.printed.p_value);
-        b("variance_factor", r.printed.variance_factor);
-        b("condition_number", r.printed.condition_number);
-    });
 }
 
 template <class Archive, certificate::Described<VarianceComponent> Struct>
@@ -466,10 +453,10 @@ void describe(Archive& a, Struct& r) {
     a("redundancy", r.redundancy);
     a("estimated", r.estimated);
     a("printed", r.printed);
-    a.added("stated", r.stated, NumberRule::not_negative);
+    a.added("stated", r.stated.number, NumberRule::not_negative);
     a.added("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
     a.added("used", r.used);
-    a.added("printed_stated", r.printed_stated);
+    a.added("printed_stated", r.stated.text);
 }
 
 template <class Archive, certificate::Described<ReliabilityRow> Struct>
@@ -537,19 +524,19 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, certificate::Described<PositioningTarget> Struct>
 void describe(Archive& a, Struct& r) {
-    a("angle_deg", r.angle_deg);
-    a("mean_up", r.mean_up);
-    a("mean_down", r.mean_down);
-    a("s_up", r.s_up, NumberRule::not_negative);
-    a("s_down", r.s_down, NumberRule::not_negative);
-    a("reversal", r.reversal);
-    a.group("printed", [&](auto& b) {
-        b("angle", r.printed_angle);
-        b("mean_up", r.printed_mean_up);
-        b("mean_down", r.printed_mean_down);
-        b("s_up", r.printed_s_up);
-        b("s_down", r.printed_s_down);
-        b("reversal", r.printed_reversal);
+    a("angle_deg", r.angle_deg.number);
+    a("mean_up", r.mean_up.number);
+    a("mean_down", r.mean_down.number);
+    a("s_up", r.s_up.number, NumberRule::not_negative);
+    a("s_down", r.s_down.number, NumberRule::not_negative);
+    a("reversal", r.reversal.number);
+    a.group("printed", [&](auto& b) {  // the schema lists it before the runs
+        b("angle", r.angle_deg.text);
+        b("mean_up", r.mean_up.text);
+        b("mean_down", r.mean_down.text);
+        b("s_up", r.s_up.text);
+        b("s_down", r.s_down.text);
+        b("reversal", r.reversal.text);
     });
     a.added("runs_up", r.runs_up);
     a.added("runs_down", r.runs_down);
@@ -566,7 +553,6 @@ void describe(Archive& a, Struct& r) {
     a("targets", r.targets);
     a("u_deviation", r.u_deviation, NumberRule::not_negative);
     a("remarks", r.remarks);
-    a.group("printed", [&](auto& b) { b("u_deviation", r.printed_u_deviation); });
 }
 
 template <class Archive, certificate::Described<RotaryMonteCarlo> Struct>
@@ -793,11 +779,8 @@ void describe(Archive& a, Struct& r) {
     a("points", r.points);
     a("chi_square", r.chi_square, NumberRule::not_negative);
     a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
-    a("p_value", r.p_value, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("p", r.printed_p);
-        b("residual", r.printed_residual);
-    });
+    a.shown("p_value", "p", r.p_value, NumberRule::probability);
+    a.text("residual", r.printed_residual);
 }
 
 template <class Archive, certificate::Described<RotaryTable> Struct>
@@ -829,9 +812,9 @@ void describe(Archive& a, Struct& r) {
     a("reliability", r.reliability);
     a("flagged", r.flagged);
     a.group("outlier_test", [&](auto& b) {
-        b("critical_value", r.outlier_critical_value, NumberRule::not_negative);
+        b("critical_value", r.outlier_critical_value.number, NumberRule::not_negative);
         b("alpha", r.outlier_alpha, NumberRule::probability);
-        b("printed_critical_value", r.printed_critical_value);
+        b("printed_critical_value", r.outlier_critical_value.text);
     });
     a.added("fixture_reliability", r.fixture_reliability);
     a.added("external_reliability", r.external_reliability);
@@ -916,8 +899,8 @@ void describe(Archive& a, Struct& r) {
     a("kind", r.kind);  // the caller says which words it may be
     a("title", r.title);
     a("software", r.software);
-    a("coverage_probability", r.coverage_probability, NumberRule::probability);
-    a.group("printed", [&](auto& b) { b("coverage_probability", r.printed_coverage); });
+    a("coverage_probability", r.coverage_probability.number, NumberRule::probability);
+    a.group("printed", [&](auto& b) { b("coverage_probability", r.coverage_probability.text); });
     a.group("job", [&](auto& b) {
         b.document("document", r.job_json);
         b("files", r.job_files);

@@ -279,8 +279,8 @@ public:
     void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
         for_each_row(key, [&](Reader& inner) {
             ErrorsAtAngle& row = v.emplace_back();
-            inner("angle_deg", row.angle_deg);
-            inner("printed_angle", row.printed_angle);
+            inner("angle_deg", row.angle_deg.number);
+            inner("printed_angle", row.angle_deg.text);
             for (std::size_t m = 0; m < row.errors.size(); ++m) {
                 inner(rotary.error_names[m].c_str(), row.errors[m]);
             }

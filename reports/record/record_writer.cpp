@@ -200,8 +200,8 @@ public:
         json all = json::array();
         for (std::size_t i = 0; i < v.size(); ++i) {
             Writer inner(all_at.child(i));
-            inner("angle_deg", v[i].angle_deg);
-            inner("printed_angle", v[i].printed_angle);
+            inner("angle_deg", v[i].angle_deg.number);
+            inner("printed_angle", v[i].angle_deg.text);
             for (std::size_t m = 0; m < v[i].errors.size(); ++m) {
                 const std::string& name = rotary.error_names[m];
                 const Step at = inner.place_.child(name);

@@ -80,10 +80,10 @@ void overview_table(CertificateBuilder& builder, const Wording& words, const Rot
 void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     Facts facts;
     const GlobalTest& test = r.adjustment.global_test;
-    if (!test.printed_lower.empty()) {
+    if (!test.lower.text.empty()) {
         facts.emplace_back(words("label", "global_test"),
                            words.fill(test.accepted ? "global_test_passed" : "global_test_failed",
-                                      {{"p", words.number(r.adjustment.printed.p_value)}}));
+                                      {{"p", words.number(r.adjustment.p_value.text)}}));
     }
     if (r.group_tests) {
         const auto suspicious = std::count_if(r.group_tests->kinds.begin(), r.group_tests->kinds.end(),

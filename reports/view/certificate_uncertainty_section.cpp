@@ -101,7 +101,7 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
 Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& values, const EvaluationRecord& record,
                        const Wording& words) {
     const certificate::LocalisedText& own = record.certificate->profile.uncertainty_sentence;
-    const Text p = words.number(record.printed_coverage);
+    const Text p = words.number(record.coverage_probability.text);
     const std::optional<std::string> one_k = common(printed_k(values));
     const Text k = one_k ? words.fill("k_one", {{"k", words.number(*one_k)}}) : Text("k");
     const bool ordinary = c == Coverage::normal || c == Coverage::student_t;

@@ -49,8 +49,7 @@ inline reports::EvaluationRecord sample_budget_record() {
     r.software = {.name = "gumcert", .version = "0.2.0", .commit = "0123456789abcdef0123456789abcdef01234567"};
     r.kind = "budget";
     r.title = "End gauge, nominal length 50 mm";
-    r.coverage_probability = 0.99;
-    r.printed_coverage = "99 %";
+    r.coverage_probability = {0.99, "99 %"};
     r.job_json = R"({"schema": "gumcert/job/1", "kind": "budget", "model": ["l = l_s + d"]})";
     r.options_json = R"({"monte_carlo": {"trials": 1000000}})";
     r.job_files = {{"end_gauge.json", std::string(64, 'b')}};
@@ -149,8 +148,7 @@ inline reports::EvaluationRecord sample_two_results_record() {
     using namespace gumcert::reports;
     EvaluationRecord r = sample_budget_record();
     r.title = "Resistance and reactance of a circuit element";
-    r.coverage_probability = 0.9545;
-    r.printed_coverage = "95.45 %";
+    r.coverage_probability = {0.9545, "95.45 %"};
     r.model = ModelSummary{.equations = {"R = V/I*cos(phi)", "0 = X - V/I*sin(phi)"}, .unknowns = {"X"}};
     r.results.clear();
     r.diagnostics.clear();

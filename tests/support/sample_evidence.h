@@ -83,7 +83,7 @@ inline reports::EvaluationRecord record_with_evidence() {
     for (const char* direction : {"+", "-"}) {
         reports::SenseCurve curve{.direction = direction, .points = {}};
         for (const reports::ErrorsAtAngle& at : r.errors) {
-            reports::SensePoint p{.angle_deg = at.angle_deg};
+            reports::SensePoint p{.angle_deg = at.angle_deg.number};
             for (std::size_t i = 0; i < 6; ++i) {
                 p.value[i] = at.errors[i].value;
                 p.u[i] = 0.1;

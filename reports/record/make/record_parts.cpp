@@ -22,8 +22,8 @@ reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
     record.software.commit = k_commit;
     record.kind = kind;
     record.title = job.title;
-    record.coverage_probability = job.coverage_probability;
-    record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
+    record.coverage_probability = {job.coverage_probability,
+                                   gum::round_significant(100.0 * job.coverage_probability, 4) + " %"};
     record.job_json = gumcert::json::canonical_json(job.document);
     record.job_files = files;
     // The sizes of units that the numbers were found with.

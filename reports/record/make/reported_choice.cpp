@@ -92,7 +92,7 @@ void report_result(reports::Result& result, CoverageChoice choice) {
 
 void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice choice) {
     reports::RotaryTable& rotary = *record.rotary;
-    const Reporter reporter(choice, record.coverage_probability);
+    const Reporter reporter(choice, record.coverage_probability.number);
     for (const auto& place : reports::stated_values(rotary)) {
         reporter.report(place.stated, place.unit);
     }

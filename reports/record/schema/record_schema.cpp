@@ -194,8 +194,8 @@ public:
     }
     void errors(const char* key, const std::vector<ErrorsAtAngle>&, const RotaryTable& rotary) {
         add(key, list_of(definition<ErrorsAtAngle>([&](SchemaWriter& inner, const ErrorsAtAngle& v) {
-                inner("angle_deg", v.angle_deg);
-                inner("printed_angle", v.printed_angle);
+                inner("angle_deg", v.angle_deg.number);
+                inner("printed_angle", v.angle_deg.text);
                 const std::size_t size = inner.properties_.size() + rotary.error_names.size();
                 inner.more_ = {{"minProperties", size},
                                {"maxProperties", size},

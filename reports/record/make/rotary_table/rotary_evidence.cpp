@@ -321,7 +321,7 @@ void fill_environment(reports::RotaryTable& rotary, const jobs::RotaryTableJob& 
     if (source != rotary.budget_sources.end()) {
         const auto at = static_cast<std::size_t>(source - rotary.budget_sources.begin());
         for (std::size_t c = 0; c < std::min<std::size_t>(6, rotary.budget_summary.size()); ++c) {
-            largest_share = std::max(largest_share, rotary.budget_summary[c].shares[at]);
+            largest_share = std::max(largest_share, rotary.budget_summary[c].shares.number[at]);
         }
     }
     const auto [cold, warm] =

@@ -86,7 +86,7 @@ TEST(EvaluationRecord, PositioningHasTheFormOfTheContract) {
     PositioningAccuracy& up = *one_direction.rotary->iso230_2;
     std::erase_if(up.parameters, [](const TableParameter& x) { return !x.name.ends_with("_up"); });
     up.runs_down = 0;
-    up.targets[0].mean_down.reset();
+    up.targets[0].mean_down.number.reset();
     const std::string text = to_canonical_json(one_direction);
     const json few = json::parse(text)["rotary"]["iso230_2"];
     EXPECT_FALSE(few.contains("M"));

@@ -83,7 +83,7 @@ std::string text_of(const json& sections, const std::string& id) {
 /// A certificate of values of one quantity at points, by hand.
 EvaluationRecord of_values(const std::vector<CertifiedValue>& values) {
     EvaluationRecord record = test::certified_budget_record();
-    record.printed_coverage = "95.45 %";
+    record.coverage_probability.text = "95.45 %";
     certificate::CertifiedTable& table = record.certificate->tables.front();
     certificate::CertifiedColumn& column = table.columns.front();
     column.values = values;

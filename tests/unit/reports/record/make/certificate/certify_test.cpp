@@ -671,7 +671,7 @@ EvaluationRecord confirmed(EvaluationRecord record) {
 
 TEST(Certify, MakesTheSampleBudgetACertificateThatPasses) {
     EvaluationRecord record = confirmed(test::sample_budget_record());
-    record.coverage_probability = record.results[0].coverage_probability = 0.9545;  // the sample states 99 %
+    record.coverage_probability.number = record.results[0].coverage_probability = 0.9545;  // the sample states 99 %
     CertificateData data = test::sample_certificate_data();
     data.specifications.pop_back();  // of the rotary table
     certify(record, data, {});

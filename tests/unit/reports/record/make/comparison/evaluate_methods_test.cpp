@@ -72,7 +72,7 @@ TEST(EvaluateMethods, OfStatedValues) {
     EXPECT_EQ(record.position_unit, "deg");
     EXPECT_EQ(record.organiser, "Example Institute");
     EXPECT_EQ(record.correlation, "none");
-    EXPECT_EQ(record.printed_tolerance, "5");
+    EXPECT_EQ(record.tolerance.text, "5");
     EXPECT_EQ(record.audit_finding, "Laser method: limit taken as standard uncertainty");
     ASSERT_EQ(record.points.size(), 3U);
     EXPECT_EQ(record.points[0].D.text, "0.9");
@@ -173,7 +173,7 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
     EXPECT_EQ(record.shared_sources[0].first, "Method");
     EXPECT_EQ(record.shared_sources[0].second, "Reference");
     EXPECT_NEAR(record.shared_sources[0].covariance, 0.04, 1e-12);
-    EXPECT_EQ(record.shared_sources[0].printed_correlation, "0.57");
+    EXPECT_EQ(record.shared_sources[0].correlation.text, "0.57");
     EXPECT_THAT(all_remarks(record), HasSubstr("Both budgets name laser."));
     // Tables of the points with the largest uncertainty: B of the method.
     ASSERT_EQ(record.method_budget.size(), 2U);
