@@ -56,7 +56,7 @@ std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, 
 Text quantity_name(const StatedPlace<const StatedValue>& place, const RotaryTable& rotary, const Wording& words) {
     switch (place.group) {
         case StatedGroup::error_motions:
-            return place.name + Text(" (") + words.number(rotary.errors[place.index].printed_angle) + "°)";
+            return place.name + Text(" (") + words.number(rotary.errors[place.index].angle_deg.text) + "°)";
         case StatedGroup::reversal:
             return words("label", "reversal") + Text(" " + place.name);
         case StatedGroup::ranges:

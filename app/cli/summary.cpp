@@ -50,9 +50,9 @@ void print_results(const reports::EvaluationRecord& record) {
         print_reported(result);
         if (result.monte_carlo) {
             const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
-            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.printed.trials,
-                       monte_carlo.u ? monte_carlo.printed.u : "does not exist", monte_carlo.printed.symmetric[0],
-                       monte_carlo.printed.symmetric[1]);
+            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
+                       monte_carlo.u.number ? monte_carlo.u.text : "does not exist", monte_carlo.symmetric.text[0],
+                       monte_carlo.symmetric.text[1]);
             if (monte_carlo.validation) {
                 fmt::print("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
                                  : monte_carlo.validation->validated     ? "; law of propagation validated"
@@ -240,7 +240,7 @@ void print_comparison(const reports::EvaluationRecord& record) {
         return;
     }
     if (record.comparison->form == "laboratories") {
-        print_laboratories(*record.comparison, record.printed_coverage);
+        print_laboratories(*record.comparison, record.coverage_probability.text);
     } else {
         print_methods(*record.comparison);
     }
@@ -248,7 +248,7 @@ void print_comparison(const reports::EvaluationRecord& record) {
 
 void print_rotary_table(const reports::EvaluationRecord& record) {
     const reports::RotaryTable& rotary = *record.rotary;
-    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.printed_coverage);
+    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
     for (const reports::Result& result : record.results) {
         fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
                    result.printed.unit, result.description);
@@ -260,8 +260,8 @@ void print_rotary_table(const reports::EvaluationRecord& record) {
         fmt::print("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
     fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
-               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.printed.chi_square,
-               rotary.adjustment.degrees_of_freedom, rotary.adjustment.printed.p_value);
+               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
+               rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
     std::size_t removed = 0;
     for (const reports::FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;

@@ -99,28 +99,28 @@ AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity,
     row.unit = stated.unit;
     row.source = stated.source;
     row.place = pointer;
-    if (stated.value) {
-        row.estimate = exact_number(*stated.value, pointer + "/value");
+    if (stated.value.number) {
+        row.estimate = exact_number(*stated.value.number, pointer + "/value");
     }
-    row.u = exact_number(stated.u, pointer + "/u");
-    row.used_u = stated.u;
-    if (stated.sensitivity) {
-        row.sensitivity = exact_number(*stated.sensitivity, pointer + "/sensitivity");
-        row.used_sensitivity = *stated.sensitivity;
+    row.u = exact_number(stated.u.number, pointer + "/u");
+    row.used_u = stated.u.number;
+    if (stated.sensitivity.number) {
+        row.sensitivity = exact_number(*stated.sensitivity.number, pointer + "/sensitivity");
+        row.used_sensitivity = *stated.sensitivity.number;
     } else {
         // The row stands for many quantities: its contribution is known, and what is beside it is one typical u.
         row.unit = result_unit;
-        row.used_u = stated.contribution;
-        row.u = exact_number(stated.contribution, pointer + "/contribution");
+        row.used_u = stated.contribution.number;
+        row.u = exact_number(stated.contribution.number, pointer + "/contribution");
         row.used_sensitivity = 1.0;
     }
-    row.used_nu = stated.nu.value_or(std::numeric_limits<double>::infinity());
+    row.used_nu = stated.nu.number.value_or(std::numeric_limits<double>::infinity());
     row.nu = exact_number(row.used_nu, pointer + "/nu");
     row.type_a = stated.type == "A";
     row.shape = shape_of_record(stated.distribution);
     row.shape_text = stated.distribution;
     if (statement.is_object()) {
-        state_origin(row, statement, stated.value.value_or(0.0));
+        state_origin(row, statement, stated.value.number.value_or(0.0));
     }
     row.contributor = contributor_of(row.quantity, row.comment, row.source);
     // The job says by its keys what u was made of; where it states u alone, its note may say more.

@@ -77,11 +77,11 @@ Region region_of(const EvaluationRecord& record) {
     if (!region || record.results.size() != record.covariance->names.size()) {
         return {};
     }
-    const bool ellipsoid = region->k_p.has_value();
-    if (!ellipsoid && !region->k_q) {
+    const bool ellipsoid = region->k_p.number.has_value();
+    if (!ellipsoid && !region->k_q.number) {
         return {};
     }
-    const std::string k = d_si_coverage_factor(ellipsoid ? region->printed.k_p : region->printed.k_q);
+    const std::string k = d_si_coverage_factor(ellipsoid ? region->k_p.text : region->k_q.text);
     if (k == "NaN") {
         return {};
     }

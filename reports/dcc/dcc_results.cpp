@@ -73,7 +73,7 @@ double probability_of(const EvaluationRecord& record, const Column& c, std::size
             return r.coverage_probability;
         }
     }
-    return record.coverage_probability;
+    return record.coverage_probability.number;
 }
 
 /// An element "si:name", or "si:nameXMLList" with one entry a row, or one where all are the same.

@@ -61,11 +61,11 @@ BarPlot share_plot(const Result& result, const Wording& words, const std::string
                  .bars = {}};
     for (const BudgetRow& row : result.budget) {
         plot.bars.push_back(
-            {shortened(printable(row.input), k_label), 100.0 * row.share, words.number(row.printed.share).first()});
+            {shortened(printable(row.input), k_label), 100.0 * row.share.number, words.number(row.share.text).first()});
     }
     if (result.correlation) {
-        plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share,
-                             words.number(result.correlation->printed.share).first()});
+        plot.bars.push_back({words("label", "correlation").first(), 100.0 * result.correlation->share.number,
+                             words.number(result.correlation->share.text).first()});
     }
     std::stable_sort(plot.bars.begin(), plot.bars.end(),
                      [](const ShareBar& a, const ShareBar& b) { return std::abs(a.share) > std::abs(b.share); });
@@ -98,9 +98,9 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
     plot.description = printable(words
                                      .filled("plot", "monte_carlo_description",
                                              {{"name", result.name},
-                                              {"trials", words.number(m.printed.trials)},
-                                              {"low", words.number(m.printed.symmetric[0])},
-                                              {"high", words.number(m.printed.symmetric[1])},
+                                              {"trials", words.number(m.trials.text)},
+                                              {"low", words.number(m.symmetric.text[0])},
+                                              {"high", words.number(m.symmetric.text[1])},
                                               {"unit", gum::unit_for_people(result.unit)}})
                                      .first());
     plot.y_label = words("plot", "density_axis").first();
@@ -108,9 +108,10 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
     plot.curve_label = words("plot", by_t ? "t_key" : "normal_key").first();
 
     // The value is taken off, so that the ticks of a long number differ.
-    plot.intervals = {
-        {words("plot", "shortest_interval").first(), m.shortest[0] - result.value, m.shortest[1] - result.value},
-        {words("plot", "symmetric_interval").first(), m.symmetric[0] - result.value, m.symmetric[1] - result.value}};
+    plot.intervals = {{words("plot", "shortest_interval").first(), m.shortest.number[0] - result.value,
+                       m.shortest.number[1] - result.value},
+                      {words("plot", "symmetric_interval").first(), m.symmetric.number[0] - result.value,
+                       m.symmetric.number[1] - result.value}};
     if (result.U) {
         plot.intervals.insert(plot.intervals.begin(), {words("plot", "U_interval").first(), -*result.U, *result.U});
     }
@@ -137,7 +138,7 @@ DensityPlot monte_carlo_plot(const Result& result, const Wording& words, const s
                    result.unit, scale);
 
     const double width = (m.histogram_high - m.histogram_low) / static_cast<double>(m.histogram.size());
-    const double unit_area = static_cast<double>(m.trials) * scale(width);
+    const double unit_area = static_cast<double>(m.trials.number) * scale(width);
     plot.cell_width = scale(width);
     bool first = true;
     for (std::size_t i = 0; i < m.histogram.size(); ++i) {
@@ -171,16 +172,17 @@ Plot residual_plot(const FitSummary& fit, const Wording& words, const std::strin
               .x_is_angle = false};
     double most_x = 0.0;
     double most_y = 0.0;
-    for (std::size_t i = 0; i < fit.residual.size(); ++i) {
-        most_x = std::max(most_x, numbered ? 1.0 : std::abs(fit.x[i]));
-        most_y = std::max(most_y, std::abs(fit.residual[i]));
+    for (std::size_t i = 0; i < fit.residual.number.size(); ++i) {
+        most_x = std::max(most_x, numbered ? 1.0 : std::abs(fit.x.number[i]));
+        most_y = std::max(most_y, std::abs(fit.residual.number[i]));
     }
     const Scale scale_x = numbered ? Scale{} : scale_of(most_x);
     const Scale scale_y = scale_of(most_y);
     PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::none};
-    for (std::size_t i = 0; i < fit.residual.size(); ++i) {
-        series.points.push_back(
-            {.x = numbered ? static_cast<double>(i + 1) : scale_x(fit.x[i]), .y = scale_y(fit.residual[i]), .U = 0.0});
+    for (std::size_t i = 0; i < fit.residual.number.size(); ++i) {
+        series.points.push_back({.x = numbered ? static_cast<double>(i + 1) : scale_x(fit.x.number[i]),
+                                 .y = scale_y(fit.residual.number[i]),
+                                 .U = 0.0});
     }
     plot.x_label = numbered ? words("plot", "observation_axis").first() : axis_label(fit.x_name, fit.x_unit, scale_x);
     plot.panels.push_back(

@@ -38,7 +38,7 @@ PlotSeries sense_series(const SenseCurve& curve, std::size_t motion, bool is_ful
 std::vector<PlotSeries> strip_of(const RotaryTable& rotary, std::size_t motion, bool is_full) {
     PlotSeries U{.label = "", .points = {}, .marker = PlotMarker::none, .joined = true};
     for (const ErrorsAtAngle& at : rotary.errors) {
-        U.points.push_back({.x = at.angle_deg, .y = at.errors[motion].U, .U = 0.0});
+        U.points.push_back({.x = at.angle_deg.number, .y = at.errors[motion].U, .U = 0.0});
     }
     close_turn(U.points, is_full);
     std::vector<PlotSeries> strip = {U};
@@ -58,10 +58,10 @@ std::vector<PlotSeries> strip_of(const RotaryTable& rotary, std::size_t motion, 
 bool covers_circle(const RotaryTable& rotary) {
     double gap = 0.0;
     for (std::size_t i = 1; i < rotary.errors.size(); ++i) {
-        gap = std::max(gap, rotary.errors[i].angle_deg - rotary.errors[i - 1].angle_deg);
+        gap = std::max(gap, rotary.errors[i].angle_deg.number - rotary.errors[i - 1].angle_deg.number);
     }
     return rotary.errors.size() > 2 &&
-           rotary.errors.front().angle_deg + 360.0 - rotary.errors.back().angle_deg <= 1.5 * gap;
+           rotary.errors.front().angle_deg.number + 360.0 - rotary.errors.back().angle_deg.number <= 1.5 * gap;
 }
 
 Plot error_motion_plot(const RotaryTable& rotary, const Wording& words) {
@@ -83,7 +83,7 @@ Plot error_motion_plot(const RotaryTable& rotary, const Wording& words) {
                         .bars = PlotBars::band,
                         .joined = !by_sense};
         for (const ErrorsAtAngle& at : rotary.errors) {
-            mean.points.push_back({.x = at.angle_deg, .y = at.errors[i].value, .U = at.errors[i].U});
+            mean.points.push_back({.x = at.angle_deg.number, .y = at.errors[i].value, .U = at.errors[i].U});
         }
         close_turn(mean.points, is_full);
         const std::string unit = i < 3 ? "µm" : "″";

@@ -26,7 +26,7 @@ PlotSeries run_series(const PositioningAccuracy& p, bool up, const Wording& word
                       .marker = up ? PlotMarker::disc : PlotMarker::ring};
     for (const PositioningTarget& t : p.targets) {
         for (const double v : up ? t.runs_up : t.runs_down) {
-            series.points.push_back({.x = t.angle_deg, .y = v, .U = 0.0});
+            series.points.push_back({.x = t.angle_deg.number, .y = v, .U = 0.0});
         }
     }
     return series;
@@ -45,13 +45,13 @@ void add_sense(PlotPanel& panel, const PositioningAccuracy& p, bool up, const Wo
                     .joined = true,
                     .dashed = !up};
     for (const PositioningTarget& t : p.targets) {
-        const std::optional<double>& middle = up ? t.mean_up : t.mean_down;
-        const std::optional<double>& s = up ? t.s_up : t.s_down;
+        const std::optional<double>& middle = up ? t.mean_up.number : t.mean_down.number;
+        const std::optional<double>& s = up ? t.s_up.number : t.s_down.number;
         if (middle) {
-            mean.points.push_back({.x = t.angle_deg, .y = *middle, .U = 0.0});
+            mean.points.push_back({.x = t.angle_deg.number, .y = *middle, .U = 0.0});
         }
         if (middle && s) {
-            spread.points.push_back({.x = t.angle_deg, .y = *middle, .U = 2.0 * *s});
+            spread.points.push_back({.x = t.angle_deg.number, .y = *middle, .U = 2.0 * *s});
         }
     }
     for (PlotSeries& series : std::array<PlotSeries, 3>{spread, run_series(p, up, words), mean}) {
@@ -87,7 +87,7 @@ PolarPlot error_polar_plot(const RotaryTable& rotary, const Wording& words) {
     for (std::size_t i = 0; i < 6; ++i) {
         PolarPanel panel{.heading = rotary.error_names[i] + (i < 3 ? " / µm" : " / ″"), .points = {}};
         for (const ErrorsAtAngle& at : rotary.errors) {
-            panel.points.push_back({.x = at.angle_deg, .y = at.errors[i].value, .U = at.errors[i].U});
+            panel.points.push_back({.x = at.angle_deg.number, .y = at.errors[i].value, .U = at.errors[i].U});
         }
         plot.panels.push_back(std::move(panel));
     }
@@ -195,15 +195,16 @@ Plot temperature_plot(const Environment& environment, const Wording& words) {
     for (std::size_t i = 0; i < environment.stations.size(); ++i) {
         const StationEnvironment& s = environment.stations[i];
         const auto x = static_cast<double>(i + 1);
-        fixture.points.push_back({.x = x, .y = s.fixture_degC - environment.reference_degC, .U = 2.0 * s.u_fixture_K});
-        if (s.air_degC) {
-            air.points.push_back({.x = x, .y = *s.air_degC - environment.reference_degC, .U = 0.0});
+        fixture.points.push_back(
+            {.x = x, .y = s.fixture_degC.number - environment.reference_degC.number, .U = 2.0 * s.u_fixture_K.number});
+        if (s.air_degC.number) {
+            air.points.push_back({.x = x, .y = *s.air_degC.number - environment.reference_degC.number, .U = 0.0});
         }
     }
     PlotPanel panel{
         .heading = "",
         .y_label =
-            words.filled("plot", "temperature_axis", {{"reference", words.number(environment.printed.reference)}})
+            words.filled("plot", "temperature_axis", {{"reference", words.number(environment.reference_degC.text)}})
                 .first(),
         .series = {fixture},
         .limits = {}};

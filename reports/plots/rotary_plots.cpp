@@ -139,9 +139,9 @@ StackedPlot source_plot(const RotaryTable& rotary, const Wording& words) {
     for (const BudgetSummaryRow& row : rotary.budget_summary) {
         StackedBar bar{.label = shortened(printable(row.quantity), 20),
                        .shares = {},
-                       .texts = row.printed_shares,
-                       .text = words.number(row.printed_rms_u).first() + " " + gum::unit_for_people(row.unit)};
-        for (const double share : row.shares) {
+                       .texts = row.shares.text,
+                       .text = words.number(row.rms_u.text).first() + " " + gum::unit_for_people(row.unit)};
+        for (const double share : row.shares.number) {
             bar.shares.push_back(100.0 * share);
         }
         plot.bars.push_back(std::move(bar));

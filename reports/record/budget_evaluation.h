@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certificate/localised_text.h"
+#include "reports/record/shown.h"
 
 namespace gumcert::reports {
 
@@ -14,31 +15,26 @@ namespace gumcert::reports {
 
 /// Second-order terms of the law of propagation (JCGM 100:2008, 5.1.2 note), in the unit of the result.
 struct SecondOrder {
-    double first_order_u = 0.0;  ///< standard uncertainty with first-order terms alone
-    double u = 0.0;              ///< with first- and second-order terms
-    double shift = 0.0;          ///< expectation of the output minus its value at the estimates
-    struct {
-        std::string first_order_u, u, shift;
-    } printed;
+    Shown<double> first_order_u = {};  ///< standard uncertainty with first-order terms alone
+    Shown<double> u = {};              ///< with first- and second-order terms
+    Shown<double> shift = {};          ///< expectation of the output minus its value at the estimates
 };
 
 /// Comparison of the law of propagation with Monte Carlo (JCGM 101:2008, clause 8), in the unit of the result.
 struct GufValidation {
-    double delta = 0.0, d_low = 0.0, d_high = 0.0;
+    Shown<double> delta = {}, d_low = {}, d_high = {};
     bool validated = false;
     bool precise_enough = false;  ///< numerical error of the ends below delta/5, or too small to turn a refusal
     std::string interval;         ///< which Monte Carlo interval was compared: "symmetric" or "shortest"
     std::int64_t digits = 2;
-    struct {
-        std::string delta, d_low, d_high;
-    } printed;
 };
 
 /// Monte Carlo of one result (JCGM 101:2008, clause 7), in the unit of the result.
 struct MonteCarloSummary {
-    std::int64_t trials = 0, seed = 1;
-    std::optional<double> mean, u;  ///< none where the distribution has none that trials can find
-    std::array<double, 2> symmetric{}, shortest{};
+    Shown<std::int64_t> trials = {};
+    std::int64_t seed = 1;
+    Shown<std::optional<double>> mean = {}, u = {};  ///< none where the distribution has none that trials can find
+    Shown<std::array<double, 2>> symmetric = {}, shortest = {};
     struct {
         double mean = 0.0, u = 0.0;
         std::array<double, 2> symmetric{}, shortest{};
@@ -48,18 +44,14 @@ struct MonteCarloSummary {
     /// Counts of the trials in cells of equal width, for the plot; empty: none.
     double histogram_low = 0.0, histogram_high = 0.0;
     std::vector<std::int64_t> histogram;
-    struct {
-        std::string mean, u, trials;
-        std::array<std::string, 2> symmetric, shortest;
-    } printed;
 };
 
 /// Covariance of results, in the products of their units.
 struct ResultCovariance {
     std::vector<std::string> names;
     std::vector<std::string> units;
-    std::vector<std::vector<double>> matrix, correlation;
-    std::vector<std::vector<std::string>> printed_correlation;
+    std::vector<std::vector<double>> matrix;
+    Shown<std::vector<std::vector<double>>> correlation = {};
     std::string file;  ///< CSV beside the record, where the matrices are too large for it and left out here; else ""
     std::string method = {};  ///< "law_of_propagation", "monte_carlo"; "" in records before it was stated
 };
@@ -69,8 +61,8 @@ struct CoverageRegion {
     double coverage_probability = 0.9545;
     std::string from;                          ///< "law of propagation" or "Monte Carlo"
     std::optional<double> degrees_of_freedom;  ///< of the covariance matrix; none = infinite
-    std::optional<double> k_p;                 ///< hyper-ellipsoid; none where the covariance is singular
-    std::optional<double> k_q;                 ///< hyper-rectangle
+    Shown<std::optional<double>> k_p = {};     ///< hyper-ellipsoid; none where the covariance is singular
+    Shown<std::optional<double>> k_q = {};     ///< hyper-rectangle
     struct SmallestRegion {
         double volume = 0.0, probability = 0.0;
         std::int64_t cells = 0;
@@ -86,9 +78,6 @@ struct CoverageRegion {
         bool validated = false;
     };
     std::optional<Validation> validation;
-    struct {
-        std::string k_p, k_q;
-    } printed;
 };
 
 /// A least-squares fit whose parameters are inputs of the model, or results.
@@ -97,39 +86,33 @@ struct FitSummary {
     std::string method;  ///< "ordinary", "weighted", "generalised", "errors in both variables"
     struct Parameter {
         std::string name, unit;
-        double value = 0.0, u = 0.0;
+        std::string printed_unit = {};
+        Shown<double> value = {}, u = {};
         /// u that `scale_by_residuals` would give, where the test of chi-square refutes the stated uncertainties
-        std::optional<double> scaled_u = {};
-        struct {
-            std::string value, u, unit, scaled_u;
-        } printed = {};
+        Shown<std::optional<double>> scaled_u = {};
     };
     std::vector<Parameter> parameters;
     std::vector<std::vector<double>> covariance, correlation;  ///< in the units of the parameters
     double degrees_of_freedom = 0.0;
-    double sum_of_squares = 0.0;               ///< of the residuals in the unit of y, or chi-square where weighted
-    double residual_standard_deviation = 0.0;  ///< in `y_unit`; [1] where weighted
+    Shown<double> sum_of_squares = {};  ///< of the residuals in the unit of y, or chi-square where weighted
+    Shown<double> residual_standard_deviation = {};  ///< in `y_unit`; [1] where weighted
     double condition_number = 0.0;
-    std::optional<double> r_squared;  ///< none where it has no agreed meaning (errors in both variables, equal y)
-    std::optional<double> p_value;    ///< of chi-square, where the uncertainties were stated
+    Shown<std::optional<double>> r_squared = {};  ///< none where it has no agreed meaning (errors in x and y, equal y)
+    Shown<std::optional<double>> p_value = {};    ///< of chi-square, where the uncertainties were stated
     /// What the test of chi-square says of the stated uncertainties: "consistent", "refuted" (the residuals are too
     /// large), "overstated" (far too small); "" where there is nothing to test
     std::string consistency;
     std::int64_t iterations = 0;
-    bool covariance_scaled = false;              ///< by the residuals
-    std::string x_name, x_unit, y_name, y_unit;  ///< x_name is "" where there are several regressors
-    std::vector<double> x, y, fitted, residual;  ///< in x_unit and y_unit
-    std::vector<double> u_x, u_y;                ///< stated standard uncertainties, one a point; empty where none
+    bool covariance_scaled = false;                            ///< by the residuals
+    std::string x_name, x_unit, y_name, y_unit;                ///< x_name is "" where there are several regressors
+    Shown<std::vector<double>> x = {}, y = {}, residual = {};  ///< one a point, in x_unit and y_unit
+    std::vector<double> fitted;
+    Shown<std::vector<double>> u_x = {}, u_y = {};  ///< stated standard uncertainties, one a point; empty where none
     struct Regressor {
         std::string name, unit;
-        std::vector<double> values;
-        std::vector<std::string> printed;
+        Shown<std::vector<double>> values = {};
     };
     std::vector<Regressor> regressors;  ///< where there are several
-    struct {
-        std::string residual_standard_deviation, sum_of_squares, p_value, r_squared;
-        std::vector<std::string> x, y, u_x, u_y, residual;  ///< the data, one a point
-    } printed;
 };
 
 /// A reading that Grubbs' test takes for an outlier among the others of its set, in the unit of the input.
@@ -140,12 +123,9 @@ struct OutlyingReading {
     std::int64_t group = 0;     ///< number of the group, from 1; 0 where there are none
     std::int64_t position = 0;  ///< in its set, from 1
     std::int64_t n = 0;         ///< readings of the set that were tested
-    double value = 0.0;
-    double G = 0.0;        ///< |x - mean| / s of the set
-    double p_value = 0.0;  ///< upper bound (Bonferroni) for any of the readings
-    struct {
-        std::string value, G, p_value;
-    } printed;
+    Shown<double> value = {};
+    Shown<double> G = {};        ///< |x - mean| / s of the set
+    Shown<double> p_value = {};  ///< upper bound (Bonferroni) for any of the readings
 };
 
 /// Readings of one input, what they say of its uncertainty (JCGM 100:2008, 4.2), in the unit of the input.
@@ -156,18 +136,16 @@ struct ReadingsSummary {
     std::string point;
     std::vector<std::string> observations;  ///< as printed, in the order read
     std::int64_t n = 0;
-    double mean = 0.0, standard_deviation = 0.0, standard_deviation_of_mean = 0.0;
+    Shown<double> mean = {}, standard_deviation = {}, standard_deviation_of_mean = {};
     std::optional<double> pooled_standard_deviation;
     std::optional<double> pooled_degrees_of_freedom = {};  ///< none beside a pooled one: infinite
     /// F of the scatter of these readings over the pooled one, without what the steps of a display may add; none for a
     /// single reading
     std::optional<double> pooled_F = {};
-    std::vector<double> autocorrelation;  ///< coefficients of lag 0, 1, 2 …; empty where all readings are equal
-    double autocorrelation_limit = 0.0;   ///< |r1| above it says that the readings depend on each other
+    std::vector<double> autocorrelation;       ///< coefficients of lag 0, 1, 2 …; empty where all readings are equal
+    std::string printed_r1 = {};               ///< the coefficient of lag 1
+    Shown<double> autocorrelation_limit = {};  ///< |r1| above it says that the readings depend on each other
     bool dependent = false;
-    struct {
-        std::string mean, standard_deviation, standard_deviation_of_mean, r1, limit;
-    } printed;
 };
 
 /// One-way analysis of variance of grouped readings (JCGM 100:2008, H.5), in the unit of the input.
@@ -175,22 +153,19 @@ struct VarianceAnalysis {
     std::string input, component, unit;
     std::string point;  ///< as ReadingsSummary::point
     std::int64_t groups = 0, readings = 0;
-    double mean = 0.0;
+    Shown<double> mean = {};
     double sum_of_squares_between = 0.0, sum_of_squares_within = 0.0;
     double degrees_of_freedom_between = 0.0, degrees_of_freedom_within = 0.0;
     double mean_square_between = 0.0, mean_square_within = 0.0;
-    double F = 0.0, p_value = 0.0, F_critical = 0.0;  ///< critical at 5 %
+    std::array<std::string, 2> printed_mean_square;       ///< between, within
+    Shown<double> F = {}, p_value = {}, F_critical = {};  ///< critical at 5 %
     double r_squared = 0.0;
-    double standard_deviation_within = 0.0;          ///< s_w, pooled
-    double standard_deviation_of_group_means = 0.0;  ///< s(V̄_j)
-    double standard_deviation_between = 0.0;         ///< component of variance s_B, 0 where its square is negative
-    double u_with_between_effect = 0.0;              ///< s(V̄_j)/√J, J − 1 degrees of freedom
-    double u_without_between_effect = 0.0;           ///< pooled, N − 1 degrees of freedom
-    std::string conclusion;                          ///< "significant" or "not significant"
-    struct {
-        std::string mean, F, F_critical, p_value, within, between, group_means;
-        std::array<std::string, 2> mean_square;
-    } printed;
+    Shown<double> standard_deviation_within = {};          ///< s_w, pooled
+    Shown<double> standard_deviation_of_group_means = {};  ///< s(V̄_j)
+    Shown<double> standard_deviation_between = {};  ///< component of variance s_B, 0 where its square is negative
+    double u_with_between_effect = 0.0;             ///< s(V̄_j)/√J, J − 1 degrees of freedom
+    double u_without_between_effect = 0.0;          ///< pooled, N − 1 degrees of freedom
+    std::string conclusion;                         ///< "significant" or "not significant"
 };
 
 /// The model of a budget as the job states it; of all sections one after the other.

@@ -343,8 +343,8 @@ CertifiedTable::Argument angles_of(const RotaryTable& r) {
     CertifiedTable::Argument angles{
         .name = "angle", .unit = "deg", .printed_unit = gum::unit_for_people("deg"), .values = {}, .printed = {}};
     for (const ErrorsAtAngle& at : r.errors) {
-        angles.values.emplace_back(at.angle_deg);
-        angles.printed.push_back(at.printed_angle);
+        angles.values.emplace_back(at.angle_deg.number);
+        angles.printed.push_back(at.angle_deg.text);
     }
     return angles;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/record/shown.h"
+
 namespace gumcert::reports {
 
 // What a record of kind "circle_closure" holds beside the results. Angles in `unit` of the record's section.
@@ -14,24 +16,18 @@ struct ClosureSeriesRow {
     std::int64_t position = 0;
     std::string repetition;  ///< "" where the position was measured once
     std::int64_t readings = 0;
-    double zero = 0.0;
-    std::optional<double> drift;  ///< over a full turn; none where none was removed
-    double residual_rms = 0.0;
-    std::optional<double> misclosure;  ///< closing reading minus first reading, in the sense of the table
-    struct {
-        std::string zero, drift, residual_rms, misclosure;
-    } printed;
+    Shown<double> zero = {};
+    Shown<std::optional<double>> drift = {};  ///< over a full turn; none where none was removed
+    Shown<double> residual_rms = {};
+    Shown<std::optional<double>> misclosure = {};  ///< closing reading minus first reading, in the sense of the table
 };
 
 /// One reading and what the solution leaves of it.
 struct ClosureResidualRow {
     std::int64_t position = 0, step = 0, side = 0;
     std::string repetition;
-    double reading = 0.0, residual = 0.0;
+    Shown<double> reading = {}, residual = {};
     double redundancy = 0.0;  ///< part of an error of the reading that its residual shows
-    struct {
-        std::string reading, residual;
-    } printed;
 };
 
 /// F test of a scatter.
@@ -40,20 +36,18 @@ struct ClosureTestRow {
     /// against the scatter of repeated series; "reading": the largest residual of one reading; "misclosure": the mean
     /// closing difference
     std::string name;
-    double statistic = 0.0, nu = 0.0;
-    std::optional<double> nu_reference;  ///< none = infinite
-    double p_value = 1.0;                ///< of "reading": for the largest of all readings (Bonferroni)
-    bool accepted = true;                ///< p-value of 0.001 at least
-    struct {
-        std::string statistic, nu, nu_reference, p_value;
-    } printed;
+    Shown<double> statistic = {}, nu = {};
+    Shown<std::optional<double>> nu_reference = {};  ///< none = infinite
+    Shown<double> p_value = {1.0};                   ///< of "reading": for the largest of all readings (Bonferroni)
+    bool accepted = true;                            ///< p-value of 0.001 at least
 };
 
 /// Comparison of two divided circles.
 struct CircleClosure {
     std::string table, artefact;  ///< names of the deviations: "EAA" or "T", and "P"
     std::string artefact_description;
-    std::string unit;       ///< of all angles here and of the results
+    std::string unit;  ///< of all angles here and of the results
+    std::string printed_unit = {};
     std::string numbering;  ///< "with" or "against" the sense of the table
     std::string sense;      ///< of the readings: "positive" or "negative"
     std::string drift;      ///< "none" or "linear"
@@ -62,17 +56,13 @@ struct CircleClosure {
     bool full = false;  ///< every position was measured, every series without a gap
     std::int64_t readings = 0, unknowns = 0;
     double degrees_of_freedom = 0.0;
-    double residual_standard_deviation = 0.0;
-    double u_reading = 0.0;
+    Shown<double> residual_standard_deviation = {}, u_reading = {};
     std::optional<double> nu_reading;  ///< none = infinite
     std::string u_reading_from;        ///< "residuals" or "stated"
     double condition_number = 1.0;
     std::vector<ClosureTestRow> tests;
     std::vector<ClosureSeriesRow> series;
     std::vector<ClosureResidualRow> residuals;
-    struct {
-        std::string residual_standard_deviation, u_reading, unit;
-    } printed;
 };
 
 }  // namespace gumcert::reports

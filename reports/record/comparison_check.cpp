@@ -173,7 +173,7 @@ private:
                             is_between_laboratories_ ? k_a_participant : "must be one of the two methods");
                 }
             }
-            correlation(at.pointer("correlation"), source.correlation);
+            correlation(at.pointer("correlation"), source.correlation.number);
         }
     }
 

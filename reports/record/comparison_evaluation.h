@@ -80,8 +80,7 @@ struct PairEquivalence {
 /// Weight of a result in the assigned value.
 struct ResultWeight {
     std::string participant;
-    double weight = 0.0;
-    std::string printed = {};
+    Shown<double> weight = {};
 };
 
 /// One item in one round: assigned value, its uncertainty, the spread of the results and the checks.
@@ -164,8 +163,7 @@ struct YoudenDiagram {
 struct SharedSource {
     std::string source, first, second;  ///< the two participants, or the two methods
     double covariance = 0.0;            ///< of one typical pair of values, in the square of the unit
-    double correlation = 0.0;
-    std::string printed_correlation = {};
+    Shown<double> correlation = {};
 };
 
 }  // namespace gumcert::reports

@@ -7,11 +7,12 @@ namespace gumcert::reports {
 
 // Every struct of a comparison is described once, by a function `describe(archive, value)` as in
 // certificate/certificate_fields.h; reader, writer and schema of a record walk it. What an archive has in addition:
-//   a.added(key, member, R)   a key that a later release added: written always, may be missing where it is read
-//   a.summary(key, member)    an object keyed by direction
-//   a(key, Shown member, R)   the number, and its text in the object `printed`
-//   a.text(key, member)       a text of that object that has no number of its key
-//   a.text_added(key, …)      the same, and a number whose text may be missing where it is read
+//   a.added(key, member, R)             a key that a later release added: written always, may be missing where it is read
+//   a.summary(key, member)              an object keyed by direction
+//   a(key, Shown member, R)             the number, and its text under the same key of the object `printed`
+//   a.shown(key, text key, member, R)   the same, and the text has another key
+//   a.text(key, member)                 a text of that object, or several, that has no number of its key
+//   a.text_added(key, …)                the same, and a number whose text may be missing where it is read
 
 template <class Archive, certificate::Described<BiasLineSummary> Struct>
 void describe(Archive& a, Struct& r) {
@@ -115,8 +116,8 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<ResultWeight> Struct>
 void describe(Archive& a, Struct& r) {
     a("participant", r.participant);
-    a("weight", r.weight);
-    a("printed", r.printed);
+    a("weight", r.weight.number);
+    a("printed", r.weight.text);
 }
 
 template <class Archive, certificate::Described<ComparisonItemEvaluation> Struct>
@@ -241,8 +242,8 @@ void describe(Archive& a, Struct& r) {
     a("first", r.first);
     a("second", r.second);
     a("covariance", r.covariance);
-    a("correlation", r.correlation);
-    a("printed_correlation", r.printed_correlation);
+    a("correlation", r.correlation.number);
+    a("printed_correlation", r.correlation.text);
 }
 
 template <class Archive, certificate::Described<ComparisonPoint> Struct>
@@ -368,8 +369,8 @@ void describe(Archive& a, Struct& r) {
     a.added("shared_sources", r.shared_sources);
     a.added("audit_finding", r.audit_finding);
     a.added("published_source", r.published_source);
-    a.added("tolerance", r.tolerance, certificate::NumberRule::not_negative);
-    a.added("printed_tolerance", r.printed_tolerance);
+    a.added("tolerance", r.tolerance.number, certificate::NumberRule::not_negative);
+    a.added("printed_tolerance", r.tolerance.text);
     a.added("items", r.items);
     a.added("items_without_result", r.items_without_result);
     a.added("languages", r.languages);

@@ -48,34 +48,29 @@ struct ReportedResult {
 /// One row of an uncertainty budget (JCGM 100:2008, 7.2.7; layout of table H.1).
 struct BudgetRow {
     std::string input;
-    std::optional<double> value;  ///< estimate, in `unit`; none where the row stands for many input quantities
+    /// Estimate, in `unit`, and its text without it; none where the row stands for many input quantities
+    Shown<std::optional<double>> value = {};
     std::string unit;
-    double u = 0.0;            ///< standard uncertainty (of one typical quantity of the row), in `unit`
-    std::optional<double> nu;  ///< degrees of freedom; none = infinite
-    std::string type;          ///< "A" or "B"
+    Shown<double> u = {};                  ///< standard uncertainty (of one typical quantity of the row), in `unit`
+    Shown<std::optional<double>> nu = {};  ///< degrees of freedom; none = infinite
+    std::string type;                      ///< "A" or "B"
     std::string distribution;
-    std::optional<double> sensitivity;  ///< none where the row stands for many input quantities
-    double contribution = 0.0;          ///< |c| u, in the unit of the result
-    double share = 0.0;                 ///< contribution² / u²
+    Shown<std::optional<double>> sensitivity = {};  ///< none where the row stands for many input quantities
+    Shown<double> contribution = {};                ///< |c| u, in the unit of the result
+    Shown<double> share = {};                       ///< contribution² / u²; its text in percent
     std::string source;
     std::vector<BudgetRow> components;  ///< the parts of an input that is a sum, as table H.1 of the GUM shows them
     /// "" for an input. "fit" for all parameters of a fit together, their covariances included; its components are
     /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
     /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure
     std::string role = {};
-    struct {
-        std::string value, u, nu, sensitivity, contribution, share;  ///< share in percent; value without its unit
-    } printed;
 };
 
 /// What the correlations of the inputs add to the variance of a result: 2 Σ c_i c_j u_i u_j r_ij, often negative.
 struct CorrelationRow {
-    double variance = 0.0;  ///< in the square of the unit of the result
-    double share = 0.0;     ///< variance / u²
-    struct {
-        std::string contribution;  ///< root of |variance| with its sign
-        std::string share;         ///< percent
-    } printed;
+    double variance = 0.0;                  ///< in the square of the unit of the result
+    std::string printed_contribution = {};  ///< root of |variance| with its sign
+    Shown<double> share = {};               ///< variance / u²; its text in percent
 };
 
 /// `results.NAME`
@@ -118,8 +113,7 @@ struct StatedValue {
 };
 
 struct ErrorsAtAngle {
-    double angle_deg = 0.0;
-    std::string printed_angle;
+    Shown<double> angle_deg = {};
     std::array<StatedValue, 6> errors;  ///< in the order of RotaryTable::error_names
 };
 
@@ -175,37 +169,32 @@ struct QuantityBudget {
 /// Means over all angles, for people: one row an error motion.
 struct BudgetSummaryRow {
     std::string quantity;
-    double rms_u = 0.0;
+    Shown<double> rms_u = {};
     std::string unit;
-    std::vector<double> shares;
-    std::string printed_rms_u;
-    std::vector<std::string> printed_shares;  ///< percent
+    Shown<std::vector<double>> shares = {};  ///< texts in percent
 };
 
 struct VarianceFactor {
-    double a_priori = 1.0, a_posteriori = 1.0;
+    double a_priori = 1.0;
+    Shown<double> a_posteriori = {1.0};
     std::string used;         ///< "a_priori" or "a_posteriori"
     std::string reason = {};  ///< a sentence: why this one
 };
 
 /// Two-sided test of chi-square of the adjustment against its distribution.
 struct GlobalTest {
-    double probability = 0.95;        ///< of the region of acceptance
-    double lower = 0.0, upper = 0.0;  ///< limits of chi-square
+    double probability = 0.95;             ///< of the region of acceptance
+    Shown<double> lower = {}, upper = {};  ///< limits of chi-square
     bool accepted = true;
     std::string meaning;  ///< what the answer says here, where components are estimated from it too
-    std::string printed_lower, printed_upper;
 };
 
 struct AdjustmentSummary {
     std::string method;  ///< "joint" or "sequential"
     std::int64_t observations = 0, parameters = 0, degrees_of_freedom = 0, iterations = 0;
-    double chi_square = 0.0, p_value = 0.0, condition_number = 0.0;
+    Shown<double> chi_square = {}, p_value = {}, condition_number = {};
     VarianceFactor variance_factor;
     GlobalTest global_test;
-    struct {
-        std::string chi_square, p_value, variance_factor, condition_number;
-    } printed;
 };
 
 struct VarianceComponent {
@@ -215,10 +204,9 @@ struct VarianceComponent {
     double redundancy = 0.0;
     bool estimated = false;
     Printed printed;                                ///< U holds the standard uncertainty of the component (k = 1)
-    std::optional<double> stated = {};              ///< what the job states, in `unit`; for the fixture 1 (a factor)
+    Shown<std::optional<double>> stated = {};       ///< what the job states, in `unit`; for the fixture 1 (a factor)
     std::optional<double> degrees_of_freedom = {};  ///< of the estimate; none where it is given
     bool used = true;  ///< in the weights; false: estimated as a check of the stated value only
-    std::string printed_stated = {};
 };
 
 struct ReliabilityRow {
@@ -276,15 +264,15 @@ struct MachineFrame {
     std::string source;
     std::array<double, 3> nominal_point_mm{};
     std::vector<MachinePoint> points;
-    double chi_square = 0.0, degrees_of_freedom = 0.0, p_value = 1.0;
-    std::string printed_p, printed_residual;  ///< rms, [µm]
+    double chi_square = 0.0, degrees_of_freedom = 0.0;
+    Shown<double> p_value = {1.0};
+    std::string printed_residual;  ///< rms, [µm]
 };
 
 /// Deviations of the axial rotation at one target position (ISO 230-2), [arcsec].
 struct PositioningTarget {
-    double angle_deg = 0.0;
-    std::optional<double> mean_up, mean_down, s_up, s_down, reversal;
-    std::string printed_angle, printed_mean_up, printed_mean_down, printed_s_up, printed_s_down, printed_reversal;
+    Shown<double> angle_deg = {};
+    Shown<std::optional<double>> mean_up = {}, mean_down = {}, s_up = {}, s_down = {}, reversal = {};
     std::vector<double> runs_up = {}, runs_down = {};  ///< deviations of the single runs
 };
 
@@ -293,8 +281,7 @@ struct PositioningAccuracy {
     std::int64_t runs_up = 0, runs_down = 0;
     std::vector<TableParameter> parameters;  ///< M, E, E_up … A_down, those that the runs allow
     std::vector<PositioningTarget> targets;
-    double u_deviation = 0.0;  ///< rms standard uncertainty of one deviation of one run
-    std::string printed_u_deviation;
+    Shown<double> u_deviation = {};  ///< rms standard uncertainty of one deviation of one run
     std::vector<std::string> remarks;
 };
 
@@ -357,8 +344,8 @@ struct RotaryTable {
     std::vector<VarianceComponent> variance_components;
     std::vector<ReliabilityRow> reliability;
     std::vector<FlaggedDistance> flagged;
-    double outlier_critical_value = 0.0, outlier_alpha = 0.0;
-    std::string printed_critical_value;
+    Shown<double> outlier_critical_value = {};
+    double outlier_alpha = 0.0;
     std::vector<FixtureReliabilityRow> fixture_reliability;
     std::vector<ExternalReliability> external_reliability;  ///< one a reported quantity
     std::vector<TableParameter> axis_line;                  ///< of the axis average line in the frame of the fixture
@@ -482,8 +469,7 @@ struct Comparison {
     std::vector<SharedSource> shared_sources = {};
     std::string audit_finding = {};  ///< what En_audited corrects; findings of both sides one after the other
     std::string published_source = {};
-    std::optional<double> tolerance = {};
-    std::string printed_tolerance = {};
+    Shown<std::optional<double>> tolerance = {};
 
     std::vector<ComparisonItemEvaluation> items = {};  ///< form "laboratories"
     std::vector<ItemWithoutResult> items_without_result = {};
@@ -526,9 +512,8 @@ struct EvaluationRecord {
     Software software;
     std::string kind;  ///< "budget", "rotary_table", "circle_closure" or "comparison"
     std::string title;
-    double coverage_probability = 0.9545;
-    std::string printed_coverage;  ///< "95.45 %"
-    std::string job_json;          ///< the job as read, canonical JSON text
+    Shown<double> coverage_probability = {0.9545};  ///< text "95.45 %"
+    std::string job_json;                           ///< the job as read, canonical JSON text
     std::vector<InputFile> job_files;
     std::string options_json;                    ///< every tolerance and option in force, canonical JSON text
     std::vector<Result> results;                 ///< in the order of documents; an object keyed by name in JSON

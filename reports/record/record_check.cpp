@@ -22,18 +22,19 @@ namespace {
 
 /// What must hold in a Monte Carlo evaluation of one quantity.
 void check_monte_carlo(const MonteCarloSummary& m, const std::string& at, const RecordBreach& report) {
-    for (const auto& [name, ends] : {std::pair("symmetric", m.symmetric), std::pair("shortest", m.shortest)}) {
+    for (const auto& [name, ends] :
+         {std::pair("symmetric", m.symmetric.number), std::pair("shortest", m.shortest.number)}) {
         if (ends[0] > ends[1]) {
             report(at + "/" + name, record_number(ends[0]) + " to " + record_number(ends[1]),
                    "the lower end of an interval is not above the upper end");
         }
     }
-    std::int64_t left = m.trials;
+    std::int64_t left = m.trials.number;
     for (const std::int64_t count : m.histogram) {
         left = count > left ? -1 : left - count;
         if (left < 0) {
             report(at + "/histogram/counts", "more than the trials",
-                   "the cells hold at most all " + std::to_string(m.trials) + " trials");
+                   "the cells hold at most all " + std::to_string(m.trials.number) + " trials");
             break;
         }
     }
@@ -84,8 +85,8 @@ void check_rotary(const RotaryTable& r, const RecordBreach& report) {
     }
     for (std::size_t i = 0; i < r.budget_summary.size(); ++i) {
         const std::string at = "/budget_summary/" + std::to_string(i);
-        length(at + "/shares", r.budget_summary[i].shares.size(), r.budget_sources.size(), "one share a source");
-        length(at + "/printed/shares", r.budget_summary[i].printed_shares.size(), r.budget_sources.size(),
+        length(at + "/shares", r.budget_summary[i].shares.number.size(), r.budget_sources.size(), "one share a source");
+        length(at + "/printed/shares", r.budget_summary[i].shares.text.size(), r.budget_sources.size(),
                "one share a source");
     }
     for (std::size_t i = 0; i < r.stations.size(); ++i) {
@@ -123,8 +124,8 @@ void check_rotary(const RotaryTable& r, const RecordBreach& report) {
     for (std::size_t i = 0; i < r.reflectors.size(); ++i) {
         symmetric("/reflectors/" + std::to_string(i) + "/covariance_mm2", r.reflectors[i].covariance_mm2);
     }
-    if (const GlobalTest& test = r.adjustment.global_test; test.lower > test.upper) {
-        report("/adjustment/global_test/lower", record_number(test.lower), "must not be above the upper limit");
+    if (const GlobalTest& test = r.adjustment.global_test; test.lower.number > test.upper.number) {
+        report("/adjustment/global_test/lower", record_number(test.lower.number), "must not be above the upper limit");
     }
     std::set<std::pair<StatedGroup, std::string>> names;
     for (const auto& place : stated_values(r)) {
@@ -215,10 +216,10 @@ void check_results(const EvaluationRecord& r, const RecordBreach& report) {
         if (square(at + "/matrix", c.matrix, size, rule)) {
             symmetric(at + "/matrix", c.matrix);
         }
-        if (square(at + "/correlation", c.correlation, size, rule)) {
-            symmetric(at + "/correlation", c.correlation);
+        if (square(at + "/correlation", c.correlation.number, size, rule)) {
+            symmetric(at + "/correlation", c.correlation.number);
         }
-        square(at + "/printed/correlation", c.printed_correlation, size, rule);
+        square(at + "/printed/correlation", c.correlation.text, size, rule);
     }
     for (std::size_t i = 0; i < r.fits.size(); ++i) {
         const FitSummary& f = r.fits[i];
@@ -229,26 +230,26 @@ void check_results(const EvaluationRecord& r, const RecordBreach& report) {
         if (square(at + "/correlation", f.correlation, f.parameters.size(), "one a parameter")) {
             symmetric(at + "/correlation", f.correlation);
         }
-        if (!f.x_name.empty() || !f.x.empty()) {
-            length(at + "/data/x", f.x.size(), f.y.size(), "one a value of y");
+        if (!f.x_name.empty() || !f.x.number.empty()) {
+            length(at + "/data/x", f.x.number.size(), f.y.number.size(), "one a value of y");
         }
-        length(at + "/data/fitted", f.fitted.size(), f.y.size(), "one a value of y");
-        length(at + "/data/residual", f.residual.size(), f.y.size(), "one a value of y");
+        length(at + "/data/fitted", f.fitted.size(), f.y.number.size(), "one a value of y");
+        length(at + "/data/residual", f.residual.number.size(), f.y.number.size(), "one a value of y");
         const auto length_if_any = [&](const std::string& key, std::size_t found) {
             if (found != 0) {
-                length(at + key, found, f.y.size(), "one a value of y");
+                length(at + key, found, f.y.number.size(), "one a value of y");
             }
         };
-        length_if_any("/data/u_x", f.u_x.size());
-        length_if_any("/data/u_y", f.u_y.size());
-        length_if_any("/printed/x", f.printed.x.size());
-        length_if_any("/printed/y", f.printed.y.size());
-        length_if_any("/printed/u_x", f.printed.u_x.size());
-        length_if_any("/printed/u_y", f.printed.u_y.size());
-        length_if_any("/printed/residual", f.printed.residual.size());
+        length_if_any("/data/u_x", f.u_x.number.size());
+        length_if_any("/data/u_y", f.u_y.number.size());
+        length_if_any("/printed/x", f.x.text.size());
+        length_if_any("/printed/y", f.y.text.size());
+        length_if_any("/printed/u_x", f.u_x.text.size());
+        length_if_any("/printed/u_y", f.u_y.text.size());
+        length_if_any("/printed/residual", f.residual.text.size());
         for (std::size_t q = 0; q < f.regressors.size(); ++q) {
-            length_if_any("/data/regressors/" + std::to_string(q) + "/values", f.regressors[q].values.size());
-            length_if_any("/data/regressors/" + std::to_string(q) + "/printed", f.regressors[q].printed.size());
+            length_if_any("/data/regressors/" + std::to_string(q) + "/values", f.regressors[q].values.number.size());
+            length_if_any("/data/regressors/" + std::to_string(q) + "/printed", f.regressors[q].values.text.size());
         }
     }
 }

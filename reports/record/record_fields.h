@@ -27,36 +27,25 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<BudgetRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("input", r.input);
-    a("value", r.value);
+    a.text_added("value", r.value);
     a("unit", r.unit);
     a("u", r.u, NumberRule::not_negative);
-    a("nu", r.nu, NumberRule::positive);
+    a.text_added("nu", r.nu, NumberRule::positive);
     a("type", r.type, {"A", "B"});
     a("distribution", r.distribution);
-    a("sensitivity", r.sensitivity);
+    a.text_added("sensitivity", r.sensitivity);
     a("contribution", r.contribution, NumberRule::not_negative);
     a("share", r.share, NumberRule::not_negative);
     a("source", r.source);
     a.added("components", r.components);
     a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
-    a.group("printed", [&](auto& b) {
-        b.added("value", r.printed.value);
-        b("u", r.printed.u);
-        b.added("nu", r.printed.nu);
-        b.added("sensitivity", r.printed.sensitivity);
-        b("contribution", r.printed.contribution);
-        b("share", r.printed.share);
-    });
 }
 
 template <class Archive, certificate::Described<CorrelationRow> Struct>
 void describe(Archive& a, Struct& r) {
     a("variance", r.variance);
+    a.text("contribution", r.printed_contribution);
     a("share", r.share);
-    a.group("printed", [&](auto& b) {
-        b("contribution", r.printed.contribution);
-        b("share", r.printed.share);
-    });
 }
 
 template <class Archive, certificate::Described<SecondOrder> Struct>
@@ -64,11 +53,6 @@ void describe(Archive& a, Struct& r) {
     a("first_order_u", r.first_order_u, NumberRule::not_negative);
     a("u", r.u, NumberRule::not_negative);
     a("shift", r.shift);
-    a.group("printed", [&](auto& b) {
-        b("first_order_u", r.printed.first_order_u);
-        b("u", r.printed.u);
-        b("shift", r.printed.shift);
-    });
 }
 
 template <class Archive, certificate::Described<GufValidation> Struct>
@@ -80,11 +64,6 @@ void describe(Archive& a, Struct& r) {
     a("precise_enough", r.precise_enough);
     a("interval", r.interval, {"symmetric", "shortest"});
     a("digits", r.digits, NumberRule::positive);
-    a.group("printed", [&](auto& b) {
-        b("delta", r.printed.delta);
-        b("d_low", r.printed.d_low);
-        b("d_high", r.printed.d_high);
-    });
 }
 
 template <class Archive, certificate::Described<MonteCarloSummary> Struct>
@@ -108,13 +87,6 @@ void describe(Archive& a, Struct& r) {
         b("low", r.histogram_low);
         b("high", r.histogram_high);
         b("counts", r.histogram, NumberRule::not_negative);
-    });
-    a.group("printed", [&](auto& b) {
-        b("trials", r.printed.trials);
-        b("mean", r.printed.mean);
-        b("u", r.printed.u);
-        b("symmetric", r.printed.symmetric);
-        b("shortest", r.printed.shortest);
     });
 }
 
@@ -191,7 +163,6 @@ void describe(Archive& a, Struct& r) {
     a("correlation", r.correlation);
     a("file", r.file);
     a.added("method", r.method);
-    a.group("printed", [&](auto& b) { b("correlation", r.printed_correlation); });
 }
 
 template <class Archive, certificate::Described<CoverageRegion::SmallestRegion> Struct>
@@ -220,12 +191,12 @@ void describe(Archive& a, Struct& r) {
     a("from", r.from, {"law of propagation", "Monte Carlo"});
     a("nu", r.degrees_of_freedom, NumberRule::positive);
     a.group("ellipsoid", [&](auto& b) {
-        b("k_p", r.k_p, NumberRule::positive);
-        b("printed_k_p", r.printed.k_p);
+        b("k_p", r.k_p.number, NumberRule::positive);
+        b("printed_k_p", r.k_p.text);
     });
     a.group("parallelepiped", [&](auto& b) {
-        b("k_q", r.k_q, NumberRule::positive);
-        b("printed_k_q", r.printed.k_q);
+        b("k_q", r.k_q.number, NumberRule::positive);
+        b("printed_k_q", r.k_q.text);
     });
     a("smallest_region", r.smallest_region);
     a("validation", r.validation);
@@ -237,21 +208,16 @@ void describe(Archive& a, Struct& r) {
     a("unit", r.unit);
     a("value", r.value);
     a("u", r.u, NumberRule::not_negative);
+    a.text("unit", r.printed_unit);
     a.added("scaled_u", r.scaled_u, NumberRule::not_negative);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("u", r.printed.u);
-        b("unit", r.printed.unit);
-        b.added("scaled_u", r.printed.scaled_u);
-    });
 }
 
 template <class Archive, certificate::Described<FitSummary::Regressor> Struct>
 void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("unit", r.unit);
-    a("values", r.values);
-    a("printed", r.printed);
+    a("values", r.values.number);
+    a("printed", r.values.text);
 }
 
 template <class Archive, certificate::Described<FitSummary> Struct>
@@ -263,11 +229,14 @@ void describe(Archive& a, Struct& r) {
     a("covariance", r.covariance);
     a("correlation", r.correlation);
     a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
-    a("sum_of_squares", r.sum_of_squares, NumberRule::not_negative);
+    // The schema lists numbers and texts in orders of their own.
+    a("sum_of_squares", r.sum_of_squares.number, NumberRule::not_negative);
     a("residual_standard_deviation", r.residual_standard_deviation, NumberRule::not_negative);
-    a("r_squared", r.r_squared);
+    a.text("sum_of_squares", r.sum_of_squares.text);
+    a("r_squared", r.r_squared.number);
     a("condition_number", r.condition_number, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
+    a.text("r_squared", r.r_squared.text);
     a.added("consistency", r.consistency, {"", "consistent", "refuted", "overstated"});
     a("iterations", r.iterations, NumberRule::not_negative);
     a("covariance_scaled", r.covariance_scaled);
@@ -276,25 +245,19 @@ void describe(Archive& a, Struct& r) {
         b("x_unit", r.x_unit);
         b("y_name", r.y_name);
         b("y_unit", r.y_unit);
-        b("x", r.x);
-        b("y", r.y);
+        b("x", r.x.number);
+        b("y", r.y.number);
         b("fitted", r.fitted);
-        b("residual", r.residual);
-        b.added("u_x", r.u_x, NumberRule::not_negative);
-        b.added("u_y", r.u_y, NumberRule::not_negative);
+        b("residual", r.residual.number);
+        b.added("u_x", r.u_x.number, NumberRule::not_negative);
+        b.added("u_y", r.u_y.number, NumberRule::not_negative);
         b.added("regressors", r.regressors);
     });
-    a.group("printed", [&](auto& b) {
-        b("residual_standard_deviation", r.printed.residual_standard_deviation);
-        b("sum_of_squares", r.printed.sum_of_squares);
-        b("p_value", r.printed.p_value);
-        b("r_squared", r.printed.r_squared);
-        b.added("x", r.printed.x);
-        b.added("y", r.printed.y);
-        b.added("u_x", r.printed.u_x);
-        b.added("u_y", r.printed.u_y);
-        b.added("residual", r.printed.residual);
-    });
+    a.text_added("x", r.x.text);
+    a.text_added("y", r.y.text);
+    a.text_added("u_x", r.u_x.text);
+    a.text_added("u_y", r.u_y.text);
+    a.text_added("residual", r.residual.text);
 }
 
 template <class Archive, certificate::Described<OutlyingReading> Struct>
@@ -310,11 +273,6 @@ void describe(Archive& a, Struct& r) {
     a("value", r.value);
     a("G", r.G, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("value", r.printed.value);
-        b("G", r.printed.G);
-        b("p_value", r.printed.p_value);
-    });
 }
 
 template <class Archive, certificate::Described<ReadingsSummary> Struct>
@@ -332,15 +290,9 @@ void describe(Archive& a, Struct& r) {
     a.added("pooled_degrees_of_freedom", r.pooled_degrees_of_freedom, NumberRule::positive);
     a.added("pooled_F", r.pooled_F, NumberRule::not_negative);
     a("autocorrelation", r.autocorrelation);
-    a("autocorrelation_limit", r.autocorrelation_limit, NumberRule::not_negative);
+    a.text("r1", r.printed_r1);
+    a.shown("autocorrelation_limit", "limit", r.autocorrelation_limit, NumberRule::not_negative);
     a("dependent", r.dependent);
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("standard_deviation", r.printed.standard_deviation);
-        b("standard_deviation_of_mean", r.printed.standard_deviation_of_mean);
-        b("r1", r.printed.r1);
-        b("limit", r.printed.limit);
-    });
 }
 
 template <class Archive, certificate::Described<VarianceAnalysis> Struct>
@@ -358,26 +310,20 @@ void describe(Archive& a, Struct& r) {
     a("degrees_of_freedom_within", r.degrees_of_freedom_within, NumberRule::positive);
     a("mean_square_between", r.mean_square_between, NumberRule::not_negative);
     a("mean_square_within", r.mean_square_within, NumberRule::not_negative);
+    // The schema lists numbers and texts in orders of their own.
     a("F", r.F, NumberRule::not_negative);
-    a("p_value", r.p_value, NumberRule::probability);
+    a("p_value", r.p_value.number, NumberRule::probability);
     a("F_critical", r.F_critical, NumberRule::not_negative);
+    a.text("p_value", r.p_value.text);
     a("r_squared", r.r_squared);
-    a("standard_deviation_within", r.standard_deviation_within, NumberRule::not_negative);
-    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means, NumberRule::not_negative);
-    a("standard_deviation_between", r.standard_deviation_between, NumberRule::not_negative);
+    a.shown("standard_deviation_within", "within", r.standard_deviation_within, NumberRule::not_negative);
+    a("standard_deviation_of_group_means", r.standard_deviation_of_group_means.number, NumberRule::not_negative);
+    a.shown("standard_deviation_between", "between", r.standard_deviation_between, NumberRule::not_negative);
+    a.text("group_means", r.standard_deviation_of_group_means.text);
+    a.text("mean_square", r.printed_mean_square);
     a("u_with_between_effect", r.u_with_between_effect, NumberRule::not_negative);
     a("u_without_between_effect", r.u_without_between_effect, NumberRule::not_negative);
     a("conclusion", r.conclusion, {"significant", "not significant"});
-    a.group("printed", [&](auto& b) {
-        b("mean", r.printed.mean);
-        b("F", r.printed.F);
-        b("F_critical", r.printed.F_critical);
-        b("p_value", r.printed.p_value);
-        b("within", r.printed.within);
-        b("between", r.printed.between);
-        b("group_means", r.printed.group_means);
-        b("mean_square", r.printed.mean_square);
-    });
 }
 
 /// The keys of a stated value that have been in a record from the beginning.
@@ -467,10 +413,6 @@ void describe(Archive& a, Struct& r) {
     a("rms_u", r.rms_u, NumberRule::not_negative);
     a("unit", r.unit);
     a("shares", r.shares, NumberRule::any);
-    a.group("printed", [&](auto& b) {
-        b("rms_u", r.printed_rms_u);
-        b("shares", r.printed_shares);
-    });
 }
 
 template <class Archive, certificate::Described<GlobalTest> Struct>
@@ -480,10 +422,6 @@ void describe(Archive& a, Struct& r) {
     a("upper", r.upper, NumberRule::not_negative);
     a("accepted", r.accepted);
     a("meaning", r.meaning);
-    a.group("printed", [&](auto& b) {
-        b("lower", r.printed_lower);
-        b("upper", r.printed_upper);
-    });
 }
 
 template <class Archive, certificate::Described<AdjustmentSummary> Struct>
@@ -495,20 +433,15 @@ void describe(Archive& a, Struct& r) {
     a("iterations", r.iterations);
     a("chi_square", r.chi_square, NumberRule::not_negative);
     a("p_value", r.p_value, NumberRule::probability);
+    a.text("variance_factor", r.variance_factor.a_posteriori.text);
     a("condition_number", r.condition_number, NumberRule::not_negative);
     a.group("variance_factor", [&](auto& b) {
         b("a_priori", r.variance_factor.a_priori, NumberRule::not_negative);
-        b("a_posteriori", r.variance_factor.a_posteriori, NumberRule::not_negative);
+        b("a_posteriori", r.variance_factor.a_posteriori.number, NumberRule::not_negative);
         b("used", r.variance_factor.used, {"a_priori", "a_posteriori"});
         b.added("reason", r.variance_factor.reason);
     });
     a.added("global_test", r.global_test);
-    a.group("printed", [&](auto& b) {
-        b("chi_square", r.printed.chi_square);
-        b("p_value", r.printed.p_value);
-        b("variance_factor", r.printed.variance_factor);
-        b("condition_number", r.printed.condition_number);
-    });
 }
 
 template <class Archive, certificate::Described<VarianceComponent> Struct>
@@ -520,10 +453,10 @@ void describe(Archive& a, Struct& r) {
     a("redundancy", r.redundancy);
     a("estimated", r.estimated);
     a("printed", r.printed);
-    a.added("stated", r.stated, NumberRule::not_negative);
+    a.added("stated", r.stated.number, NumberRule::not_negative);
     a.added("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
     a.added("used", r.used);
-    a.added("printed_stated", r.printed_stated);
+    a.added("printed_stated", r.stated.text);
 }
 
 template <class Archive, certificate::Described<ReliabilityRow> Struct>
@@ -591,19 +524,19 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, certificate::Described<PositioningTarget> Struct>
 void describe(Archive& a, Struct& r) {
-    a("angle_deg", r.angle_deg);
-    a("mean_up", r.mean_up);
-    a("mean_down", r.mean_down);
-    a("s_up", r.s_up, NumberRule::not_negative);
-    a("s_down", r.s_down, NumberRule::not_negative);
-    a("reversal", r.reversal);
-    a.group("printed", [&](auto& b) {
-        b("angle", r.printed_angle);
-        b("mean_up", r.printed_mean_up);
-        b("mean_down", r.printed_mean_down);
-        b("s_up", r.printed_s_up);
-        b("s_down", r.printed_s_down);
-        b("reversal", r.printed_reversal);
+    a("angle_deg", r.angle_deg.number);
+    a("mean_up", r.mean_up.number);
+    a("mean_down", r.mean_down.number);
+    a("s_up", r.s_up.number, NumberRule::not_negative);
+    a("s_down", r.s_down.number, NumberRule::not_negative);
+    a("reversal", r.reversal.number);
+    a.group("printed", [&](auto& b) {  // the schema lists it before the runs
+        b("angle", r.angle_deg.text);
+        b("mean_up", r.mean_up.text);
+        b("mean_down", r.mean_down.text);
+        b("s_up", r.s_up.text);
+        b("s_down", r.s_down.text);
+        b("reversal", r.reversal.text);
     });
     a.added("runs_up", r.runs_up);
     a.added("runs_down", r.runs_down);
@@ -620,7 +553,6 @@ void describe(Archive& a, Struct& r) {
     a("targets", r.targets);
     a("u_deviation", r.u_deviation, NumberRule::not_negative);
     a("remarks", r.remarks);
-    a.group("printed", [&](auto& b) { b("u_deviation", r.printed_u_deviation); });
 }
 
 template <class Archive, certificate::Described<RotaryMonteCarlo> Struct>
@@ -675,19 +607,11 @@ void describe(Archive& a, Struct& r) {
     a("station", r.station);
     a("reflector", r.reflector);
     a("pass", r.pass);
-    a("angle_deg", r.angle_deg);
+    a.shown("angle_deg", "angle", r.angle_deg);
     a("estimate", r.estimate);
     a("unit", r.unit, {"um", "ppm", "1"});
     a("minimal_detectable", r.minimal_detectable, NumberRule::not_negative);
     a("suspicious", r.suspicious);
-    a.group("printed", [&](auto& b) {
-        b("test_value", r.printed.test_value);
-        b("critical_value", r.printed.critical_value);
-        b("p_value", r.printed.p_value);
-        b("angle", r.printed.angle);
-        b("estimate", r.printed.estimate);
-        b("minimal_detectable", r.printed.minimal_detectable);
-    });
 }
 
 template <class Archive, certificate::Described<GroupTestSummary> Struct>
@@ -695,7 +619,6 @@ void describe(Archive& a, Struct& r) {
     a("alpha", r.alpha, NumberRule::probability);
     a("scale", r.scale, NumberRule::not_negative);
     a("kinds", r.kinds);
-    a.group("printed", [&](auto& b) { b("scale", r.printed_scale); });
 }
 
 template <class Archive, certificate::Described<ReversalTestRow> Struct>
@@ -708,11 +631,6 @@ void describe(Archive& a, Struct& r) {
     a("spread", r.spread, NumberRule::not_negative);
     a("unit", r.unit, {"um", "arcsec"});
     a("depends_on_angle", r.depends_on_angle);
-    a.group("printed", [&](auto& b) {
-        b("test_value", r.printed.test_value);
-        b("p_value", r.printed.p_value);
-        b("spread", r.printed.spread);
-    });
 }
 
 template <class Archive, certificate::Described<ReversalModel> Struct>
@@ -753,12 +671,7 @@ void describe(Archive& a, Struct& r) {
     a("amplitude", r.amplitude, NumberRule::not_negative);
     a("u", r.u, NumberRule::not_negative);
     a("U", r.U, NumberRule::not_negative);
-    a("phase_deg", r.phase_deg);
-    a.group("printed", [&](auto& b) {
-        b("amplitude", r.printed.amplitude);
-        b("U", r.printed.U);
-        b("phase", r.printed.phase);
-    });
+    a.shown("phase_deg", "phase", r.phase_deg);
 }
 
 template <class Archive, certificate::Described<HarmonicRow> Struct>
@@ -766,8 +679,7 @@ void describe(Archive& a, Struct& r) {
     a("name", r.name);
     a("unit", r.unit, {"um", "arcsec"});
     a("orders", r.orders);
-    a("rms_rest", r.rms_rest, NumberRule::not_negative);
-    a.group("printed", [&](auto& b) { b("rest", r.printed_rest); });
+    a.shown("rms_rest", "rest", r.rms_rest, NumberRule::not_negative);
 }
 
 template <class Archive, certificate::Described<ExcludedDistances> Struct>
@@ -785,41 +697,26 @@ void describe(Archive& a, Struct& r) {
 template <class Archive, certificate::Described<StationEnvironment> Struct>
 void describe(Archive& a, Struct& r) {
     a("station", r.station);
-    a("fixture_degC", r.fixture_degC);
-    a("u_fixture_K", r.u_fixture_K, NumberRule::not_negative);
-    a("air_degC", r.air_degC);
-    a("pressure_hPa", r.pressure_hPa);
-    a("humidity_percent", r.humidity_percent);
-    a("expansion_um", r.expansion_um);
-    a.group("printed", [&](auto& b) {
-        b("fixture", r.printed.fixture);
-        b("u_fixture", r.printed.u_fixture);
-        b("air", r.printed.air);
-        b("pressure", r.printed.pressure);
-        b("humidity", r.printed.humidity);
-        b("expansion", r.printed.expansion);
-    });
+    a.shown("fixture_degC", "fixture", r.fixture_degC);
+    a.shown("u_fixture_K", "u_fixture", r.u_fixture_K, NumberRule::not_negative);
+    a.shown("air_degC", "air", r.air_degC);
+    a.shown("pressure_hPa", "pressure", r.pressure_hPa);
+    a.shown("humidity_percent", "humidity", r.humidity_percent);
+    a.shown("expansion_um", "expansion", r.expansion_um);
 }
 
 template <class Archive, certificate::Described<Environment> Struct>
 void describe(Archive& a, Struct& r) {
-    a("reference_degC", r.reference_degC);
-    a("expansion_per_K", r.expansion_per_K);
-    a("u_expansion_per_K", r.u_expansion_per_K, NumberRule::not_negative);
-    a("largest_distance_mm", r.largest_distance_mm, NumberRule::not_negative);
+    a.shown("reference_degC", "reference", r.reference_degC);
+    a.shown("expansion_per_K", "expansion", r.expansion_per_K);
+    a.shown("u_expansion_per_K", "u_expansion", r.u_expansion_per_K, NumberRule::not_negative);
+    a.shown("largest_distance_mm", "largest_distance", r.largest_distance_mm, NumberRule::not_negative);
     a("largest_share", r.largest_share);
     a("stations", r.stations);
-    a.group("printed", [&](auto& b) {
-        b("reference", r.printed.reference);
-        b("expansion", r.printed.expansion);
-        b("u_expansion", r.printed.u_expansion);
-        b("largest_distance", r.printed.largest_distance);
-        b("largest_share", r.printed.largest_share);
-        b("lowest", r.printed.lowest);
-        b("highest", r.printed.highest);
-        b("least_expansion", r.printed.least_expansion);
-        b("most_expansion", r.printed.most_expansion);
-    });
+    a.text("lowest", r.printed_lowest);
+    a.text("highest", r.printed_highest);
+    a.text("least_expansion", r.printed_least_expansion);
+    a.text("most_expansion", r.printed_most_expansion);
 }
 
 template <class Archive, certificate::Described<InputFile> Struct>
@@ -882,11 +779,8 @@ void describe(Archive& a, Struct& r) {
     a("points", r.points);
     a("chi_square", r.chi_square, NumberRule::not_negative);
     a("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
-    a("p_value", r.p_value, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("p", r.printed_p);
-        b("residual", r.printed_residual);
-    });
+    a.shown("p_value", "p", r.p_value, NumberRule::probability);
+    a.text("residual", r.printed_residual);
 }
 
 template <class Archive, certificate::Described<RotaryTable> Struct>
@@ -918,9 +812,9 @@ void describe(Archive& a, Struct& r) {
     a("reliability", r.reliability);
     a("flagged", r.flagged);
     a.group("outlier_test", [&](auto& b) {
-        b("critical_value", r.outlier_critical_value, NumberRule::not_negative);
+        b("critical_value", r.outlier_critical_value.number, NumberRule::not_negative);
         b("alpha", r.outlier_alpha, NumberRule::probability);
-        b("printed_critical_value", r.printed_critical_value);
+        b("printed_critical_value", r.outlier_critical_value.text);
     });
     a.added("fixture_reliability", r.fixture_reliability);
     a.added("external_reliability", r.external_reliability);
@@ -948,12 +842,6 @@ void describe(Archive& a, Struct& r) {
     a("drift", r.drift);
     a("residual_rms", r.residual_rms, NumberRule::not_negative);
     a("misclosure", r.misclosure);
-    a.group("printed", [&](auto& b) {
-        b("zero", r.printed.zero);
-        b("drift", r.printed.drift);
-        b("residual_rms", r.printed.residual_rms);
-        b("misclosure", r.printed.misclosure);
-    });
 }
 
 template <class Archive, certificate::Described<ClosureResidualRow> Struct>
@@ -965,10 +853,6 @@ void describe(Archive& a, Struct& r) {
     a("reading", r.reading);
     a("residual", r.residual);
     a("redundancy", r.redundancy, NumberRule::probability);
-    a.group("printed", [&](auto& b) {
-        b("reading", r.printed.reading);
-        b("residual", r.printed.residual);
-    });
 }
 
 template <class Archive, certificate::Described<ClosureTestRow> Struct>
@@ -979,12 +863,6 @@ void describe(Archive& a, Struct& r) {
     a("nu_reference", r.nu_reference, NumberRule::positive);
     a("p_value", r.p_value, NumberRule::probability);
     a("accepted", r.accepted);
-    a.group("printed", [&](auto& b) {
-        b("statistic", r.printed.statistic);
-        b("nu", r.printed.nu);
-        b("nu_reference", r.printed.nu_reference);
-        b("p_value", r.printed.p_value);
-    });
 }
 
 template <class Archive, certificate::Described<CircleClosure> Struct>
@@ -1012,11 +890,7 @@ void describe(Archive& a, Struct& r) {
     a("tests", r.tests);
     a("series", r.series);
     a("residuals", r.residuals);
-    a.group("printed", [&](auto& b) {
-        b("residual_standard_deviation", r.printed.residual_standard_deviation);
-        b("u_reading", r.printed.u_reading);
-        b("unit", r.printed.unit);
-    });
+    a.text("unit", r.printed_unit);
 }
 
 template <class Archive, certificate::Described<EvaluationRecord> Struct>
@@ -1025,8 +899,8 @@ void describe(Archive& a, Struct& r) {
     a("kind", r.kind);  // the caller says which words it may be
     a("title", r.title);
     a("software", r.software);
-    a("coverage_probability", r.coverage_probability, NumberRule::probability);
-    a.group("printed", [&](auto& b) { b("coverage_probability", r.printed_coverage); });
+    a("coverage_probability", r.coverage_probability.number, NumberRule::probability);
+    a.group("printed", [&](auto& b) { b("coverage_probability", r.coverage_probability.text); });
     a.group("job", [&](auto& b) {
         b.document("document", r.job_json);
         b("files", r.job_files);

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -62,13 +63,24 @@ public:
 
     template <class Number, class Rule = gumcert::json::NoRule>
     void operator()(const char* key, Shown<Number>& v, const Rule& rule = {}) {
+        shown(key, key, v, rule);
+    }
+
+    template <class Number, class Rule = gumcert::json::NoRule>
+    void shown(const char* key, const char* text_key, Shown<Number>& v, const Rule& rule = {}) {
         (*this)(key, v.number, rule);
-        text(key, v.text);
+        text(text_key, v.text);
     }
 
     /// A text of the object `printed`, which finish() reads as a whole.
-    void text(const char* key, std::string& v) { texts_.push_back({key, &v, false}); }
-    void text_added(const char* key, std::string& v) { texts_.push_back({key, &v, true}); }
+    template <class Text>
+    void text(const char* key, Text& v) {
+        texts_.push_back([key, &v](Reader& printed) { printed(key, v); });
+    }
+    template <class Text>
+    void text_added(const char* key, Text& v) {
+        texts_.push_back([key, &v](Reader& printed) { printed.added(key, v); });
+    }
 
     /// A number whose text a later release added.
     template <class Number, class Rule = gumcert::json::NoRule>
@@ -133,8 +145,8 @@ public:
     void finish() {
         if (!texts_.empty()) {
             group("printed", [&](Reader& printed) {
-                for (const PrintedText& text : texts_) {
-                    text.added ? printed.added(text.key, *text.value) : printed(text.key, *text.value);
+                for (const auto& read_text : texts_) {
+                    read_text(printed);
                 }
             });
         }
@@ -267,8 +279,8 @@ public:
     void errors(const char* key, std::vector<ErrorsAtAngle>& v, const RotaryTable& rotary) {
         for_each_row(key, [&](Reader& inner) {
             ErrorsAtAngle& row = v.emplace_back();
-            inner("angle_deg", row.angle_deg);
-            inner("printed_angle", row.printed_angle);
+            inner("angle_deg", row.angle_deg.number);
+            inner("printed_angle", row.angle_deg.text);
             for (std::size_t m = 0; m < row.errors.size(); ++m) {
                 inner(rotary.error_names[m].c_str(), row.errors[m]);
             }
@@ -326,12 +338,7 @@ private:
     friend StructReader;
     static constexpr bool k_null_is_none = true;
     RecordProblems& problems_;
-    struct PrintedText {
-        const char* key;
-        std::string* value;
-        bool added;
-    };
-    std::vector<PrintedText> texts_;
+    std::vector<std::function<void(Reader&)>> texts_;  ///< of the object `printed`
 
     /// Calls read(reader of the object) for each object of an array; anything else in it is reported and left out.
     template <class Read>

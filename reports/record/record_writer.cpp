@@ -54,13 +54,24 @@ public:
 
     template <class Number>
     void operator()(const char* key, const Shown<Number>& v, Range range = Range::any) {
+        shown(key, key, v, range);
+    }
+
+    template <class Number>
+    void shown(const char* key, const char* text_key, const Shown<Number>& v, Range range = Range::any) {
         (*this)(key, v.number, range);
-        text(key, v.text);
+        text(text_key, v.text);
     }
 
     /// What documents print, in the object `printed`.
-    void text(const char* key, const std::string& v) { object["printed"][key] = v; }
-    void text_added(const char* key, const std::string& v) { text(key, v); }
+    template <class Text>
+    void text(const char* key, const Text& v) {
+        object["printed"][key] = v;
+    }
+    template <class Text>
+    void text_added(const char* key, const Text& v) {
+        text(key, v);
+    }
 
     /// A number whose text a later release added.
     template <class Number>
@@ -189,8 +200,8 @@ public:
         json all = json::array();
         for (std::size_t i = 0; i < v.size(); ++i) {
             Writer inner(all_at.child(i));
-            inner("angle_deg", v[i].angle_deg);
-            inner("printed_angle", v[i].printed_angle);
+            inner("angle_deg", v[i].angle_deg.number);
+            inner("printed_angle", v[i].angle_deg.text);
             for (std::size_t m = 0; m < v[i].errors.size(); ++m) {
                 const std::string& name = rotary.error_names[m];
                 const Step at = inner.place_.child(name);

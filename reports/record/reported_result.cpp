@@ -100,7 +100,7 @@ ReportedResult reported_result(const Result& result) {
     const bool of_trials = result.coverage == "monte_carlo" || (result.coverage == "none" && !result.U);
     if (result.monte_carlo && of_trials) {
         stated.method = "monte_carlo";
-        stated.interval = result.monte_carlo->symmetric;
+        stated.interval = result.monte_carlo->symmetric.number;
         stated.because = "vanishing";
     }
     print_reported(stated, result.unit);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/record/shown.h"
+
 namespace gumcert::reports {
 
 // What a record holds of a rotary table beside its results: what the distances say of the measurement itself, and the
@@ -13,44 +15,36 @@ namespace gumcert::reports {
 
 /// The largest of the tests of one kind of groups of distances.
 struct GroupTestRow {
-    std::string kind;         ///< "visit_length", "visit_pose", "dead_path_change", "drift" …
-    std::int64_t tests = 1;   ///< of the kind, among which its level is divided
-    double test_value = 0.0;  ///< chi-square
+    std::string kind;               ///< "visit_length", "visit_pose", "dead_path_change", "drift" …
+    std::int64_t tests = 1;         ///< of the kind, among which its level is divided
+    Shown<double> test_value = {};  ///< chi-square
     std::int64_t degrees_of_freedom = 1;
-    double critical_value = 0.0;  ///< of chi-square
-    double p_value = 1.0;
+    Shown<double> critical_value = {};  ///< of chi-square
+    Shown<double> p_value = {1.0};
     std::string station = {}, reflector = {}, pass = {};  ///< "" where the kind has none
-    std::optional<double> angle_deg = {};
-    double estimate = 0.0;
-    std::string unit = "um";                        ///< of the estimate: "um", "ppm", or "1" for a ratio
-    std::optional<double> minimal_detectable = {};  ///< in `unit`; none: not stated
+    Shown<std::optional<double>> angle_deg = {};
+    Shown<double> estimate = {};
+    std::string unit = "um";                               ///< of the estimate: "um", "ppm", or "1" for a ratio
+    Shown<std::optional<double>> minimal_detectable = {};  ///< in `unit`; none: not stated
     bool suspicious = false;
-    struct {
-        std::string test_value = {}, critical_value = {}, p_value = {}, angle = {}, estimate = {};
-        std::string minimal_detectable = {};
-    } printed = {};
 };
 
 struct GroupTestSummary {
     double alpha = 0.001;             ///< probability that a sound measurement makes any group of any kind suspicious
-    double scale = 1.0;               ///< robust standard deviation of the test values of the visits
+    Shown<double> scale = {1.0};      ///< robust standard deviation of the test values of the visits
     std::vector<GroupTestRow> kinds;  ///< suspicious ones first, the least probable one first of all
-    std::string printed_scale;
 };
 
 /// Whether the reversal of one error motion is the same at all angles.
 struct ReversalTestRow {
     std::string name;                                        ///< "EXA"
-    double test_value = 0.0;                                 ///< F
+    Shown<double> test_value = {};                           ///< F
     double degrees_of_freedom = 1.0;                         ///< of the numerator: angles less one
     std::optional<double> residual_degrees_of_freedom = {};  ///< of the denominator; none: variances are stated
-    double p_value = 1.0;
-    double spread = 0.0;  ///< root mean square about the mean, in `unit`
-    std::string unit;     ///< "um" or "arcsec"
+    Shown<double> p_value = {1.0};
+    Shown<double> spread = {};  ///< root mean square about the mean, in `unit`
+    std::string unit;           ///< "um" or "arcsec"
     bool depends_on_angle = false;
-    struct {
-        std::string test_value = {}, p_value = {}, spread = {};
-    } printed = {};
 };
 
 /// How the two senses of approach were adjusted.
@@ -82,41 +76,33 @@ struct SenseCurve {
 
 struct HarmonicOrder {
     std::int64_t order = 1;
-    double amplitude = 0.0, u = 0.0, U = 0.0;  ///< in the unit of the error motion
-    double phase_deg = 0.0;                    ///< 0 to 360: A cos(k θ - phase)
-    struct {
-        std::string amplitude = {}, U = {}, phase = {};
-    } printed = {};
+    Shown<double> amplitude = {}, U = {};  ///< in the unit of the error motion
+    double u = 0.0;
+    Shown<double> phase_deg = {};  ///< 0 to 360: A cos(k θ - phase)
 };
 
 /// One error motion as a sum of harmonics.
 struct HarmonicRow {
     std::string name, unit;  ///< "EXA", "um"
     std::vector<HarmonicOrder> orders;
-    double rms_rest = 0.0;  ///< of the curve without these orders and without its mean
-    std::string printed_rest;
+    Shown<double> rms_rest = {};  ///< of the curve without these orders and without its mean
 };
 
 /// Temperatures and air about one station, and what the thermal expansion of the fixture did there.
 struct StationEnvironment {
     std::string station;
-    double fixture_degC = 20.0, u_fixture_K = 0.0;
-    std::optional<double> air_degC = {}, pressure_hPa = {}, humidity_percent = {};
-    double expansion_um = 0.0;  ///< of the largest distance in the fixture, corrected
-    struct {
-        std::string fixture = {}, u_fixture = {}, air = {}, pressure = {}, humidity = {}, expansion = {};
-    } printed = {};
+    Shown<double> fixture_degC = {20.0}, u_fixture_K = {};
+    Shown<std::optional<double>> air_degC = {}, pressure_hPa = {}, humidity_percent = {};
+    Shown<double> expansion_um = {};  ///< of the largest distance in the fixture, corrected
 };
 
 struct Environment {
-    double reference_degC = 20.0, expansion_per_K = 0.0, u_expansion_per_K = 0.0;
-    double largest_distance_mm = 0.0;  ///< between two points of the fixture
-    double largest_share = 0.0;        ///< of the expansion in the variance of an error motion, mean over the angles
+    Shown<double> reference_degC = {20.0}, expansion_per_K = {}, u_expansion_per_K = {};
+    Shown<double> largest_distance_mm = {};  ///< between two points of the fixture
+    Shown<double> largest_share = {};  ///< of the expansion in the variance of an error motion, mean over the angles
     std::vector<StationEnvironment> stations;
-    struct {
-        std::string reference = {}, expansion = {}, u_expansion = {}, largest_distance = {}, largest_share = {};
-        std::string lowest = {}, highest = {}, least_expansion = {}, most_expansion = {};  ///< over the stations
-    } printed = {};
+    std::string printed_lowest = {}, printed_highest = {};                  ///< temperatures of the fixture
+    std::string printed_least_expansion = {}, printed_most_expansion = {};  ///< over the stations
 };
 
 }  // namespace gumcert::reports

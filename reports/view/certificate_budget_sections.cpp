@@ -175,7 +175,7 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     if (group.kind == "interval") {
         const Result& first = *group.results.front();
         return words.filled("statement", "uncertainty_interval",
-                            {{"trials", words.number(first.monte_carlo ? first.monte_carlo->printed.trials : "")},
+                            {{"trials", words.number(first.monte_carlo ? first.monte_carlo->trials.text : "")},
                              {"kind", words("statement", "interval_symmetric")},
                              {"p", p}});
     }
@@ -436,14 +436,14 @@ std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool p
     return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
             : row.role == "scatter" ? words("label", "scatter_of_readings")
                                     : Text(row.input),
-            with_unit(row.printed.value, gum::unit_for_people(row.unit)),
-            with_unit(row.printed.u, gum::unit_for_people(difference_unit(row.unit))),
+            with_unit(row.value.text, gum::unit_for_people(row.unit)),
+            with_unit(row.u.text, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
             type_of(row),
-            row.printed.nu.empty() ? degrees_of_freedom(row.nu, words) : Text(row.printed.nu),
-            with_unit(row.printed.sensitivity, sensitivity_unit(result.unit, row.unit)),
-            bracketed(row.printed.contribution),
-            bracketed(row.printed.share)};
+            row.nu.text.empty() ? degrees_of_freedom(row.nu.number, words) : Text(row.nu.text),
+            with_unit(row.sensitivity.text, sensitivity_unit(result.unit, row.unit)),
+            bracketed(row.contribution.text),
+            bracketed(row.share.text)};
 }
 
 void budget(CertificateBuilder& builder, const Wording& words, const Result& result, std::size_t number) {
@@ -458,8 +458,8 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
         }
     }
     if (result.correlation) {
-        rows.push_back({words("label", "correlation"), "", "", "", "", "", "", result.correlation->printed.contribution,
-                        result.correlation->printed.share});
+        rows.push_back({words("label", "correlation"), "", "", "", "", "", "", result.correlation->printed_contribution,
+                        result.correlation->share.text});
         kinds.push_back(RowKind::plain);
     }
     const bool nu_known = coverage_kind(result) == "student_t" || result.nu_eff;
@@ -557,8 +557,8 @@ void second_order(CertificateBuilder& builder, const Wording& words, const Evalu
     Rows rows;
     for (const Result& r : record.results) {
         if (r.second_order) {
-            rows.push_back({r.name, r.second_order->printed.first_order_u, r.second_order->printed.u,
-                            r.second_order->printed.shift, r.printed.unit});
+            rows.push_back({r.name, r.second_order->first_order_u.text, r.second_order->u.text,
+                            r.second_order->shift.text, r.printed.unit});
         }
     }
     if (rows.empty()) {
@@ -586,19 +586,19 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
     const std::string id = std::to_string(number);
     builder.table("monte-carlo-" + id,
                   words.fill("monte_carlo_table", {{"name", result.name},
-                                                   {"trials", words.number(m.printed.trials)},
+                                                   {"trials", words.number(m.trials.text)},
                                                    {"seed", std::to_string(m.seed)},
                                                    {"p", p}}),
                   {{words("label", "quantity"), ""},
                    {words("label", "value"), result.printed.unit, true},
                    {words("label", "numerical_error"), result.printed.unit, true}},
-                  {{words("label", "mean_trials"), m.printed.mean, m.mean && m.u ? rounded(error.mean) : ""},
-                   {words("label", "u_trials"), m.printed.u, m.u ? rounded(error.u) : ""},
-                   {words("label", "symmetric_low"), m.printed.symmetric[0], rounded(error.symmetric[0])},
-                   {words("label", "symmetric_high"), m.printed.symmetric[1], rounded(error.symmetric[1])},
-                   {words("label", "shortest_low"), m.printed.shortest[0], rounded(error.shortest[0])},
-                   {words("label", "shortest_high"), m.printed.shortest[1], rounded(error.shortest[1])}});
-    if (!m.u) {
+                  {{words("label", "mean_trials"), m.mean.text, m.mean.number && m.u.number ? rounded(error.mean) : ""},
+                   {words("label", "u_trials"), m.u.text, m.u.number ? rounded(error.u) : ""},
+                   {words("label", "symmetric_low"), m.symmetric.text[0], rounded(error.symmetric[0])},
+                   {words("label", "symmetric_high"), m.symmetric.text[1], rounded(error.symmetric[1])},
+                   {words("label", "shortest_low"), m.shortest.text[0], rounded(error.shortest[0])},
+                   {words("label", "shortest_high"), m.shortest.text[1], rounded(error.shortest[1])}});
+    if (!m.u.number) {
         builder.paragraph(words("sentence", "no_moments"));
     } else if (m.adaptive) {
         builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
@@ -607,9 +607,9 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
         const GufValidation& v = *m.validation;
         builder.paragraph(
             words.fill(verdict_of(v), {{"name", result.name},
-                                       {"d_low", words.number(with_unit(v.printed.d_low, result.printed.unit))},
-                                       {"d_high", words.number(with_unit(v.printed.d_high, result.printed.unit))},
-                                       {"delta", words.number(with_unit(v.printed.delta, result.printed.unit))},
+                                       {"d_low", words.number(with_unit(v.d_low.text, result.printed.unit))},
+                                       {"d_high", words.number(with_unit(v.d_high.text, result.printed.unit))},
+                                       {"delta", words.number(with_unit(v.delta.text, result.printed.unit))},
                                        {"digits", std::to_string(v.digits)},
                                        {"interval", words("value", "interval", v.interval)}}));
     }
@@ -644,8 +644,8 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
         const MonteCarloSummary& m = *r->monte_carlo;
         const std::string verdict = m.validation ? verdict_of(*m.validation) : "";
         ++verdicts[verdict];
-        rows.push_back({r->name, m.printed.trials, m.printed.mean, m.printed.u, m.printed.symmetric[0],
-                        m.printed.symmetric[1], m.printed.shortest[0], m.printed.shortest[1], r->printed.unit,
+        rows.push_back({r->name, m.trials.text, m.mean.text, m.u.text, m.symmetric.text[0], m.symmetric.text[1],
+                        m.shortest.text[0], m.shortest.text[1], r->printed.unit,
                         verdict.empty() ? Text() : words("value", "verdict", verdict)});
     }
     builder.table("monte-carlo", words("sentence", "monte_carlo_list"),
@@ -671,10 +671,11 @@ void region(CertificateBuilder& builder, const Wording& words, const CoverageReg
     builder.paragraph(words.fill("region", {{"p", words.number(percent_text(r.coverage_probability))},
                                             {"from", words("value", "region_from", r.from)}}));
     Facts rows = {
-        {words("label", "ellipsoid"),
-         r.k_p ? words.fill("ellipsoid", {{"k_p", words.number(r.printed.k_p)}}) : words("sentence", "no_ellipsoid")},
-        {words("label", "parallelepiped"), r.k_q ? words.fill("parallelepiped", {{"k_q", words.number(r.printed.k_q)}})
-                                                 : words("sentence", "no_parallelepiped")}};
+        {words("label", "ellipsoid"), r.k_p.number ? words.fill("ellipsoid", {{"k_p", words.number(r.k_p.text)}})
+                                                   : words("sentence", "no_ellipsoid")},
+        {words("label", "parallelepiped"), r.k_q.number
+                                               ? words.fill("parallelepiped", {{"k_q", words.number(r.k_q.text)}})
+                                               : words("sentence", "no_parallelepiped")}};
     if (r.degrees_of_freedom) {
         rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(r.degrees_of_freedom, words));
     }
@@ -708,7 +709,7 @@ void joint(CertificateBuilder& builder, const Wording& words, const EvaluationRe
             for (std::size_t i = 0; i < c.names.size(); ++i) {
                 columns.push_back({c.names[i], "", true});
                 rows.push_back({c.names[i]});
-                rows.back().insert(rows.back().end(), c.printed_correlation[i].begin(), c.printed_correlation[i].end());
+                rows.back().insert(rows.back().end(), c.correlation.text[i].begin(), c.correlation.text[i].end());
             }
             builder.table("correlation", words("sentence", "correlation_table"), columns, rows);
         }
@@ -720,7 +721,7 @@ void joint(CertificateBuilder& builder, const Wording& words, const EvaluationRe
 
 /// The data that a fit rests on, one observation a row.
 void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummary& f, const std::string& id) {
-    const std::size_t n = f.printed.y.size();
+    const std::size_t n = f.y.text.size();
     if (n == 0) {
         return;
     }
@@ -737,12 +738,12 @@ void fit_data(CertificateBuilder& builder, const Wording& words, const FitSummar
         add(name, unit, values);
         add(words.filled("label", "u_of", {{"name", name}}), difference_unit(unit), u);
     };
-    add_with_u(f.x_name, f.x_unit, f.printed.x, f.printed.u_x);
+    add_with_u(f.x_name, f.x_unit, f.x.text, f.u_x.text);
     for (const FitSummary::Regressor& regressor : f.regressors) {
-        add(regressor.name, regressor.unit, regressor.printed);
+        add(regressor.name, regressor.unit, regressor.values.text);
     }
-    add_with_u(f.y_name, f.y_unit, f.printed.y, f.printed.u_y);
-    add(words("label", "residual_short"), difference_unit(f.y_unit), f.printed.residual);
+    add_with_u(f.y_name, f.y_unit, f.y.text, f.u_y.text);
+    add(words("label", "residual_short"), difference_unit(f.y_unit), f.residual.text);
     Rows rows;
     const std::size_t most = builder.most(k_most_data);
     for (std::size_t i = 0; i < std::min(n, most); ++i) {
@@ -771,7 +772,7 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     Rows rows;
     for (std::size_t i = 0; i < f.parameters.size(); ++i) {
         const FitSummary::Parameter& parameter = f.parameters[i];
-        rows.push_back({parameter.name, parameter.printed.value, parameter.printed.u, parameter.printed.unit});
+        rows.push_back({parameter.name, parameter.value.text, parameter.u.text, parameter.printed_unit});
         if (correlated) {
             columns.push_back({words.filled("label", "r_with", {{"name", parameter.name}}), "", true});
             for (std::size_t j = 0; j < f.parameters.size(); ++j) {
@@ -782,20 +783,20 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     const std::string id = std::to_string(number);
     builder.table("fit-" + id, words.fill("fit_table", {{"name", f.name}}), columns, rows);
     const std::string y_unit = gum::unit_for_people(f.y_unit);
-    Facts facts = {{words("label", "observations_of_fit"), std::to_string(f.y.size())},
+    Facts facts = {{words("label", "observations_of_fit"), std::to_string(f.y.number.size())},
                    {words("label", "degrees_of_freedom"), text::fixed(f.degrees_of_freedom, 0)},
                    {words("label", weighted ? "residual_factor" : "residual_standard_deviation"),
-                    words.number(with_unit(f.printed.residual_standard_deviation, weighted ? "" : y_unit))},
+                    words.number(with_unit(f.residual_standard_deviation.text, weighted ? "" : y_unit))},
                    {words("label", weighted ? "chi_square" : "sum_of_squares"),
-                    words.number(with_unit(f.printed.sum_of_squares, weighted ? "" : squared(y_unit)))}};
-    if (f.p_value) {
-        facts.emplace_back(words("label", "p_value"), words.number(f.printed.p_value));
+                    words.number(with_unit(f.sum_of_squares.text, weighted ? "" : squared(y_unit)))}};
+    if (f.p_value.number) {
+        facts.emplace_back(words("label", "p_value"), words.number(f.p_value.text));
     }
     if (!f.consistency.empty()) {
         facts.emplace_back(words("label", "test_of_fit"), words("value", "consistency", f.consistency));
     }
-    if (!f.printed.r_squared.empty()) {
-        facts.emplace_back(words("label", "r_squared"), words.number(f.printed.r_squared));
+    if (!f.r_squared.text.empty()) {
+        facts.emplace_back(words("label", "r_squared"), words.number(f.r_squared.text));
     }
     facts.emplace_back(words("label", "fit_uncertainty"),
                        words("value", f.covariance_scaled ? "scaled_by_residuals" : "as_stated_uncertainties"));
@@ -804,13 +805,13 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
         Text scaled;
         for (const FitSummary::Parameter& parameter : f.parameters) {
             scaled += (scaled.empty() ? Text() : words("document", "enumeration")) + "u(" + parameter.name +
-                      ") = " + words.number(with_unit(parameter.printed.scaled_u, parameter.printed.unit));
+                      ") = " + words.number(with_unit(parameter.scaled_u.text, parameter.printed_unit));
         }
         builder.paragraph(words.fill(
-            "fit_refuted", {{"factor", words.number(f.printed.residual_standard_deviation)}, {"scaled", scaled}}));
+            "fit_refuted", {{"factor", words.number(f.residual_standard_deviation.text)}, {"scaled", scaled}}));
     }
     fit_data(builder, words, f, id);
-    if (!f.residual.empty()) {
+    if (!f.residual.number.empty()) {
         const Plot plot = residual_plot(f, words, "plot-residuals-" + id);
         builder.figure(plot.id, words.fill("figure_residuals", {{"name", f.name}}), plot.description, svg(plot));
     }
@@ -877,7 +878,7 @@ void outliers(CertificateBuilder& builder, const Wording& words, const std::vect
     for (const OutlyingReading& r : all) {
         const std::string number = (r.group > 0 ? std::to_string(r.group) + "." : "") + std::to_string(r.position);
         rows.push_back({set_name(r.input, r.component, r.point, points, words), number,
-                        with_unit(r.printed.value, gum::unit_for_people(r.unit)), r.printed.G, r.printed.p_value});
+                        with_unit(r.value.text, gum::unit_for_people(r.unit)), r.G.text, r.p_value.text});
     }
     builder.table("outliers", words("sentence", "outliers"),
                   {{words("label", "input"), ""},
@@ -896,12 +897,12 @@ void readings(CertificateBuilder& builder, const Wording& words, const std::vect
     for (const ReadingsSummary& r : all) {
         std::vector<Text> row = {part_name(r.input, r.component),
                                  plain(r.n),
-                                 r.printed.mean,
-                                 r.printed.standard_deviation,
-                                 r.printed.standard_deviation_of_mean,
+                                 r.mean.text,
+                                 r.standard_deviation.text,
+                                 r.standard_deviation_of_mean.text,
                                  gum::unit_for_people(r.unit),
-                                 r.printed.r1,
-                                 r.printed.limit,
+                                 r.printed_r1,
+                                 r.autocorrelation_limit.text,
                                  words("value", r.dependent ? "dependent" : "independent")};
         if (pooled) {
             row.insert(row.begin() + 5, r.pooled_standard_deviation ? rounded(*r.pooled_standard_deviation) : "");
@@ -941,15 +942,15 @@ void variance_analysis(CertificateBuilder& builder, const Wording& words, const 
          {words("label", "F_critical"), "", true},
          {words("label", "p_value_short"), "", true}},
         {{words("label", "between"), rounded(v.sum_of_squares_between),
-          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_between), v.printed.mean_square[0], v.printed.F,
-          v.printed.F_critical, v.printed.p_value},
+          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_between), v.printed_mean_square[0], v.F.text,
+          v.F_critical.text, v.p_value.text},
          {words("label", "within"), rounded(v.sum_of_squares_within),
-          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_within), v.printed.mean_square[1], "", "", ""}});
+          certificate::whole_degrees_of_freedom(v.degrees_of_freedom_within), v.printed_mean_square[1], "", "", ""}});
     builder.definitions(
-        {{words("label", "mean"), words.number(with_unit(v.printed.mean, unit))},
-         {words("label", "s_within"), words.number(with_unit(v.printed.within, unit))},
-         {words("label", "s_group_means"), words.number(with_unit(v.printed.group_means, unit))},
-         {words("label", "s_between"), words.number(with_unit(v.printed.between, unit))},
+        {{words("label", "mean"), words.number(with_unit(v.mean.text, unit))},
+         {words("label", "s_within"), words.number(with_unit(v.standard_deviation_within.text, unit))},
+         {words("label", "s_group_means"), words.number(with_unit(v.standard_deviation_of_group_means.text, unit))},
+         {words("label", "s_between"), words.number(with_unit(v.standard_deviation_between.text, unit))},
          {words("label", "u_with_between"), words.number(with_unit(rounded(v.u_with_between_effect), unit))},
          {words("label", "u_without_between"), words.number(with_unit(rounded(v.u_without_between_effect), unit))}});
     builder.paragraph(words("sentence", v.conclusion == "significant" ? "anova_significant" : "anova_not_significant"));

@@ -80,10 +80,10 @@ void overview_table(CertificateBuilder& builder, const Wording& words, const Rot
 void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     Facts facts;
     const GlobalTest& test = r.adjustment.global_test;
-    if (!test.printed_lower.empty()) {
+    if (!test.lower.text.empty()) {
         facts.emplace_back(words("label", "global_test"),
                            words.fill(test.accepted ? "global_test_passed" : "global_test_failed",
-                                      {{"p", words.number(r.adjustment.printed.p_value)}}));
+                                      {{"p", words.number(r.adjustment.p_value.text)}}));
     }
     if (r.group_tests) {
         const auto suspicious = std::count_if(r.group_tests->kinds.begin(), r.group_tests->kinds.end(),
@@ -122,7 +122,7 @@ Text subject_of(const GroupTestRow& row, const Wording& words) {
         return words("label", "station") + " " + row.station;
     }
     return words.fill("one_visit",
-                      {{"station", row.station}, {"pass", row.pass}, {"angle", words.number(row.printed.angle)}});
+                      {{"station", row.station}, {"pass", row.pass}, {"angle", words.number(row.angle_deg.text)}});
 }
 
 void group_table(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
@@ -133,8 +133,8 @@ void group_table(CertificateBuilder& builder, const Wording& words, const Rotary
             return printed.empty() ? Text() : words.number(printed) + unit;
         };
         rows.push_back({words("value", "group_kind", row.kind), std::to_string(row.tests), subject_of(row, words),
-                        row.printed.test_value, row.printed.critical_value, with_unit(row.printed.estimate),
-                        with_unit(row.printed.minimal_detectable),
+                        row.test_value.text, row.critical_value.text, with_unit(row.estimate.text),
+                        with_unit(row.minimal_detectable.text),
                         words("value", row.suspicious ? "suspicious" : "not_suspicious")});
     }
     builder.table("group-tests",
@@ -153,9 +153,8 @@ void group_table(CertificateBuilder& builder, const Wording& words, const Rotary
 void reversal_table(CertificateBuilder& builder, const Wording& words, const ReversalModel& model) {
     Rows rows;
     for (const ReversalTestRow& row : model.tests) {
-        rows.push_back({row.name, words.number(row.printed.spread), gum::unit_for_people(row.unit),
-                        row.printed.test_value, row.printed.p_value,
-                        words("value", row.depends_on_angle ? "depends_on_angle" : "not_refuted")});
+        rows.push_back({row.name, words.number(row.spread.text), gum::unit_for_people(row.unit), row.test_value.text,
+                        row.p_value.text, words("value", row.depends_on_angle ? "depends_on_angle" : "not_refuted")});
     }
     builder.table("reversal-tests", words.fill("reversal_tests_table", {{"alpha", words.number(plain(model.alpha))}}),
                   {{words("label", "reversal"), ""},
@@ -186,9 +185,9 @@ void harmonics_table(CertificateBuilder& builder, const Wording& words, const Ro
         columns.push_back({"φ", "°", true});
         for (std::size_t k = 0; k < motion.orders.size(); ++k) {
             const HarmonicOrder& order = motion.orders[k];
-            rows[k].insert(rows[k].end(), {order.printed.amplitude, order.printed.U, order.printed.phase});
+            rows[k].insert(rows[k].end(), {order.amplitude.text, order.U.text, order.phase_deg.text});
         }
-        rows.back().insert(rows.back().end(), {motion.printed_rest, Text(), Text()});
+        rows.back().insert(rows.back().end(), {motion.rms_rest.text, Text(), Text()});
     }
     builder.table(first == 0 ? "harmonics-linear" : "harmonics-angular",
                   words("sentence", first == 0 ? "harmonics_linear" : "harmonics_angular"), columns, rows, groups,
@@ -198,8 +197,8 @@ void harmonics_table(CertificateBuilder& builder, const Wording& words, const Ro
 void environment_table(CertificateBuilder& builder, const Wording& words, const Environment& e) {
     Rows rows;
     for (const StationEnvironment& s : e.stations) {
-        rows.push_back({std::to_string(rows.size() + 1), s.station, s.printed.fixture, s.printed.u_fixture,
-                        s.printed.expansion, s.printed.air, s.printed.pressure, s.printed.humidity});
+        rows.push_back({std::to_string(rows.size() + 1), s.station, s.fixture_degC.text, s.u_fixture_K.text,
+                        s.expansion_um.text, s.air_degC.text, s.pressure_hPa.text, s.humidity_percent.text});
     }
     std::vector<Column> columns = {{words("label", "order"), "", true},
                                    {words("label", "station"), ""},
@@ -283,15 +282,15 @@ void environment(CertificateBuilder& builder, const Wording& words, const Rotary
     }
     const Environment& e = *r.environment;
     builder.section("environment");
-    builder.paragraph(words.fill("environment", {{"lowest", words.number(e.printed.lowest)},
-                                                 {"highest", words.number(e.printed.highest)},
-                                                 {"reference", words.number(e.printed.reference)},
-                                                 {"distance", words.number(e.printed.largest_distance)},
-                                                 {"least", words.number(e.printed.least_expansion)},
-                                                 {"most", words.number(e.printed.most_expansion)},
-                                                 {"expansion", words.number(e.printed.expansion)},
-                                                 {"u", words.number(e.printed.u_expansion)},
-                                                 {"share", words.number(e.printed.largest_share)}}));
+    builder.paragraph(words.fill("environment", {{"lowest", words.number(e.printed_lowest)},
+                                                 {"highest", words.number(e.printed_highest)},
+                                                 {"reference", words.number(e.reference_degC.text)},
+                                                 {"distance", words.number(e.largest_distance_mm.text)},
+                                                 {"least", words.number(e.printed_least_expansion)},
+                                                 {"most", words.number(e.printed_most_expansion)},
+                                                 {"expansion", words.number(e.expansion_per_K.text)},
+                                                 {"u", words.number(e.u_expansion_per_K.text)},
+                                                 {"share", words.number(e.largest_share.text)}}));
     environment_table(builder, words, e);
     const Plot plot = temperature_plot(e, words);
     builder.figure(plot.id, words("sentence", "figure_temperatures"), plot.description, svg(plot));

@@ -289,7 +289,8 @@ Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
 void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     builder.section("summary");
-    Facts rows = {{words("certificate", "results"), results_in_one_line(certificate, words, record.printed_coverage)}};
+    Facts rows = {
+        {words("certificate", "results"), results_in_one_line(certificate, words, record.coverage_probability.text)}};
     if (certificate.data.specifications.empty()) {
         rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
     }

@@ -151,7 +151,7 @@ Text heading_of(const StatedPlace<const StatedValue>& place, const Wording& word
 
 Text compared_name(const StatedPlace<const StatedValue>& place, const RotaryTable& r, const Wording& words) {
     if (place.group == StatedGroup::error_motions) {
-        return place.name + " (" + words.number(r.errors[place.index].printed_angle) + "°)";
+        return place.name + " (" + words.number(r.errors[place.index].angle_deg.text) + "°)";
     }
     const bool of_motion = place.group == StatedGroup::ranges || place.group == StatedGroup::reversal;
     return of_motion ? place.name + ", " + heading_of(place, words) : Text(place.name);
@@ -188,14 +188,16 @@ std::vector<Compared> all_compared(const Wording& words, const EvaluationRecord&
 
 void global_test(CertificateBuilder& builder, const Wording& words, const AdjustmentSummary& a) {
     const GlobalTest& test = a.global_test;
-    if (test.printed_lower.empty() || test.printed_upper.empty()) {
+    if (test.lower.text.empty() || test.upper.text.empty()) {
         return;
     }
-    const char* verdict = test.accepted ? "accepted" : a.chi_square < test.lower ? "too_small" : "too_large";
+    const char* verdict = test.accepted                             ? "accepted"
+                          : a.chi_square.number < test.lower.number ? "too_small"
+                                                                    : "too_large";
     builder.paragraph(
-        words.fill(std::string("global_test_") + verdict, {{"chi_square", words.number(a.printed.chi_square)},
-                                                           {"lower", words.number(test.printed_lower)},
-                                                           {"upper", words.number(test.printed_upper)}}));
+        words.fill(std::string("global_test_") + verdict, {{"chi_square", words.number(a.chi_square.text)},
+                                                           {"lower", words.number(test.lower.text)},
+                                                           {"upper", words.number(test.upper.text)}}));
     if (!test.meaning.empty()) {
         builder.paragraph(words.sentence(test.meaning));
     }
@@ -208,7 +210,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
     // Records of earlier releases know neither stated values nor degrees of freedom.
     const bool in_depth = std::any_of(
         r.variance_components.begin(), r.variance_components.end(),
-        [](const VarianceComponent& v) { return !v.printed_stated.empty() || v.degrees_of_freedom || !v.used; });
+        [](const VarianceComponent& v) { return !v.stated.text.empty() || v.degrees_of_freedom || !v.used; });
     std::vector<Column> columns = {{words("label", "component"), ""},
                                    {words("label", "standard_deviation"), "", true},
                                    {words("label", "its_u"), "", true},
@@ -226,7 +228,7 @@ void variance_components(CertificateBuilder& builder, const Wording& words, cons
     for (const VarianceComponent& v : r.variance_components) {
         std::vector<Text> row = {words.sentence(v.name), v.printed.value, v.printed.U, v.printed.unit};
         if (in_depth) {
-            row.push_back(v.printed_stated);
+            row.push_back(v.stated.text);
             row.push_back(v.degrees_of_freedom ? degrees_of_freedom(v.degrees_of_freedom, words) : Text());
         }
         row.push_back(text::fixed(v.redundancy, 1));
@@ -266,9 +268,9 @@ void excluded_distances(CertificateBuilder& builder, const Wording& words, const
 
 void flagged_distances(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     const Text alpha = words.number(plain(r.outlier_alpha));
-    const Text critical = words.number(r.printed_critical_value);
+    const Text critical = words.number(r.outlier_critical_value.text);
     if (r.flagged.empty()) {
-        if (!r.printed_critical_value.empty()) {
+        if (!r.outlier_critical_value.text.empty()) {
             builder.paragraph(words.fill("no_flagged", {{"critical", critical}, {"alpha", alpha}}));
         }
         return;
@@ -324,8 +326,8 @@ void flagged_distances(CertificateBuilder& builder, const Wording& words, const 
 void runs(CertificateBuilder& builder, const Wording& words, const PositioningAccuracy& p) {
     builder.section("positioning");
     builder.paragraph(words.fill("positioning", {{"up", plain(p.runs_up)}, {"down", plain(p.runs_down)}}));
-    if (!p.printed_u_deviation.empty()) {
-        builder.paragraph(words.fill("u_deviation", {{"u", words.number(p.printed_u_deviation)}}));
+    if (!p.u_deviation.text.empty()) {
+        builder.paragraph(words.fill("u_deviation", {{"u", words.number(p.u_deviation.text)}}));
     }
 }
 
@@ -343,8 +345,8 @@ void targets(CertificateBuilder& builder, const Wording& words, const Positionin
     }
     Rows rows;
     for (const PositioningTarget& t : p.targets) {
-        rows.push_back({t.printed_angle, t.printed_mean_up, t.printed_mean_down, t.printed_s_up, t.printed_s_down,
-                        t.printed_reversal});
+        rows.push_back(
+            {t.angle_deg.text, t.mean_up.text, t.mean_down.text, t.s_up.text, t.s_down.text, t.reversal.text});
     }
     builder.table("positioning-targets", words("sentence", "positioning_targets"),
                   {{words("label", "target"), "°", true},
@@ -364,8 +366,8 @@ void budget_table(CertificateBuilder& builder, const Wording& words, const std::
     Rows rows;
     for (const BudgetRow& row : budget) {
         rows.push_back({source_name(row.input, words), source_name(row.source, words), row.type,
-                        distribution_name(row.distribution, words), degrees_of_freedom(row.nu, words), row.printed.u,
-                        gum::unit_for_people(row.unit), row.printed.contribution, row.printed.share});
+                        distribution_name(row.distribution, words), degrees_of_freedom(row.nu.number, words),
+                        row.u.text, gum::unit_for_people(row.unit), row.contribution.text, row.share.text});
     }
     builder.table(id, caption,
                   {{words("label", "input"), ""},
@@ -395,7 +397,7 @@ void location_errors(CertificateBuilder& builder, const Wording& words, const Ro
     builder.paragraph(words.fill(frame.by == "stations" ? "machine_by_stations" : "machine_by_probing",
                                  {{"count", std::to_string(frame.points.size())},
                                   {"residual", words.number(frame.printed_residual)},
-                                  {"p", words.number(frame.printed_p)}}));
+                                  {"p", words.number(frame.p_value.text)}}));
     parameter_table(builder, words, "location-errors", words("sentence", "location_errors"), "location_errors",
                     r.location_errors);
 }
@@ -432,8 +434,8 @@ void budget_by_source(CertificateBuilder& builder, const Wording& words, const R
     }
     Rows rows;
     for (const BudgetSummaryRow& row : r.budget_summary) {
-        std::vector<Text> line = {words.sentence(row.quantity), row.printed_rms_u, gum::unit_for_people(row.unit)};
-        line.insert(line.end(), row.printed_shares.begin(), row.printed_shares.end());
+        std::vector<Text> line = {words.sentence(row.quantity), row.rms_u.text, gum::unit_for_people(row.unit)};
+        line.insert(line.end(), row.shares.text.begin(), row.shares.text.end());
         rows.push_back(std::move(line));
     }
     builder.table("budget-summary", words("sentence", "budget_summary"), columns, rows);
@@ -516,10 +518,9 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
             ++left_out;
             continue;
         }
-        exceptions.push_back({c.name, c.law.value, c.law.U, c.trials->printed.mean, c.trials->printed.u,
-                              c.trials->printed.symmetric[0], c.trials->printed.symmetric[1],
-                              c.trials->printed.shortest[0], c.trials->printed.shortest[1], c.law.unit,
-                              verdict_of(*c.trials, words)});
+        exceptions.push_back({c.name, c.law.value, c.law.U, c.trials->mean.text, c.trials->u.text,
+                              c.trials->symmetric.text[0], c.trials->symmetric.text[1], c.trials->shortest.text[0],
+                              c.trials->shortest.text[1], c.law.unit, verdict_of(*c.trials, words)});
     }
     if (groups.empty()) {
         builder.paragraph(words("sentence", "nothing_compared"));
@@ -547,7 +548,7 @@ void rotary_monte_carlo(CertificateBuilder& builder, const Wording& words, const
         return;
     }
     builder.table("monte-carlo-exceptions",
-                  words.fill("monte_carlo_exceptions", {{"p", words.number(record.printed_coverage)}}),
+                  words.fill("monte_carlo_exceptions", {{"p", words.number(record.coverage_probability.text)}}),
                   {{words("label", "quantity"), ""},
                    {words("label", "value"), "", true},
                    {words("label", "U"), "", true},
@@ -579,22 +580,22 @@ void adjustment(CertificateBuilder& builder, const Wording& words, const RotaryT
                    {words("label", "observations"), plain(a.observations)},
                    {words("label", "parameters"), plain(a.parameters)},
                    {words("label", "degrees_of_freedom"), plain(a.degrees_of_freedom)},
-                   {words("label", "chi_square"), words.number(a.printed.chi_square)}};
-    if (!a.global_test.printed_lower.empty()) {
+                   {words("label", "chi_square"), words.number(a.chi_square.text)}};
+    if (!a.global_test.lower.text.empty()) {
         facts.emplace_back(words("label", "chi_square_limits"),
-                           words.fill("chi_square_limits", {{"lower", words.number(a.global_test.printed_lower)},
-                                                            {"upper", words.number(a.global_test.printed_upper)},
+                           words.fill("chi_square_limits", {{"lower", words.number(a.global_test.lower.text)},
+                                                            {"upper", words.number(a.global_test.upper.text)},
                                                             {"p", words.number(plain(a.global_test.probability))}}));
     }
-    facts.emplace_back(words("label", "p_value"), words.number(a.printed.p_value));
+    facts.emplace_back(words("label", "p_value"), words.number(a.p_value.text));
     facts.emplace_back(words("label", "variance_factor_stated"), words.number(plain(a.variance_factor.a_priori)));
-    facts.emplace_back(words("label", "variance_factor"), words.number(a.printed.variance_factor));
+    facts.emplace_back(words("label", "variance_factor"), words.number(a.variance_factor.a_posteriori.text));
     facts.emplace_back(words("label", "variance_factor_used"),
                        words("value", "variance_factor", a.variance_factor.used));
     if (!a.variance_factor.reason.empty()) {
         facts.emplace_back(words("label", "variance_factor_reason"), words.sentence(a.variance_factor.reason));
     }
-    facts.emplace_back(words("label", "condition_number"), words.number(a.printed.condition_number));
+    facts.emplace_back(words("label", "condition_number"), words.number(a.condition_number.text));
     facts.emplace_back(words("label", "iterations"), plain(a.iterations));
     builder.definitions(facts);
     global_test(builder, words, a);

@@ -51,7 +51,7 @@ std::string trials_of(const EvaluationRecord& record) {
     for (const Result& r : record.results) {
         if (r.monte_carlo) {
             const MonteCarloSummary& m = *r.monte_carlo;
-            return m.printed.trials.empty() ? plain(m.trials) : m.printed.trials;
+            return m.trials.text.empty() ? plain(m.trials.number) : m.trials.text;
         }
     }
     return record.rotary && record.rotary->monte_carlo ? plain(record.rotary->monte_carlo->trials) : std::string();
@@ -65,8 +65,8 @@ std::string interval_kind(const EvaluationRecord& record, const std::vector<cons
         }
         const MonteCarloSummary& m = *r.monte_carlo;
         const bool shortest = std::any_of(values.begin(), values.end(), [&](const CertifiedValue* v) {
-            return v->interval->first == m.shortest[0] && v->interval->second == m.shortest[1] &&
-                   m.shortest != m.symmetric;
+            return v->interval->first == m.shortest.number[0] && v->interval->second == m.shortest.number[1] &&
+                   m.shortest.number != m.symmetric.number;
         });
         if (shortest) {
             return "shortest";
@@ -101,7 +101,7 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
 Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& values, const EvaluationRecord& record,
                        const Wording& words) {
     const certificate::LocalisedText& own = record.certificate->profile.uncertainty_sentence;
-    const Text p = words.number(record.printed_coverage);
+    const Text p = words.number(record.coverage_probability.text);
     const std::optional<std::string> one_k = common(printed_k(values));
     const Text k = one_k ? words.fill("k_one", {{"k", words.number(*one_k)}}) : Text("k");
     const bool ordinary = c == Coverage::normal || c == Coverage::student_t;

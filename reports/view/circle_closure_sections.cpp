@@ -18,7 +18,7 @@ constexpr std::size_t k_most_series = 80;
 
 /// "0.31 ″"
 std::string with_unit(const std::string& number, const CircleClosure& c) {
-    return number + "\u00A0" + c.printed.unit;
+    return number + "\u00A0" + c.printed_unit;
 }
 
 void design(CertificateBuilder& builder, const Wording& words, const CircleClosure& c) {
@@ -36,8 +36,8 @@ void design(CertificateBuilder& builder, const Wording& words, const CircleClosu
     rows.emplace_back(words("label", "closure_numbering"), words("value", "closure_numbering", c.numbering));
     rows.emplace_back(words("label", "closure_drift"), words("value", "closure_drift", c.drift));
     rows.emplace_back(words("label", "residual_standard_deviation"),
-                      words.number(with_unit(c.printed.residual_standard_deviation, c)));
-    rows.emplace_back(words("label", "closure_u_reading"), words.number(with_unit(c.printed.u_reading, c)));
+                      words.number(with_unit(c.residual_standard_deviation.text, c)));
+    rows.emplace_back(words("label", "closure_u_reading"), words.number(with_unit(c.u_reading.text, c)));
     rows.emplace_back(words("label", "closure_u_from"), words("value", "closure_u_from", c.u_reading_from));
     builder.definitions(rows);
 }
@@ -45,10 +45,9 @@ void design(CertificateBuilder& builder, const Wording& words, const CircleClosu
 void tests(CertificateBuilder& builder, const Wording& words, const CircleClosure& c) {
     Rows rows;
     for (const ClosureTestRow& test : c.tests) {
-        rows.push_back({words("value", "closure_test", test.name), test.printed.statistic, test.printed.nu,
-                        test.nu_reference ? Text(test.printed.nu_reference) : words("document", "infinite"),
-                        test.printed.p_value,
-                        words("value", "closure_outcome", test.accepted ? "accepted" : "rejected")});
+        rows.push_back({words("value", "closure_test", test.name), test.statistic.text, test.nu.text,
+                        test.nu_reference.number ? Text(test.nu_reference.text) : words("document", "infinite"),
+                        test.p_value.text, words("value", "closure_outcome", test.accepted ? "accepted" : "rejected")});
     }
     if (rows.empty()) {
         return;
@@ -66,9 +65,9 @@ void tests(CertificateBuilder& builder, const Wording& words, const CircleClosur
 void series(CertificateBuilder& builder, const Wording& words, const CircleClosure& c) {
     const auto any = [&](const auto& of) { return std::any_of(c.series.begin(), c.series.end(), of); };
     const bool repeated = any([](const ClosureSeriesRow& s) { return !s.repetition.empty(); });
-    const bool drifts = any([](const ClosureSeriesRow& s) { return s.drift.has_value(); });
-    const bool closes = any([](const ClosureSeriesRow& s) { return s.misclosure.has_value(); });
-    const std::string& unit = c.printed.unit;
+    const bool drifts = any([](const ClosureSeriesRow& s) { return s.drift.number.has_value(); });
+    const bool closes = any([](const ClosureSeriesRow& s) { return s.misclosure.number.has_value(); });
+    const std::string& unit = c.printed_unit;
     std::vector<Column> columns = {{words("label", "closure_position"), ""}};
     if (repeated) {
         columns.push_back({words("label", "closure_repetition"), ""});
@@ -90,14 +89,14 @@ void series(CertificateBuilder& builder, const Wording& words, const CircleClosu
             row.emplace_back(s.repetition);
         }
         row.emplace_back(plain(s.readings));
-        row.emplace_back(s.printed.zero);
+        row.emplace_back(s.zero.text);
         if (drifts) {
-            row.emplace_back(s.printed.drift);
+            row.emplace_back(s.drift.text);
         }
         if (closes) {
-            row.emplace_back(s.printed.misclosure);
+            row.emplace_back(s.misclosure.text);
         }
-        row.emplace_back(s.printed.residual_rms);
+        row.emplace_back(s.residual_rms.text);
         rows.push_back(std::move(row));
     }
     builder.table("closure-series", words("sentence", "circle_closure_series"), columns, rows);
@@ -127,7 +126,7 @@ void deviations(CertificateBuilder& builder, const Wording& words, const Evaluat
             }
         }
         plot.panels.push_back(
-            {.heading = name, .y_label = name + " / " + c.printed.unit, .series = {std::move(drawn)}, .limits = {}});
+            {.heading = name, .y_label = name + " / " + c.printed_unit, .series = {std::move(drawn)}, .limits = {}});
     }
     builder.figure(plot.id, words.fill("figure_closure", {{"table", c.table}, {"artefact", c.artefact}}),
                    plot.description, svg(plot));
@@ -146,10 +145,10 @@ void residuals(CertificateBuilder& builder, const Wording& words, const CircleCl
               .x_is_number = true};
     PlotSeries drawn{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::none};
     for (const ClosureResidualRow& row : c.residuals) {
-        drawn.points.push_back({.x = static_cast<double>(row.step), .y = row.residual, .U = 0.0});
+        drawn.points.push_back({.x = static_cast<double>(row.step), .y = row.residual.number, .U = 0.0});
     }
     plot.panels.push_back({.heading = "",
-                           .y_label = words("label", "residual").first() + " / " + c.printed.unit,
+                           .y_label = words("label", "residual").first() + " / " + c.printed_unit,
                            .series = {std::move(drawn)},
                            .limits = {}});
     builder.figure(plot.id, words("sentence", "figure_closure_residuals"), plot.description, svg(plot));

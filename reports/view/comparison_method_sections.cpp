@@ -347,7 +347,7 @@ void method_answer(CertificateBuilder& builder, const Wording& words, const Comp
                                  words.filled("comparison", "method_and_reference",
                                               {{"method", c.method_name}, {"reference", c.reference_name}})});
     add_fact(facts, words("comparison", "correlation"), correlation_text(words, c));
-    add_fact(facts, words("comparison", "tolerance"), printed_quantity(words, c.printed_tolerance, difference_unit(c)));
+    add_fact(facts, words("comparison", "tolerance"), printed_quantity(words, c.tolerance.text, difference_unit(c)));
     facts.insert(facts.end(), conventions.begin(), conventions.end());
     builder.definitions(facts);
     if (!c.points.empty()) {

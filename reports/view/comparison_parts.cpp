@@ -81,7 +81,7 @@ void shared_sources_table(CertificateBuilder& builder, const Wording& words, con
     Rows rows;
     for (const SharedSource& s : comparison.shared_sources) {
         if (rows.size() < k_most_rows) {
-            rows.push_back({s.source, s.first, s.second, s.printed_correlation});
+            rows.push_back({s.source, s.first, s.second, s.correlation.text});
         }
     }
     if (rows.size() < count) {

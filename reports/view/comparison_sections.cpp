@@ -36,7 +36,7 @@ Facts conventions(const Wording& words, const EvaluationRecord& record) {
              words.filled("comparison", c.form == "laboratories" ? "sign_of_laboratories" : "sign_of_methods",
                           {{"method", c.method_name}, {"reference", c.reference_name}})},
             {words("comparison", "expanded_label"),
-             words.filled("comparison", "expanded_text", {{"p", words.number(record.printed_coverage)}})}};
+             words.filled("comparison", "expanded_text", {{"p", words.number(record.coverage_probability.text)}})}};
 }
 
 /// Weights of all results by item, round and participant.
@@ -44,7 +44,7 @@ std::map<std::tuple<std::string, std::string, std::string>, double> weights_of(c
     std::map<std::tuple<std::string, std::string, std::string>, double> weights;
     for (const ComparisonItemEvaluation& item : comparison.items) {
         for (const ResultWeight& w : item.weights) {
-            weights[{item.id, item.round, w.participant}] = w.weight;
+            weights[{item.id, item.round, w.participant}] = w.weight.number;
         }
     }
     return weights;

@@ -48,7 +48,7 @@ void identification(CertificateBuilder& builder, const Wording& words, const Eva
     Facts rows = {{words("label", "title"), record.title},
                   {words("label", "kind"), words("value", "kind", record.kind)}};
     rows.insert(rows.end(), own.begin(), own.end());
-    rows.emplace_back(words("label", "coverage"), words.number(record.printed_coverage));
+    rows.emplace_back(words("label", "coverage"), words.number(record.coverage_probability.text));
     rows.emplace_back(words("label", "software"), record.software.name + " " + record.software.version);
     rows.emplace_back(words("label", "commit"), record.software.commit);
     builder.definitions(rows);
@@ -209,7 +209,7 @@ void error_motions(CertificateBuilder& builder, const Wording& words, const Rota
             continue;
         }
         const ErrorsAtAngle& at = r.errors[i];
-        std::vector<Text> row = {at.printed_angle};
+        std::vector<Text> row = {at.angle_deg.text};
         for (const StatedValue& e : at.errors) {
             row.push_back(e.printed.value);
             row.push_back(stated_uncertainty(e, words));
@@ -274,8 +274,9 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
         const Text nu_eff = nu_low == nu_high ? words.fill("nu_one", {{"nu", nu_low}})
                                               : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
         const Text reason = coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
-        builder.paragraph(words.fill(
-            "uncertainty", {{"k", k}, {"reason", reason}, {"coverage", words.number(record.printed_coverage)}}));
+        builder.paragraph(
+            words.fill("uncertainty",
+                       {{"k", k}, {"reason", reason}, {"coverage", words.number(record.coverage_probability.text)}}));
     }
     for (const Text& sentence : reasons_for_monte_carlo(record, words)) {
         builder.paragraph(sentence);

@@ -26,7 +26,7 @@ inline reports::EvaluationRecord comparison_frame(const std::string& title, cons
     r.software = {.name = "gumcert", .version = "0.1.0", .commit = "0123456789abcdef0123456789abcdef01234567"};
     r.kind = "comparison";
     r.title = title;
-    r.printed_coverage = "95.45 %";
+    r.coverage_probability.text = "95.45 %";
     r.job_json = job;
     r.options_json = R"({"comparison": {"iterations": 100, "tolerance": 1e-13}})";
     r.job_files = {{"job.json", std::string(64, 'a')}, {"results.csv", std::string(64, 'b')}};
@@ -143,7 +143,7 @@ inline void add_sample_item(reports::Comparison& c, const std::string& id, const
         ++item.results;
         if (p.contributes && p.u) {
             ++item.contributing;
-            item.weights.push_back({.participant = p.participant, .weight = 0.1, .printed = "0.100"});
+            item.weights.push_back({.participant = p.participant, .weight = {0.1, "0.100"}});
         }
     }
     item.not_consistent = {laboratory_id(1)};
@@ -291,8 +291,7 @@ inline reports::EvaluationRecord sample_laboratories_record(std::size_t laborato
                          .first = laboratory_id(0),
                          .second = laboratory_id(1),
                          .covariance = 4.0e-4,
-                         .correlation = 0.21,
-                         .printed_correlation = "0.21"}};
+                         .correlation = {0.21, "0.21"}}};
     c.audit_finding = "maximum permissible error taken as normal; corrected to a uniform bound";
     c.remarks = {"An E\u2099 number at or below 1 shows no contradiction; it proves no uncertainty."};
     r.comparison = std::move(c);
@@ -320,12 +319,10 @@ inline reports::EvaluationRecord sample_methods_record(std::size_t points_of_dir
                          .first = "laser method",
                          .second = "dial indicator",
                          .covariance = 0.02,
-                         .correlation = 0.15,
-                         .printed_correlation = "0.15"}};
+                         .correlation = {0.15, "0.15"}}};
     c.audit_finding = "the maximum permissible error was divided by 3; corrected to a uniform bound";
     c.published_source = "Example Journal of Metrology, table 4";
-    c.tolerance = 2.5;
-    c.printed_tolerance = "2.5";
+    c.tolerance = {2.5, "2.5"};
     for (const char* direction : {"up", "down"}) {
         for (std::size_t i = 0; i < points_of_direction; ++i) {
             const auto d = static_cast<double>(i);

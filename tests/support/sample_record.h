@@ -43,30 +43,26 @@ inline reports::StatedValue stated_value(double value, double u, const std::stri
 /// Monte Carlo of one quantity that agrees with the law of propagation, or does not.
 inline reports::MonteCarloSummary trials_of(double value, double u, bool validated = true, bool precise = true) {
     reports::MonteCarloSummary m;
-    m.trials = 100000;
+    m.trials = {100000, "100000"};
     m.seed = 7;
-    m.mean = value;
-    m.u = u;
+    m.mean = {value, decimals(value, 3)};
+    m.u = {u, decimals(u, 3)};
     const double stretch = validated ? 2.0 : 2.3;
-    m.symmetric = {value - 2.0 * u, value + stretch * u};
-    m.shortest = {value - 2.01 * u, value + stretch * u};
+    m.symmetric.number = {value - 2.0 * u, value + stretch * u};
+    m.shortest.number = {value - 2.01 * u, value + stretch * u};
     m.numerical_error = {
         .mean = 0.003 * u, .u = 0.002 * u, .symmetric = {0.01 * u, 0.01 * u}, .shortest = {0.02 * u, 0.02 * u}};
     reports::GufValidation v;
-    v.delta = 0.05 * u;
-    v.d_low = 0.01 * u;
-    v.d_high = (stretch - 2.0) * u;
+    v.delta = {0.05 * u, "0.005"};
+    v.d_low = {0.01 * u, "0.002"};
+    v.d_high = {(stretch - 2.0) * u, validated ? "0.002" : "0.063"};
     v.validated = validated && precise;
     v.precise_enough = precise;
     v.interval = "symmetric";
     v.digits = 2;
-    v.printed = {.delta = "0.005", .d_low = "0.002", .d_high = validated ? "0.002" : "0.063"};
     m.validation = v;
-    m.printed.trials = "100000";
-    m.printed.mean = decimals(value, 3);
-    m.printed.u = decimals(u, 3);
-    m.printed.symmetric = {decimals(m.symmetric[0], 2), decimals(m.symmetric[1], 2)};
-    m.printed.shortest = {decimals(m.shortest[0], 2), decimals(m.shortest[1], 2)};
+    m.symmetric.text = {decimals(m.symmetric.number[0], 2), decimals(m.symmetric.number[1], 2)};
+    m.shortest.text = {decimals(m.shortest.number[0], 2), decimals(m.shortest.number[1], 2)};
     return m;
 }
 
@@ -91,7 +87,7 @@ inline reports::EvaluationRecord sample_record() {
     r.software = {.name = "gumcert", .version = "0.1.0", .commit = "0123456789abcdef0123456789abcdef01234567"};
     r.kind = "rotary_table";
     r.title = "Rotary table, A axis, 36 angles, 6 stations, 6 reflectors";
-    r.printed_coverage = "95.45 %";
+    r.coverage_probability.text = "95.45 %";
     r.job_json = R"({"schema": "gumcert/job/1", "kind": "rotary_table", "home_angle_deg": 0, "scale_u": 1.5e-07})";
     r.options_json = R"({"adjustment": {"max_iterations": 20, "step_tolerance": 1e-12}, "audit": "none"})";
     r.job_files = {{"job.json", std::string(64, 'a')},
@@ -130,9 +126,9 @@ inline reports::EvaluationRecord sample_record() {
     const std::array<double, 6> u = {0.21, 0.19, 0.20, 0.33, 0.42, 0.45};
     for (int i = 0; i < 36; ++i) {
         ErrorsAtAngle row;
-        row.angle_deg = 10.0 * i;
-        row.printed_angle = decimals(row.angle_deg, 0);
-        const double theta = row.angle_deg * std::numbers::pi / 180.0;
+        row.angle_deg.number = 10.0 * i;
+        row.angle_deg.text = decimals(row.angle_deg.number, 0);
+        const double theta = row.angle_deg.number * std::numbers::pi / 180.0;
         for (std::size_t m = 0; m < 6; ++m) {
             const double phase = 0.7 * static_cast<double>(m);
             const double value = amplitude[m] * (std::sin(2.0 * theta + phase) + 0.3 * std::cos(5.0 * theta - phase) +
@@ -200,17 +196,15 @@ inline reports::EvaluationRecord sample_record() {
     for (std::size_t m = 0; m < 6; ++m) {
         for (const ErrorsAtAngle& row : t.errors) {
             t.budget.push_back({.quantity = t.error_names[m],
-                                .angle_deg = row.angle_deg,
+                                .angle_deg = row.angle_deg.number,
                                 .u = row.errors[m].u,
                                 .unit = t.error_units[m],
                                 .shares = shares});
         }
         t.budget_summary.push_back({.quantity = t.error_names[m],
-                                    .rms_u = u[m],
+                                    .rms_u = {u[m], decimals(u[m], 2)},
                                     .unit = t.error_units[m],
-                                    .shares = shares,
-                                    .printed_rms_u = decimals(u[m], 2),
-                                    .printed_shares = {"2.1", "3.4", "0.5", "6.0", "0.0", "88.0"}});
+                                    .shares = {shares, {"2.1", "3.4", "0.5", "6.0", "0.0", "88.0"}}});
     }
     t.budget.push_back({.quantity = "O_y", .angle_deg = {}, .u = 0.147, .unit = "um", .shares = shares});
 
@@ -219,26 +213,22 @@ inline reports::EvaluationRecord sample_record() {
     t.adjustment.parameters = 268;
     t.adjustment.degrees_of_freedom = 1046;
     t.adjustment.iterations = 4;
-    t.adjustment.chi_square = 1032.647;
-    t.adjustment.p_value = 0.61;
-    t.adjustment.condition_number = 2960.0;
+    t.adjustment.chi_square = {1032.647, "1032.6"};
+    t.adjustment.p_value = {0.61, "0.61"};
+    t.adjustment.condition_number = {2960.0, "3.0e3"};
     t.adjustment.variance_factor = {.a_priori = 1.0,
-                                    .a_posteriori = 0.98723,
+                                    .a_posteriori = {0.98723, "0.987"},
                                     .used = "a_priori",
                                     .reason =
                                         "The variance components were estimated, so the a-posteriori factor is 1 but "
                                         "for the iteration; the stated factor is used."};
     t.adjustment.global_test = {.probability = 0.95,
-                                .lower = 958.271,
-                                .upper = 1137.503,
+                                .lower = {958.271, "958.3"},
+                                .upper = {1137.503, "1137.5"},
                                 .accepted = true,
                                 .meaning =
                                     "Three components were estimated from the same residuals: the test can only "
-                                    "find what they do not describe.",
-                                .printed_lower = "958.3",
-                                .printed_upper = "1137.5"};
-    t.adjustment.printed = {
-        .chi_square = "1032.6", .p_value = "0.61", .variance_factor = "0.987", .condition_number = "3.0e3"};
+                                    "find what they do not describe."};
     t.variance_components = {{"length noise", 0.0512, 0.0011, "um", 812.0, true, {"0.0512", "0.0011", "µm"}},
                              {"table linear", 0.148, 0.011, "um", 96.2, true, {"0.148", "0.011", "µm"}},
                              {"table angular, axial", 0.31, 0.04, "arcsec", 33.0, true, {"0.31", "0.04", "″"}},
@@ -247,8 +237,7 @@ inline reports::EvaluationRecord sample_record() {
         VarianceComponent& v = t.variance_components[i];
         v.used = i != 3;
         if (i == 0 || i == 3) {
-            v.stated = i == 0 ? 0.05 : 0.3;
-            v.printed_stated = i == 0 ? "0.05" : "0.3";
+            v.stated = i == 0 ? Shown<double>{0.05, "0.05"} : Shown<double>{0.3, "0.3"};
         }
         if (i != 3) {
             v.degrees_of_freedom = 0.97 * v.redundancy;
@@ -287,14 +276,14 @@ inline reports::EvaluationRecord sample_record() {
     for (std::size_t m = 0; m < 6; ++m) {
         for (const ErrorsAtAngle& row : t.errors) {
             t.external_reliability.push_back({.quantity = t.error_names[m],
-                                              .angle_deg = row.angle_deg,
-                                              .influence = 0.12 + 0.001 * row.angle_deg,
+                                              .angle_deg = row.angle_deg.number,
+                                              .influence = 0.12 + 0.001 * row.angle_deg.number,
                                               .unit = t.error_units[m],
-                                              .ratio_to_U = 0.3 + 0.001 * row.angle_deg,
+                                              .ratio_to_U = 0.3 + 0.001 * row.angle_deg.number,
                                               .station = "P4",
                                               .reflector = "R6",
                                               .pass = "P4-1",
-                                              .at_angle_deg = row.angle_deg,
+                                              .at_angle_deg = row.angle_deg.number,
                                               .minimal_detectable_bias_um = 0.33});
         }
     }
@@ -327,22 +316,21 @@ inline reports::EvaluationRecord sample_record() {
     }
     for (int i = 0; i < 12; ++i) {
         PositioningTarget target;
-        target.angle_deg = 30.0 * i;
-        target.mean_up = 2.0 * std::sin(0.5 * i);
-        target.mean_down = *target.mean_up - 0.61;
-        target.s_up = 0.21;
-        target.s_down = 0.24;
-        target.reversal = 0.61;
-        target.printed_angle = decimals(target.angle_deg, 0);
-        target.printed_mean_up = decimals(*target.mean_up, 2);
-        target.printed_mean_down = decimals(*target.mean_down, 2);
-        target.printed_s_up = "0.21";
-        target.printed_s_down = "0.24";
-        target.printed_reversal = "0.61";
+        target.angle_deg.number = 30.0 * i;
+        target.mean_up.number = 2.0 * std::sin(0.5 * i);
+        target.mean_down.number = *target.mean_up.number - 0.61;
+        target.s_up.number = 0.21;
+        target.s_down.number = 0.24;
+        target.reversal.number = 0.61;
+        target.angle_deg.text = decimals(target.angle_deg.number, 0);
+        target.mean_up.text = decimals(*target.mean_up.number, 2);
+        target.mean_down.text = decimals(*target.mean_down.number, 2);
+        target.s_up.text = "0.21";
+        target.s_down.text = "0.24";
+        target.reversal.text = "0.61";
         positioning.targets.push_back(target);
     }
-    positioning.u_deviation = 0.092;
-    positioning.printed_u_deviation = "0.092";
+    positioning.u_deviation = {0.092, "0.092"};
     positioning.remarks = {"Five runs in each direction: the positional deviations are corrected for nothing."};
     t.iso230_2 = positioning;
 
@@ -361,85 +349,79 @@ inline reports::EvaluationRecord sample_record() {
     t.fixture_budget = {.method = "budget",
                         .file = "fixture_budget.json",
                         .largest = {{"maximum permissible error of the CMM",
-                                     {},
+                                     {{}, "0"},
                                      "um",
-                                     0.24,
+                                     {0.24, "0.24"},
                                      {},
                                      "B",
                                      "uniform",
-                                     1.0,
-                                     0.24,
-                                     0.92,
+                                     {1.0, "1"},
+                                     {0.24, "0.240"},
+                                     {0.92, "92.0"},
                                      "certificate of the CMM",
                                      {},
-                                     "",
-                                     {"0", "0.24", "", "1", "0.240", "92.0"}},
+                                     ""},
                                     {"repeatability of the CMM",
-                                     {},
+                                     {{}, "0"},
                                      "um",
-                                     0.0708,
-                                     9.0,
+                                     {0.0708, "0.071"},
+                                     {9.0},
                                      "A",
                                      "normal",
-                                     1.0,
-                                     0.0708,
-                                     0.08,
+                                     {1.0, "1"},
+                                     {0.0708, "0.071"},
+                                     {0.08, "8.0"},
                                      "ten measurements",
                                      {},
-                                     "",
-                                     {"0", "0.071", "", "1", "0.071", "8.0"}}},
+                                     ""}},
                         .largest_coordinate = "x of R6",
                         .remarks = {"The maximum permissible error is taken as a uniform bound."}};
-    t.outlier_critical_value = 3.89;
+    t.outlier_critical_value = {3.89, "3.89"};
     t.outlier_alpha = 0.0001;
-    t.printed_critical_value = "3.89";
     r.rotary = t;
 
     Comparison c;
     c.reference_name = "dial indicator";
     c.contact_point_mm = {180.0, 60.0, 40.0};
     c.reference_budget = {{"maximum permissible error",
-                           {},
+                           {{}, "0"},
                            "um",
-                           0.577,
+                           {0.577, "0.577"},
                            {},
                            "B",
                            "uniform",
-                           1.0,
-                           0.577,
-                           0.83,
+                           {1.0, "1"},
+                           {0.577, "0.577"},
+                           {0.83, "83"},
                            "dial indicator",
                            {},
-                           "",
-                           {"0", "0.577", "", "1", "0.577", "83"}},
+                           ""},
                           {"repeatability",
-                           {},
+                           {{}, "0"},
                            "um",
-                           0.25,
-                           10.0,
+                           {0.25, "0.250"},
+                           {10.0},
                            "A",
                            "normal",
-                           1.0,
-                           0.25,
-                           0.157,
+                           {1.0, "1"},
+                           {0.25, "0.250"},
+                           {0.157, "16"},
                            "dial indicator",
                            {},
-                           "",
-                           {"0", "0.250", "", "1", "0.250", "16"}},
+                           ""},
                           {"resolution",
-                           {},
+                           {{}, "0"},
                            "um",
-                           0.0289,
+                           {0.0289, "0.029"},
                            {},
                            "B",
                            "uniform",
-                           1.0,
-                           0.0289,
-                           0.002,
+                           {1.0, "1"},
+                           {0.0289, "0.029"},
+                           {0.002, "0.2"},
                            "dial indicator",
                            {},
-                           "",
-                           {"0", "0.029", "", "1", "0.029", "0.2"}}};
+                           ""}};
     for (const char* direction : {"x", "y", "z"}) {
         for (int i = 0; i < 36; ++i) {
             const double theta = 10.0 * i * std::numbers::pi / 180.0;

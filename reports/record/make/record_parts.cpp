@@ -22,8 +22,8 @@ reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
     record.software.commit = k_commit;
     record.kind = kind;
     record.title = job.title;
-    record.coverage_probability = job.coverage_probability;
-    record.printed_coverage = gum::round_significant(100.0 * job.coverage_probability, 4) + " %";
+    record.coverage_probability = {job.coverage_probability,
+                                   gum::round_significant(100.0 * job.coverage_probability, 4) + " %"};
     record.job_json = gumcert::json::canonical_json(job.document);
     record.job_files = files;
     // The sizes of units that the numbers were found with.
@@ -34,6 +34,18 @@ reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
     record.diagnostics = job.warnings;
     record.diagnostics.insert(record.diagnostics.end(), job.notes.begin(), job.notes.end());
     return record;
+}
+
+Shown<double> shown_significant(double number, int digits) {
+    return {number, gum::round_significant(number, digits)};
+}
+
+Shown<double> shown_to_quantum(double number, int decimals) {
+    return {number, gum::round_to_quantum(number, decimals)};
+}
+
+Shown<double> shown_share(double share) {
+    return {share, gum::percent(share)};
 }
 
 std::optional<double> finite_or_none(double value) {
@@ -66,12 +78,12 @@ reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from
         return {to_unit.difference(interval.low), to_unit.difference(interval.high)};
     };
     reports::MonteCarloSummary summary;
-    summary.trials = static_cast<std::int64_t>(done.trials);
+    summary.trials = {static_cast<std::int64_t>(done.trials), std::to_string(done.trials)};
     summary.seed = static_cast<std::int64_t>(asked.seed);
-    summary.mean = to_unit.value(from.mean);
-    summary.u = to_unit.difference(from.standard_uncertainty);
-    summary.symmetric = ends(from.symmetric);
-    summary.shortest = ends(from.shortest);
+    summary.mean.number = to_unit.value(from.mean);
+    summary.u.number = to_unit.difference(from.standard_uncertainty);
+    summary.symmetric.number = ends(from.symmetric);
+    summary.shortest.number = ends(from.shortest);
     summary.numerical_error.mean = to_unit.difference(from.numerical_error.mean);
     summary.numerical_error.u = to_unit.difference(from.numerical_error.standard_uncertainty);
     summary.numerical_error.symmetric = differences(from.numerical_error.symmetric);
@@ -85,29 +97,25 @@ reports::MonteCarloSummary monte_carlo_summary(const gum::MonteCarloOutput& from
     summary.stabilised = done.stabilised;
     // As many digits as the numerical error allows, and not more than four of u.
     const auto shown = [&](double value, double error) {
-        const double quantum = std::max(error, 1e-4 * *summary.u);
+        const double quantum = std::max(error, 1e-4 * *summary.u.number);
         return quantum > 0.0 ? gum::round_to_uncertainty(value, quantum, 1).value
                              : text::shortest(value == 0.0 ? 0.0 : value);
     };
-    summary.printed.trials = std::to_string(summary.trials);
-    summary.printed.mean = shown(*summary.mean, summary.numerical_error.mean);
-    summary.printed.u = shown(*summary.u, summary.numerical_error.u);
+    summary.mean.text = shown(*summary.mean.number, summary.numerical_error.mean);
+    summary.u.text = shown(*summary.u.number, summary.numerical_error.u);
     for (std::size_t i = 0; i < 2; ++i) {
-        summary.printed.symmetric[i] = shown(summary.symmetric[i], summary.numerical_error.symmetric[i]);
-        summary.printed.shortest[i] = shown(summary.shortest[i], summary.numerical_error.shortest[i]);
+        summary.symmetric.text[i] = shown(summary.symmetric.number[i], summary.numerical_error.symmetric[i]);
+        summary.shortest.text[i] = shown(summary.shortest.number[i], summary.numerical_error.shortest[i]);
     }
     if (compared) {
         reports::GufValidation validation;
-        validation.delta = compared->tolerance;
-        validation.d_low = compared->distance_low;
-        validation.d_high = compared->distance_high;
+        validation.delta = shown_significant(compared->tolerance, 2);
+        validation.d_low = shown_significant(compared->distance_low, 2);
+        validation.d_high = shown_significant(compared->distance_high, 2);
         validation.validated = compared->validated;
         validation.precise_enough = compared->precise_enough;
         validation.interval = "symmetric";
         validation.digits = asked.digits;
-        validation.printed.delta = gum::round_significant(validation.delta, 2);
-        validation.printed.d_low = gum::round_significant(validation.d_low, 2);
-        validation.printed.d_high = gum::round_significant(validation.d_high, 2);
         summary.validation = validation;
     }
     return summary;

@@ -38,6 +38,13 @@ struct JobHead {
 /// Significant digits of a printed uncertainty (JCGM 100:2008, 7.2.6).
 inline constexpr int k_digits_of_u = 2;
 
+/// A number and its text with so many significant digits.
+[[nodiscard]] Shown<double> shown_significant(double number, int digits);
+/// A number and its text with so many decimals.
+[[nodiscard]] Shown<double> shown_to_quantum(double number, int decimals);
+/// A share, [1], and its text in percent.
+[[nodiscard]] Shown<double> shown_share(double share);
+
 /// Degrees of freedom as a record holds them: none stands for infinite, or for none that can be stated.
 [[nodiscard]] std::optional<double> finite_or_none(double value);
 

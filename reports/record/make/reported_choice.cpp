@@ -34,8 +34,8 @@ std::optional<ReportedResult> reported_of(const Law& law, const std::optional<Mo
     const bool contradicted = is_contradicted(*trials);
     ReportedResult reported;
     if (choice == CoverageChoice::monte_carlo || (choice == CoverageChoice::as_validated && contradicted)) {
-        reported = reports::monte_carlo_result(trials->mean.value_or(law.value), trials->u, trials->symmetric,
-                                               coverage_probability,
+        reported = reports::monte_carlo_result(trials->mean.number.value_or(law.value), trials->u.number,
+                                               trials->symmetric.number, coverage_probability,
                                                choice == CoverageChoice::monte_carlo ? "asked" : "contradicted");
     } else if (contradicted) {
         reported = reports::law_of_propagation_result(law.value, law.u, law.U, law.k, coverage_probability);
@@ -92,7 +92,7 @@ void report_result(reports::Result& result, CoverageChoice choice) {
 
 void report_rotary_results(reports::EvaluationRecord& record, CoverageChoice choice) {
     reports::RotaryTable& rotary = *record.rotary;
-    const Reporter reporter(choice, record.coverage_probability);
+    const Reporter reporter(choice, record.coverage_probability.number);
     for (const auto& place : reports::stated_values(rotary)) {
         reporter.report(place.stated, place.unit);
     }

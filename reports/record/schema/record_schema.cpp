@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -82,8 +83,12 @@ public:
     }
     template <class Number>
     void operator()(const char* key, const Shown<Number>& v, Range range = Range::any) {
+        shown(key, key, v, range);
+    }
+    template <class Number>
+    void shown(const char* key, const char* text_key, const Shown<Number>& v, Range range = Range::any) {
         (*this)(key, v.number, range);
-        text(key, v.text);
+        text(text_key, v.text);
     }
     void operator()(const char* key, const std::string&, std::initializer_list<const char*> allowed) {
         add(key, words(allowed));
@@ -141,8 +146,14 @@ public:
         added(key, v.number, rule...);
         text_added(key, v.text);
     }
-    void text(const char* key, const std::string&) { texts_.emplace_back(key, false); }
-    void text_added(const char* key, const std::string&) { texts_.emplace_back(key, true); }
+    template <class Text>
+    void text(const char* key, const Text&) {
+        texts_.push_back([key](SchemaWriter& printed) { printed(key, Text{}); });
+    }
+    template <class Text>
+    void text_added(const char* key, const Text&) {
+        texts_.push_back([key](SchemaWriter& printed) { printed.added(key, Text{}); });
+    }
     template <class Number>
     void text_added(const char* key, const Shown<Number>& v, Range range = Range::any) {
         (*this)(key, v.number, range);
@@ -183,8 +194,8 @@ public:
     }
     void errors(const char* key, const std::vector<ErrorsAtAngle>&, const RotaryTable& rotary) {
         add(key, list_of(definition<ErrorsAtAngle>([&](SchemaWriter& inner, const ErrorsAtAngle& v) {
-                inner("angle_deg", v.angle_deg);
-                inner("printed_angle", v.printed_angle);
+                inner("angle_deg", v.angle_deg.number);
+                inner("printed_angle", v.angle_deg.text);
                 const std::size_t size = inner.properties_.size() + rotary.error_names.size();
                 inner.more_ = {{"minProperties", size},
                                {"maxProperties", size},
@@ -216,8 +227,8 @@ public:
     [[nodiscard]] ordered_json schema(std::string_view sentence = {}) {
         if (!texts_.empty()) {
             group("printed", [&](SchemaWriter& printed) {
-                for (const auto& [key, is_added] : texts_) {
-                    is_added ? printed.added(key, std::string()) : printed(key, std::string());
+                for (const auto& describe_text : texts_) {
+                    describe_text(printed);
                 }
             });
         }
@@ -240,8 +251,7 @@ private:
     ordered_json properties_ = ordered_json::object();
     ordered_json required_ = ordered_json::array();
     ordered_json more_ = ordered_json::object();
-    std::vector<std::pair<const char*, bool>>
-        texts_;  ///< of the object `printed`, and whether a later release added it
+    std::vector<std::function<void(SchemaWriter&)>> texts_;  ///< of the object `printed`
 
     void add(const char* key, ordered_json schema) {
         if (!properties_.emplace(key, std::move(schema)).second) {

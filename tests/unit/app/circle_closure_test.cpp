@@ -105,17 +105,17 @@ TEST(CircleClosureRecord, StatesTheClosedFormWithItsBudget) {
     EXPECT_EQ(at45.quantity, "ECC");
     EXPECT_EQ(at45.point, "45");
     ASSERT_EQ(at45.budget.size(), 4U);
-    const double scatter = closure.residual_standard_deviation * std::sqrt(7.0) / 8.0;
+    const double scatter = closure.residual_standard_deviation.number * std::sqrt(7.0) / 8.0;
     const double seating = 0.05 * std::sqrt(7.0 / 8.0);
     const double drift = 0.04 / std::sqrt(3.0) * std::abs(1.0 - 3.5) / 8.0;  // (j − mean j)/n of a full turn
-    EXPECT_NEAR(at45.budget[0].contribution, scatter, 1e-12);
-    EXPECT_NEAR(at45.budget[1].contribution, 0.01 * std::abs(at45.value), 1e-12);
-    EXPECT_NEAR(*at45.budget[1].sensitivity, at45.value, 1e-9);
-    EXPECT_NEAR(at45.budget[2].contribution, seating, 1e-12);
-    EXPECT_NEAR(at45.budget[3].contribution, drift, 1e-12);
+    EXPECT_NEAR(at45.budget[0].contribution.number, scatter, 1e-12);
+    EXPECT_NEAR(at45.budget[1].contribution.number, 0.01 * std::abs(at45.value), 1e-12);
+    EXPECT_NEAR(*at45.budget[1].sensitivity.number, at45.value, 1e-9);
+    EXPECT_NEAR(at45.budget[2].contribution.number, seating, 1e-12);
+    EXPECT_NEAR(at45.budget[3].contribution.number, drift, 1e-12);
     EXPECT_EQ(at45.budget[1].source, "certificate 17");
     EXPECT_EQ(at45.budget[0].type, "A");
-    EXPECT_EQ(*at45.budget[0].nu, 42.0);
+    EXPECT_EQ(*at45.budget[0].nu.number, 42.0);
     const double u = std::sqrt(scatter * scatter + std::pow(0.01 * at45.value, 2) + seating * seating + drift * drift);
     EXPECT_NEAR(at45.u, u, 1e-12);
     const double nu = std::pow(u, 4) / (std::pow(scatter, 4) / 42.0 + std::pow(seating, 4) / 10.0);
@@ -186,7 +186,7 @@ TEST(CircleClosureExamples, HoldTheirTruth) {
             for (const std::size_t circle : {0U, 1U}) {
                 const reports::Result& result = record.results.at(circle * truth.size() + i);
                 // The stated effects are not in the simulated readings: the scatter alone is held against the truth.
-                const double z = (result.value - truth[i][2 + circle]) / result.budget.front().contribution;
+                const double z = (result.value - truth[i][2 + circle]) / result.budget.front().contribution.number;
                 EXPECT_LT(std::abs(z), 4.5) << result.name;
                 sum += z * z;
             }
@@ -204,13 +204,14 @@ TEST(CircleClosureRecord, MonteCarloConfirmsTheLawOfPropagation) {
     for (std::size_t i = 0; i < 10; ++i) {
         const reports::Result& result = record.results[i];
         ASSERT_TRUE(result.monte_carlo) << result.name;
-        const double half_width = 0.5 * (result.monte_carlo->symmetric[1] - result.monte_carlo->symmetric[0]);
+        const double half_width =
+            0.5 * (result.monte_carlo->symmetric.number[1] - result.monte_carlo->symmetric.number[0]);
         EXPECT_NEAR(half_width, *result.U, 0.02 * *result.U) << result.name;
     }
     // The readings share one s: drawn with independent t-distributions, u would be too small by the root of ν/(ν − 2).
     const double nu = record.circle_closure->degrees_of_freedom;
     const EvaluationRecord alone = record_of({.steps = 5}, R"(, "monte_carlo": {"trials": 250000})");
-    EXPECT_NEAR(*alone.results[0].monte_carlo->u, alone.results[0].u * std::sqrt(nu / (nu - 2.0)),
+    EXPECT_NEAR(*alone.results[0].monte_carlo->u.number, alone.results[0].u * std::sqrt(nu / (nu - 2.0)),
                 0.01 * alone.results[0].u);
 }
 

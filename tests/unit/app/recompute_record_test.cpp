@@ -323,10 +323,10 @@ TEST(RecomputeRecord, DoesNotDependOnTheNumberOfThreads) {
 TEST(RecomputeRecord, BecomesTheRecordThatTheJobGives) {
     const std::string text = record_of("gauge_block/job.json");
     EvaluationRecord record = read(text);
-    const double stated = record.results.front().budget.front().u;
-    record.results.front().budget.front().u *= 1.0 + 9e-10;
+    const double stated = record.results.front().budget.front().u.number;
+    record.results.front().budget.front().u.number *= 1.0 + 9e-10;
     EXPECT_EQ(recompute_record(record, "record.json", 1, k_shipped_templates), std::nullopt);
-    EXPECT_EQ(record.results.front().budget.front().u, stated);
+    EXPECT_EQ(record.results.front().budget.front().u.number, stated);
     EXPECT_EQ(reports::to_canonical_json(record), text);
 }
 

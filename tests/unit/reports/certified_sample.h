@@ -72,8 +72,8 @@ inline reports::EvaluationRecord certified_rotary_record() {
     errors.id = "error_motions";
     errors.argument = {.name = "angle", .unit = "degree", .printed_unit = "°", .values = {}, .printed = {}};
     for (const reports::ErrorsAtAngle& at : r.errors) {
-        errors.argument->values.emplace_back(at.angle_deg);
-        errors.argument->printed.push_back(at.printed_angle);
+        errors.argument->values.emplace_back(at.angle_deg.number);
+        errors.argument->printed.push_back(at.angle_deg.text);
     }
     for (std::size_t i = 0; i < 6; ++i) {
         certificate::CertifiedColumn column;

@@ -57,15 +57,15 @@ std::string place_of(const std::string& input, const std::string& component, con
 reports::Remark refuted_fit(const FitSummary& fit) {
     std::vector<std::string> scaled;
     for (const FitSummary::Parameter& parameter : fit.parameters) {
-        scaled.push_back("u(" + parameter.name + ") = " + with_unit(parameter.printed.scaled_u, parameter.unit) +
-                         " in place of " + parameter.printed.u);
+        scaled.push_back("u(" + parameter.name + ") = " + with_unit(parameter.scaled_u.text, parameter.unit) +
+                         " in place of " + parameter.u.text);
     }
     return {
         .message = {.code = "GC-BUDGET-0032",
                     .where = "fit " + fit.name,
-                    .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
+                    .what = "chi-square is " + fit.sum_of_squares.text + " with " +
                             text::shortest(fit.degrees_of_freedom) + " degrees of freedom (p-value " +
-                            fit.printed.p_value + "): the residuals are " + fit.printed.residual_standard_deviation +
+                            fit.p_value.text + "): the residuals are " + fit.residual_standard_deviation.text +
                             " times as large as the stated uncertainties of the data explain",
                     .rule = "a fit is used when its residuals do not refute the stated uncertainties and the curve: "
                             "chi-square is tested at 5 % (ISO/TS 28037:2010)",
@@ -84,7 +84,7 @@ reports::Remark overstated_fit(const FitSummary& fit) {
     return {
         .message = {.code = "GC-BUDGET-0033",
                     .where = "fit " + fit.name,
-                    .what = "chi-square is " + fit.printed.sum_of_squares + " with " +
+                    .what = "chi-square is " + fit.sum_of_squares.text + " with " +
                             text::shortest(fit.degrees_of_freedom) +
                             " degrees of freedom: the residuals are far smaller than the stated uncertainties of "
                             "the data",
@@ -108,20 +108,21 @@ std::string place_in_set(const OutlyingReading& r) {
 /// \param all  of one input
 reports::Remark outliers(const std::vector<const OutlyingReading*>& all) {
     const OutlyingReading& first = **std::min_element(
-        all.begin(), all.end(), [](const auto* a, const auto* b) { return a->p_value < b->p_value; });
+        all.begin(), all.end(), [](const auto* a, const auto* b) { return a->p_value.number < b->p_value.number; });
     std::vector<std::string> points;
     for (const OutlyingReading* r : all) {
         points.push_back(r->point);
     }
     std::string what = place_in_set(first) +
                        (all.size() > 1 && !first.point.empty() ? " at point " + first.point : "") + ", " +
-                       with_unit(first.printed.value, first.unit) + ", is an outlier among " + std::to_string(first.n) +
-                       (first.of == "group_means" ? " means" : " readings") + ": G = " + first.printed.G +
-                       ", p-value " + first.printed.p_value;
+                       with_unit(first.value.text, first.unit) + ", is an outlier among " + std::to_string(first.n) +
+                       (first.of == "group_means" ? " means" : " readings") + ": G = " + first.G.text + ", p-value " +
+                       first.p_value.text;
     if (all.size() > 1) {
         what += "; and " + std::to_string(all.size() - 1) + " more";
     }
-    const FindingSeverity severity = first.p_value < k_gross_outlier ? FindingSeverity::major : FindingSeverity::minor;
+    const FindingSeverity severity =
+        first.p_value.number < k_gross_outlier ? FindingSeverity::major : FindingSeverity::minor;
     return {
         .message = {.code = "GC-BUDGET-0031",
                     .where = place_of(first.input, first.component, points),
@@ -145,10 +146,10 @@ reports::Remark dependent(const std::vector<const ReadingsSummary*>& all) {
     }
     return {.message = {.code = "GC-BUDGET-0030",
                         .where = place_of(first.input, first.component, points),
-                        .what = "autocorrelation coefficient of lag 1 is " + first.printed.r1 +
+                        .what = "autocorrelation coefficient of lag 1 is " + first.printed_r1 +
                                 (all.size() > 1 && !first.point.empty() ? " at point " + first.point : ""),
                         .rule = "readings that are independent of each other stay within " +
-                                ("±" + first.printed.limit) + " in 95 % of all cases",
+                                ("±" + first.autocorrelation_limit.text) + " in 95 % of all cases",
                         .action = "Look for drift; s/√n is not the uncertainty of the mean of dependent readings.",
                         .severity = gum::Severity::warning},
             .id = "A02",

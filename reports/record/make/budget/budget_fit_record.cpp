@@ -46,22 +46,19 @@ std::vector<double> standard_uncertainties(const Eigen::MatrixXd& stated, const 
     return list;
 }
 
-std::vector<std::string> printed_as_stated(const std::vector<double>& values) {
+/// Numbers and the texts that a function makes of them.
+template <class Print>
+Shown<std::vector<double>> shown(std::vector<double> numbers, const Print& print) {
     std::vector<std::string> texts;
-    texts.reserve(values.size());
-    for (const double value : values) {
-        texts.push_back(as_stated(value));
+    texts.reserve(numbers.size());
+    for (const double number : numbers) {
+        texts.push_back(print(number));
     }
-    return texts;
+    return {std::move(numbers), std::move(texts)};
 }
 
-std::vector<std::string> printed_rounded(const std::vector<double>& values, int digits) {
-    std::vector<std::string> texts;
-    texts.reserve(values.size());
-    for (const double value : values) {
-        texts.push_back(rounded(value, digits));
-    }
-    return texts;
+std::string printed_u(double u) {
+    return rounded(u, k_digits_of_u);
 }
 
 void add_parameters(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSummary& summary) {
@@ -79,14 +76,13 @@ void add_parameters(const gum::BudgetFit& fit, const engine::CurveFit& solved, F
         FitSummary::Parameter parameter;
         parameter.name = from.name;
         parameter.unit = from.unit.text();
-        parameter.value = from.unit.from_si(solved.parameters(i));
-        parameter.u = from.unit.difference_from_si(std::sqrt(solved.covariance(i, i)));
-        parameter.printed.value = printed_estimate(parameter.value, parameter.u);
-        parameter.printed.u = rounded(parameter.u, reports::k_digits_of_u);
-        parameter.printed.unit = gum::unit_for_people(from.unit.text());
+        const double value = from.unit.from_si(solved.parameters(i));
+        const double u = from.unit.difference_from_si(std::sqrt(solved.covariance(i, i)));
+        parameter.value = {value, printed_estimate(value, u)};
+        parameter.u = shown_significant(u, reports::k_digits_of_u);
+        parameter.printed_unit = gum::unit_for_people(from.unit.text());
         if (summary.consistency == "refuted") {
-            parameter.scaled_u = parameter.u * solved.residual_standard_deviation;
-            parameter.printed.scaled_u = rounded(*parameter.scaled_u, reports::k_digits_of_u);
+            parameter.scaled_u = shown_significant(u * solved.residual_standard_deviation, reports::k_digits_of_u);
         }
         summary.parameters.push_back(std::move(parameter));
         std::vector<double> row;
@@ -113,27 +109,23 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
     if (fit.regressors.size() == 1) {
         summary.x_name = fit.regressors.front();
         summary.x_unit = fit.regressor_units.front().text();
-        summary.x = column(0);
-        summary.u_x = standard_uncertainties(fit.x_uncertainty, fit.regressor_units.front());
+        summary.x = shown(column(0), as_stated);
+        summary.u_x = shown(standard_uncertainties(fit.x_uncertainty, fit.regressor_units.front()), printed_u);
     } else {
         for (std::size_t q = 0; q < fit.regressors.size(); ++q) {
-            FitSummary::Regressor regressor{
-                .name = fit.regressors[q], .unit = fit.regressor_units[q].text(), .values = column(q), .printed = {}};
-            regressor.printed = printed_as_stated(regressor.values);
-            summary.regressors.push_back(std::move(regressor));
+            summary.regressors.push_back({.name = fit.regressors[q],
+                                          .unit = fit.regressor_units[q].text(),
+                                          .values = shown(column(q), as_stated)});
         }
     }
     for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
-        summary.y.push_back(fit.ordinate_unit.from_si(fit.y(i)));
+        summary.y.number.push_back(fit.ordinate_unit.from_si(fit.y(i)));
+        summary.y.text.push_back(as_stated(summary.y.number.back()));
         summary.fitted.push_back(fit.ordinate_unit.from_si(fit.y(i) - solved.residuals(i)));
-        summary.residual.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
+        summary.residual.number.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
+        summary.residual.text.push_back(rounded(summary.residual.number.back(), k_digits_of_residual));
     }
-    summary.u_y = standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit);
-    summary.printed.x = printed_as_stated(summary.x);
-    summary.printed.y = printed_as_stated(summary.y);
-    summary.printed.u_x = printed_rounded(summary.u_x, reports::k_digits_of_u);
-    summary.printed.u_y = printed_rounded(summary.u_y, reports::k_digits_of_u);
-    summary.printed.residual = printed_rounded(summary.residual, k_digits_of_residual);
+    summary.u_y = shown(standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit), printed_u);
 }
 
 /// A row without a value of its own: what something makes of the uncertainty of the result.
@@ -144,16 +136,13 @@ BudgetRow joint_row(const std::string& name, const std::string& role, double var
     row.role = role;
     row.unit = unit.text();
     const double contribution_si = std::sqrt(std::max(0.0, variance_si));
-    row.contribution = unit.difference_from_si(contribution_si);
-    row.u = row.contribution;
-    row.nu = reports::finite_or_none(nu);
+    row.contribution = shown_significant(unit.difference_from_si(contribution_si), reports::k_digits_of_u);
+    row.u.number = row.contribution.number;
+    row.nu = shown_degrees_of_freedom(nu);
     row.type = is_scaled ? "A" : "B";
     row.distribution = is_scaled ? "student_t" : "normal";
     const double ratio = result_u > 0.0 ? contribution_si / result_u : 0.0;  // nothing to share of 0
-    row.share = ratio * ratio;
-    row.printed.nu = printed_degrees_of_freedom(nu);
-    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.share = shown_share(ratio * ratio);
     return row;
 }
 
@@ -167,22 +156,18 @@ FitSummary fit_summary(const gum::BudgetFit& fit, const engine::CurveFit& solved
     const bool weighted = is_weighted(fit);
     const auto in_y = [&](double si) { return weighted ? si : fit.ordinate_unit.difference_from_si(si); };
     summary.degrees_of_freedom = solved.degrees_of_freedom;
-    summary.sum_of_squares = in_y(in_y(solved.sum_of_squares));
-    summary.residual_standard_deviation = in_y(solved.residual_standard_deviation);
+    summary.sum_of_squares = shown_significant(in_y(in_y(solved.sum_of_squares)), 3);
+    summary.residual_standard_deviation = shown_significant(in_y(solved.residual_standard_deviation), 3);
     summary.condition_number = solved.condition_number;
     summary.iterations = solved.iterations;
     summary.covariance_scaled = solved.covariance_scaled;
-    summary.printed.residual_standard_deviation = rounded(summary.residual_standard_deviation, 3);
-    summary.printed.sum_of_squares = rounded(summary.sum_of_squares, 3);
-    summary.r_squared = solved.r_squared;
-    if (summary.r_squared) {
-        summary.printed.r_squared = gum::round_to_quantum(*summary.r_squared, 6);
+    if (solved.r_squared) {
+        summary.r_squared = shown_to_quantum(*solved.r_squared, 6);
     }
     if (weighted && !solved.covariance_scaled && solved.degrees_of_freedom > 0.0) {
         const double upper = gum::chi_square_upper_tail(solved.sum_of_squares, solved.degrees_of_freedom);
         const double lower = gum::chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom);
-        summary.p_value = upper;
-        summary.printed.p_value = printed_p_value(upper);
+        summary.p_value = {upper, printed_p_value(upper)};
         summary.consistency = upper < k_fit_test_level              ? "refuted"
                               : lower < gum::k_fit_overstated_level ? "overstated"
                                                                     : "consistent";
@@ -214,14 +199,13 @@ BudgetRow fit_row(const gum::BudgetFit& fit, const engine::CurveFit& solved, con
             joint_row(parameter.name, "fit_parameter", sensitivity(i) * sensitivity(i) * solved.covariance(i, i), nu,
                       scaled, result_unit, result_u);
         part.unit = parameter.unit.text();
-        part.value = parameter.unit.from_si(solved.parameters(i));
-        part.u = parameter.unit.difference_from_si(u);
-        part.sensitivity = result_unit.difference_from_si(sensitivity(i) * parameter.unit.difference_to_si(1.0));
-        part.printed.value = printed_estimate(*part.value, part.u);
-        part.printed.u = rounded(part.u, reports::k_digits_of_u);
-        part.printed.sensitivity = rounded(*part.sensitivity, 4);
-        part.printed.contribution.clear();  // alone it says nothing: the parameters of a fit are correlated
-        part.printed.share.clear();
+        const double value = parameter.unit.from_si(solved.parameters(i));
+        part.u = shown_significant(parameter.unit.difference_from_si(u), reports::k_digits_of_u);
+        part.value = {value, printed_estimate(value, part.u.number)};
+        part.sensitivity =
+            shown_significant(result_unit.difference_from_si(sensitivity(i) * parameter.unit.difference_to_si(1.0)), 4);
+        part.contribution.text.clear();  // alone it says nothing: the parameters of a fit are correlated
+        part.share.text.clear();
         row.components.push_back(std::move(part));
     }
     return row;

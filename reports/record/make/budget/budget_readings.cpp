@@ -68,7 +68,7 @@ void add_pool(const Stated& stated, reports::ReadingsSummary& summary) {
         const auto n = static_cast<double>(summary.n);
         const double step = stated_resolution(stated.input);
         const double of_steps = n / (n - 1.0) * 0.25 * step * step;
-        const double variance = summary.standard_deviation * summary.standard_deviation;
+        const double variance = summary.standard_deviation.number * summary.standard_deviation.number;
         summary.pooled_F = std::max(0.0, variance - of_steps) / (s * s);
     }
 }
@@ -84,28 +84,29 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
         summary.observations.push_back(as_stated(reading));
     }
     summary.n = static_cast<std::int64_t>(readings.size());
-    summary.mean = readings.front();
+    summary.mean.number = readings.front();
     if (readings.size() >= 2) {
         const gum::ObservationSummary of = gum::evaluate_type_a(readings);
-        summary.mean = of.mean;
-        summary.standard_deviation = of.standard_deviation;
-        summary.standard_deviation_of_mean = of.standard_deviation_of_mean;
+        summary.mean.number = of.mean;
+        summary.standard_deviation.number = of.standard_deviation;
+        summary.standard_deviation_of_mean.number = of.standard_deviation_of_mean;
         if (of.standard_deviation > 0.0) {
             const std::size_t lags = std::min(k_longest_lag_list, readings.size() / 4 + 1);
             summary.autocorrelation = gum::autocorrelation(readings, std::min(lags, readings.size() - 1));
             const gum::AutocorrelationCheck check = gum::autocorrelation_check(readings);
-            summary.autocorrelation_limit = check.limit;
+            summary.autocorrelation_limit.number = check.limit;
             summary.dependent = !check.independent;
-            summary.printed.r1 = gum::round_to_quantum(check.lag_one, 2);
-            summary.printed.limit = gum::round_to_quantum(check.limit, 2);
+            summary.printed_r1 = gum::round_to_quantum(check.lag_one, 2);
+            summary.autocorrelation_limit.text = gum::round_to_quantum(check.limit, 2);
         }
     }
     if (stated.quantity.pooled_standard_deviation) {
         add_pool(stated, summary);
     }
-    summary.printed.mean = printed_estimate(summary.mean, summary.standard_deviation_of_mean);
-    summary.printed.standard_deviation = rounded(summary.standard_deviation, reports::k_digits_of_u);
-    summary.printed.standard_deviation_of_mean = rounded(summary.standard_deviation_of_mean, reports::k_digits_of_u);
+    summary.mean.text = printed_estimate(summary.mean.number, summary.standard_deviation_of_mean.number);
+    summary.standard_deviation.text = rounded(summary.standard_deviation.number, reports::k_digits_of_u);
+    summary.standard_deviation_of_mean.text =
+        rounded(summary.standard_deviation_of_mean.number, reports::k_digits_of_u);
     return summary;
 }
 
@@ -135,7 +136,7 @@ reports::VarianceAnalysis variance_analysis(const Stated& stated) {
     out.point = stated.point;
     out.groups = static_cast<std::int64_t>(from.groups.size());
     out.readings = static_cast<std::int64_t>(from.observations);
-    out.mean = from.mean_of_group_means;
+    out.mean.number = from.mean_of_group_means;
     out.sum_of_squares_between = from.between.sum_of_squares;
     out.sum_of_squares_within = from.within.sum_of_squares;
     out.degrees_of_freedom_between = from.between.degrees_of_freedom;
@@ -143,24 +144,25 @@ reports::VarianceAnalysis variance_analysis(const Stated& stated) {
     out.mean_square_between = from.between.mean_square;
     out.mean_square_within = from.within.mean_square;
     // A ratio to nothing is not a number that a record may hold; the largest one says the same.
-    out.F = std::isfinite(from.ratio.f) ? from.ratio.f : std::numeric_limits<double>::max();
-    out.p_value = from.ratio.p_value;
-    out.F_critical = from.ratio.critical_value;
+    out.F.number = std::isfinite(from.ratio.f) ? from.ratio.f : std::numeric_limits<double>::max();
+    out.p_value.number = from.ratio.p_value;
+    out.F_critical.number = from.ratio.critical_value;
     out.r_squared = from.r_squared;
-    out.standard_deviation_within = from.within_standard_deviation;
-    out.standard_deviation_of_group_means = from.standard_deviation_of_group_means;
-    out.standard_deviation_between = from.between_standard_deviation;
+    out.standard_deviation_within.number = from.within_standard_deviation;
+    out.standard_deviation_of_group_means.number = from.standard_deviation_of_group_means;
+    out.standard_deviation_between.number = from.between_standard_deviation;
     out.u_with_between_effect = from.u_with_between_effect;
     out.u_without_between_effect = from.u_without_between_effect;
     out.conclusion = from.ratio.significant ? "significant" : "not significant";
-    out.printed.mean = printed_estimate(out.mean, out.u_with_between_effect);
-    out.printed.F = rounded(out.F, 3);
-    out.printed.F_critical = rounded(out.F_critical, 3);
-    out.printed.p_value = rounded(out.p_value, 2);
-    out.printed.within = rounded(out.standard_deviation_within, reports::k_digits_of_u);
-    out.printed.between = rounded(out.standard_deviation_between, reports::k_digits_of_u);
-    out.printed.group_means = rounded(out.standard_deviation_of_group_means, reports::k_digits_of_u);
-    out.printed.mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
+    out.mean.text = printed_estimate(out.mean.number, out.u_with_between_effect);
+    out.F.text = rounded(out.F.number, 3);
+    out.F_critical.text = rounded(out.F_critical.number, 3);
+    out.p_value.text = rounded(out.p_value.number, 2);
+    out.standard_deviation_within.text = rounded(out.standard_deviation_within.number, reports::k_digits_of_u);
+    out.standard_deviation_between.text = rounded(out.standard_deviation_between.number, reports::k_digits_of_u);
+    out.standard_deviation_of_group_means.text =
+        rounded(out.standard_deviation_of_group_means.number, reports::k_digits_of_u);
+    out.printed_mean_square = {rounded(out.mean_square_between, 3), rounded(out.mean_square_within, 3)};
     return out;
 }
 
@@ -177,12 +179,12 @@ void add_outliers(const Stated& stated, const char* of, std::size_t group, std::
         out.group = static_cast<std::int64_t>(group);
         out.position = static_cast<std::int64_t>(found.position + 1);
         out.n = static_cast<std::int64_t>(found.tested);
-        out.value = found.value;
-        out.G = found.G;
-        out.p_value = found.p_value;
-        out.printed.value = as_stated(found.value);
-        out.printed.G = rounded(found.G, 3);
-        out.printed.p_value = printed_p_value(found.p_value);
+        out.value.number = found.value;
+        out.G.number = found.G;
+        out.p_value.number = found.p_value;
+        out.value.text = as_stated(found.value);
+        out.G.text = rounded(found.G, 3);
+        out.p_value.text = printed_p_value(found.p_value);
         record.outliers.push_back(std::move(out));
     }
 }

@@ -77,19 +77,16 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     BudgetRow row;
     row.input = name;
     row.unit = unit.text();
-    row.value = unit.from_si(si.value);
-    row.u = unit.difference_from_si(si.u);
-    row.nu = reports::finite_or_none(si.nu);
-    row.sensitivity = result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0));
-    row.contribution = result_unit.difference_from_si(std::abs(si.sensitivity) * si.u);
+    const double value = unit.from_si(si.value);
+    const double u = unit.difference_from_si(si.u);
+    row.value = {value, printed_estimate(value, u)};
+    row.u = shown_significant(u, reports::k_digits_of_u);
+    row.nu = shown_degrees_of_freedom(si.nu);
+    row.sensitivity = shown_significant(result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0)), 4);
+    row.contribution =
+        shown_significant(result_unit.difference_from_si(std::abs(si.sensitivity) * si.u), reports::k_digits_of_u);
     const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
-    row.share = ratio * ratio;
-    row.printed.value = printed_estimate(*row.value, row.u);
-    row.printed.u = rounded(row.u, reports::k_digits_of_u);
-    row.printed.nu = printed_degrees_of_freedom(si.nu);
-    row.printed.sensitivity = rounded(*row.sensitivity, 4);
-    row.printed.contribution = rounded(row.contribution, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.share = shown_share(ratio * ratio);
     return row;
 }
 
@@ -123,8 +120,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         row.source = first.source;
         row.distribution = std::string(gum::distribution_name(first.distribution.kind));
         if (input.components.size() == 1) {
-            row.value = first.stated_value;
-            row.printed.value = printed_estimate(first.stated_value, row.u);
+            row.value = {first.stated_value, printed_estimate(first.stated_value, row.u.number)};
         } else {
             row.distribution = "sum";
             for (const StatedQuantity& component : input.components) {
@@ -133,8 +129,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
                            .nu = component.degrees_of_freedom,
                            .sensitivity = sensitivity[i]};
                 BudgetRow part = budget_row(component.name, input.unit, numbers, unit, u);
-                part.value = component.stated_value;
-                part.printed.value = printed_estimate(component.stated_value, part.u);
+                part.value = {component.stated_value, printed_estimate(component.stated_value, part.u.number)};
                 part.type = reports::type_letter(component.evaluation);
                 part.source = component.source;
                 part.distribution = std::string(gum::distribution_name(component.distribution.kind));
@@ -198,27 +193,25 @@ std::optional<reports::CorrelationRow> correlation_row(const gum::BudgetPointRes
     const double u = unit.difference_from_si(point.propagation.standard_uncertainty(output));
     double shown = 0.0;
     for (const BudgetRow& row : rows) {
-        shown += row.contribution * row.contribution;
+        shown += row.contribution.number * row.contribution.number;
     }
     reports::CorrelationRow row;
     row.variance = u * u - shown;
     if (std::abs(row.variance) < 1e-13 * std::max(u * u, shown)) {
         row.variance = 0.0;
     }
-    row.share = u > 0.0 ? row.variance / (u * u) : 0.0;
+    row.share = shown_share(u > 0.0 ? row.variance / (u * u) : 0.0);
     const double root = std::sqrt(std::abs(row.variance));
-    row.printed.contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, reports::k_digits_of_u);
-    row.printed.share = gum::percent(row.share);
+    row.printed_contribution = (row.variance < 0.0 ? "-" : "") + rounded(root, reports::k_digits_of_u);
     return row;
 }
 
 /// Without a derivative no row has a sensitivity, and none has a share.
 void without_sensitivities(std::vector<BudgetRow>& rows) {
     for (BudgetRow& row : rows) {
-        row.sensitivity.reset();
-        row.printed.sensitivity.clear();
-        row.printed.contribution.clear();
-        row.printed.share.clear();
+        row.sensitivity = {};
+        row.contribution.text.clear();
+        row.share.text.clear();
         without_sensitivities(row.components);
     }
 }
@@ -299,13 +292,13 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
     }
     const Eigen::MatrixXd correlation = gum::correlation_matrix(covariance);
     out.matrix = rows_of(in_units(covariance, units));
-    out.correlation = rows_of(correlation);
+    out.correlation.number = rows_of(correlation);
     for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Eigen::Index j = 0; j < correlation.cols(); ++j) {
             row.push_back(gum::round_to_quantum(correlation(i, j), 3));
         }
-        out.printed_correlation.push_back(std::move(row));
+        out.correlation.text.push_back(std::move(row));
     }
     return out;
 }
@@ -318,8 +311,8 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
         const gum::MonteCarloRegions& from = *point.monte_carlo->regions;
         region.from = "Monte Carlo";
         region.coverage_probability = point.monte_carlo->coverage_probability;
-        region.k_p = from.ellipsoid_factor;
-        region.k_q = from.parallelepiped_factor;
+        region.k_p.number = from.ellipsoid_factor;
+        region.k_q.number = from.parallelepiped_factor;
         if (from.smallest_cells > 0) {
             region.smallest_region = {.volume = from.smallest_volume,
                                       .probability = from.smallest_probability,
@@ -342,11 +335,12 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
         const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
                               !(point.propagation.standard_uncertainty.minCoeff() > 0.0);
         if (!std::isnan(nu) && !singular && (std::isinf(nu) || nu > static_cast<double>(m) - 1.0)) {
-            region.k_p = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
+            region.k_p.number = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
         }
         // Each interval with probability 1 − (1 − p)/m, so that all hold together with p at least (Bonferroni).
         if (!std::isnan(nu)) {
-            region.k_q = gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
+            region.k_q.number =
+                gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
         }
     }
     if (point.joint_validation) {
@@ -363,11 +357,11 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
                              .d_k_p = from.factor_distance,
                              .validated = from.validated};
     }
-    if (region.k_p) {
-        region.printed.k_p = rounded(*region.k_p, 3);
+    if (region.k_p.number) {
+        region.k_p.text = rounded(*region.k_p.number, 3);
     }
-    if (region.k_q) {
-        region.printed.k_q = rounded(*region.k_q, 3);
+    if (region.k_q.number) {
+        region.k_q.text = rounded(*region.k_q.number, 3);
     }
     return region;
 }
@@ -433,13 +427,11 @@ void warn_of_lost_digits(const gum::BudgetResult& result, reports::EvaluationRec
 /// A number that does not exist stands nowhere.
 void without_missing_moments(const gum::BudgetOutputResult& from, reports::MonteCarloSummary& trials) {
     if (!from.has_mean) {
-        trials.mean.reset();
-        trials.printed.mean.clear();
+        trials.mean = {};
         trials.numerical_error.mean = 0.0;
     }
     if (!from.has_u) {
-        trials.u.reset();
-        trials.printed.u.clear();
+        trials.u = {};
         trials.numerical_error.u = 0.0;
         trials.numerical_error.mean = 0.0;
     }
@@ -567,14 +559,12 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
                 out.correlation = correlation_row(point, out.budget, job.inputs.size(), index, unit);
             }
             if (from.second_order_matters) {
-                reports::SecondOrder second;
-                second.first_order_u = unit.difference_from_si(point.propagation.standard_uncertainty(index));
-                second.printed.first_order_u = rounded(second.first_order_u, reports::k_digits_of_u);
-                second.u = unit.difference_from_si(point.second_order->standard_uncertainty(index));
-                second.shift = unit.difference_from_si(point.second_order->shift(index));
-                second.printed.u = rounded(second.u, reports::k_digits_of_u);
-                second.printed.shift = rounded(second.shift, reports::k_digits_of_u);
-                out.second_order = second;
+                const auto shown = [&](double si) {
+                    return shown_significant(unit.difference_from_si(si), reports::k_digits_of_u);
+                };
+                out.second_order = {.first_order_u = shown(point.propagation.standard_uncertainty(index)),
+                                    .u = shown(point.second_order->standard_uncertainty(index)),
+                                    .shift = shown(point.second_order->shift(index))};
             }
             if (from.monte_carlo) {
                 out.monte_carlo = reports::monte_carlo_summary(

@@ -33,11 +33,9 @@ std::string printed_p_value(double p) {
     return p < k_least ? "< 0.0001" : rounded(p, 2);
 }
 
-std::string printed_degrees_of_freedom(double nu) {
-    if (std::isnan(nu)) {
-        return "–";
-    }
-    return certificate::printed_degrees_of_freedom(reports::finite_or_none(nu));
+Shown<std::optional<double>> shown_degrees_of_freedom(double nu) {
+    const std::optional<double> number = finite_or_none(nu);
+    return {number, std::isnan(nu) ? "–" : certificate::printed_degrees_of_freedom(number)};
 }
 
 }  // namespace gumcert::reports

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "reports/record/shown.h"
+
 namespace gumcert::reports {
 
 // Numbers of a budget as its record prints them beside the unrounded ones.
@@ -15,7 +17,7 @@ namespace gumcert::reports {
 [[nodiscard]] std::string as_stated(double value);
 /// Probability of a test; "< 0.0001" below that.
 [[nodiscard]] std::string printed_p_value(double p);
-/// Degrees of freedom as a certificate prints them; "–" for NaN, where none can be stated.
-[[nodiscard]] std::string printed_degrees_of_freedom(double nu);
+/// Degrees of freedom, none where they are infinite, as a certificate prints them; "–" for NaN, where none can be stated.
+[[nodiscard]] Shown<std::optional<double>> shown_degrees_of_freedom(double nu);
 
 }  // namespace gumcert::reports

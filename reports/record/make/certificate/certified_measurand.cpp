@@ -61,7 +61,7 @@ const reports::BudgetRow* row_of(const Budgeted& budgeted, const CapabilityArgum
     }
     const auto& rows = budgeted.result.budget;
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const reports::BudgetRow& r) {
-        return r.input == argument.of && r.value && r.role.empty();
+        return r.input == argument.of && r.value.number && r.role.empty();
     });
     return row == rows.end() ? nullptr : &*row;
 }
@@ -84,18 +84,19 @@ std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, co
     const double value = certificate::value_for_scope(measured.value, of, unit);
     const double low = unit.is_celsius_temperature() ? range.low : 0.0;
     const bool beyond = certificate::is_beyond(value, low, range.high);
-    const bool nominal = certificate::is_nominal_of(certificate::value_for_scope(*row->value, stated, unit), value);
-    if (!beyond && (nominal || row->u > 0.0)) {
+    const bool nominal =
+        certificate::is_nominal_of(certificate::value_for_scope(*row->value.number, stated, unit), value);
+    if (!beyond && (nominal || row->u.number > 0.0)) {
         return std::nullopt;
     }
     return Finding{.id = "X12",
                    .clause = "ILAC-P14:09/2020",
-                   .severity = !beyond         ? FindingSeverity::minor
-                               : row->u == 0.0 ? FindingSeverity::critical
-                                               : FindingSeverity::major,
+                   .severity = !beyond                ? FindingSeverity::minor
+                               : row->u.number == 0.0 ? FindingSeverity::critical
+                                                      : FindingSeverity::major,
                    .where = certificate::place_in("/accreditation/scope", i, "ranges"),
-                   .what = "the range of \"" + entry.id + "\" is held against the input \"" + row->input +
-                           "\" = " + text::shortest(*row->value) + " " + row->unit + ", and " + measured.in_words,
+                   .what = "the range of \"" + entry.id + "\" is held against the input \"" + row->input + "\" = " +
+                           text::shortest(*row->value.number) + " " + row->unit + ", and " + measured.in_words,
                    .action = "Hold the range against the result (\"of\": \"value\"), or state the true parameter."};
 }
 
@@ -107,7 +108,7 @@ std::optional<Finding> capability_of_input(const ScopeEntry& entry, std::size_t 
         return std::nullopt;
     }
     return certificate::capability_taken_elsewhere(
-        entry, i, argument, {.name = row->input, .value = *row->value, .unit = row->unit}, measured);
+        entry, i, argument, {.name = row->input, .value = *row->value.number, .unit = row->unit}, measured);
 }
 
 /// One finding for all values of an entry: the gravest.

@@ -86,10 +86,10 @@ std::optional<double> stated_u(const StandardUsed& s, const reports::BudgetRow& 
     if (stated.dimension() == of_row.dimension()) {
         return u;
     }
-    if (!is_relative(stated) || !row.value || of_row.is_celsius_temperature()) {
+    if (!is_relative(stated) || !row.value.number || of_row.is_celsius_temperature()) {
         return std::nullopt;
     }
-    return u * std::abs(of_row.to_si(*row.value));
+    return u * std::abs(of_row.to_si(*row.value.number));
 }
 
 /// One finding of what a budget takes from a standard; none where it fits.
@@ -107,10 +107,10 @@ Comparison compared(const StandardUsed& s, const Taken& taken) {
             continue;
         }
         out.any = true;
-        const double u = gum::Unit::parse(row->unit).difference_to_si(row->u);
+        const double u = gum::Unit::parse(row->unit).difference_to_si(row->u.number);
         out.u = std::hypot(out.u, u);
         out.stated = std::max(out.stated, *stated);
-        if (row->u == 0.0 && row->value) {
+        if (row->u.number == 0.0 && row->value.number) {
             out.constant = row;
         }
     }

@@ -136,7 +136,7 @@ private:
     void certify_value(const std::vector<CertifiedTable>& tables, const CertifiedTable& table, CertifiedColumn& column,
                        std::size_t row, const Result* result) {
         CertifiedValue& value = column.values[row];
-        const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability;
+        const double p = result != nullptr ? result->coverage_probability : record_.coverage_probability.number;
         place_in_scope({.tables = tables,
                         .table = table,
                         .column = column,

@@ -36,10 +36,10 @@ struct Observed {
 
 std::optional<Observed> observed(const std::vector<StationEnvironment>& rows, const std::string& name,
                                  const std::string& kind, const std::string& unit,
-                                 std::optional<double> StationEnvironment::*member) {
+                                 Shown<std::optional<double>> StationEnvironment::*member) {
     std::optional<Observed> result;
     for (const StationEnvironment& row : rows) {
-        if (const std::optional<double> value = row.*member) {
+        if (const std::optional<double> value = (row.*member).number) {
             if (!result) {
                 result = Observed{name, kind, unit, *value, *value, 0.0};
             }
@@ -51,13 +51,15 @@ std::optional<Observed> observed(const std::vector<StationEnvironment>& rows, co
 }
 
 Observed observed_fixture(const std::vector<StationEnvironment>& rows) {
-    const auto [low, high] = std::ranges::minmax(rows, {}, &StationEnvironment::fixture_degC);
+    const auto fixture = [](const StationEnvironment& row) { return row.fixture_degC.number; };
+    const auto u = [](const StationEnvironment& row) { return row.u_fixture_K.number; };
+    const auto [low, high] = std::ranges::minmax(rows, {}, fixture);
     return {"the temperature of the fixture",
             "temperature",
             "degC",
-            low.fixture_degC,
-            high.fixture_degC,
-            k_coverage * std::ranges::max(rows, {}, &StationEnvironment::u_fixture_K).u_fixture_K};
+            fixture(low),
+            fixture(high),
+            k_coverage * u(std::ranges::max(rows, {}, u))};
 }
 
 /// Half a unit of the last decimal place of a number as it is written.

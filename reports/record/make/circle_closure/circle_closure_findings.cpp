@@ -20,16 +20,16 @@ using reports::EvaluationRecord;
 
 /// "F = 3.1 with 30 and 12 degrees of freedom, p-value 0.0002"
 std::string figures_of(const ClosureTestRow& test) {
-    return "F = " + test.printed.statistic + " with " + test.printed.nu + " and " +
-           (test.nu_reference ? test.printed.nu_reference : std::string("∞")) + " degrees of freedom, p-value " +
-           test.printed.p_value;
+    return "F = " + test.statistic.text + " with " + test.nu.text + " and " +
+           (test.nu_reference.number ? test.nu_reference.text : std::string("∞")) + " degrees of freedom, p-value " +
+           test.p_value.text;
 }
 
 /// The reading with the largest residual for what its redundancy shows.
 const ClosureResidualRow& largest_residual(const CircleClosure& closure) {
     const auto size = [](const ClosureResidualRow& row) {
         constexpr double k_least_redundancy = 1e-6;
-        return row.redundancy > k_least_redundancy ? row.residual * row.residual / row.redundancy : 0.0;
+        return row.redundancy > k_least_redundancy ? row.residual.number * row.residual.number / row.redundancy : 0.0;
     };
     return *std::max_element(closure.residuals.begin(), closure.residuals.end(),
                              [&](const auto& a, const auto& b) { return size(a) < size(b); });
@@ -65,9 +65,9 @@ gum::Diagnostic outlier(const CircleClosure& closure, const ClosureTestRow& test
     return {.code = "GC-CLOSURE-0022",
             .where = "readings",
             .what = "the reading at step " + std::to_string(row.step) + " in position " + std::to_string(row.position) +
-                    (row.repetition.empty() ? "" : ", repetition " + row.repetition) + ", " + row.printed.reading +
-                    " " + closure.printed.unit + ", is an outlier: its residual is " + row.printed.residual + " " +
-                    closure.printed.unit + ", p-value " + test.printed.p_value,
+                    (row.repetition.empty() ? "" : ", repetition " + row.repetition) + ", " + row.reading.text + " " +
+                    closure.printed_unit + ", is an outlier: its residual is " + row.residual.text + " " +
+                    closure.printed_unit + ", p-value " + test.p_value.text,
             .rule =
                 "the largest residual of so many readings is as large as this one less than once in a thousand "
                 "measurements",

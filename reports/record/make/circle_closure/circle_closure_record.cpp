@@ -79,25 +79,21 @@ reports::BudgetRow budget_row(const CircleClosureJob& job, const gum::CircleClos
     reports::BudgetRow row;
     row.input = of.name;
     row.unit = own.text();
-    row.u = own.difference_from_si(std::sqrt(of.covariance.col(0).mean()));
-    row.nu = finite_or_none(of.degrees_of_freedom);
+    row.u = shown_significant(own.difference_from_si(std::sqrt(of.covariance.col(0).mean())), k_digits_of_u);
+    if (const std::optional<double> nu = finite_or_none(of.degrees_of_freedom)) {
+        row.nu = shown_to_quantum(*nu, 0);
+    }
     row.type = type_letter(of.evaluation);
     row.distribution = of.distribution;
-    row.contribution = job.unit.difference_from_si(contribution);
-    row.share = contribution * contribution / (u * u);
+    row.contribution = shown_significant(job.unit.difference_from_si(contribution), k_digits_of_u);
+    row.share = shown_share(contribution * contribution / (u * u));
     row.source = of.source;
     row.role = group == 0 ? "scatter" : "";
     if (of.size() == 1) {
-        row.value = own.from_si(of.value(0));
-        row.sensitivity =
-            job.unit.difference_from_si(result.propagation.jacobian(output, first)) / own.difference_from_si(1.0);
-        row.printed.value = rounded(*row.value, 4);
-        row.printed.sensitivity = rounded(*row.sensitivity, 4);
+        row.value = shown_significant(own.from_si(of.value(0)), 4);
+        row.sensitivity = shown_significant(
+            job.unit.difference_from_si(result.propagation.jacobian(output, first)) / own.difference_from_si(1.0), 4);
     }
-    row.printed.u = rounded(row.u);
-    row.printed.nu = row.nu ? gum::round_to_quantum(*row.nu, 0) : "";
-    row.printed.contribution = rounded(row.contribution);
-    row.printed.share = gum::percent(row.share);
     return row;
 }
 
@@ -147,15 +143,13 @@ reports::ClosureTestRow test_row(const std::string& name, const engine::ClosureT
     constexpr double k_least_printed = 1e-4;
     reports::ClosureTestRow row;
     row.name = name;
-    row.statistic = test.statistic;
-    row.nu = test.nu;
-    row.nu_reference = finite_or_none(test.nu_reference);
-    row.p_value = p_value;
+    row.statistic = shown_significant(test.statistic, 3);
+    row.nu = shown_to_quantum(test.nu, 0);
+    if (const std::optional<double> nu = finite_or_none(test.nu_reference)) {
+        row.nu_reference = shown_to_quantum(*nu, 0);
+    }
+    row.p_value = {p_value, p_value < k_least_printed ? "< 0.0001" : rounded(p_value)};
     row.accepted = p_value >= k_accepted_p;
-    row.printed.statistic = rounded(row.statistic, 3);
-    row.printed.nu = gum::round_to_quantum(row.nu, 0);
-    row.printed.nu_reference = row.nu_reference ? gum::round_to_quantum(*row.nu_reference, 0) : "";
-    row.printed.p_value = p_value < k_least_printed ? "< 0.0001" : rounded(p_value);
     return row;
 }
 
@@ -243,18 +237,17 @@ void fill_series(const CircleClosureJob& job, const engine::CircleClosureSolutio
                  reports::CircleClosure& closure) {
     const CircleClosureMeasurement& m = job.measurement;
     const std::vector<std::optional<double>> closing = misclosures(m);
-    const auto in_unit = [&](double si) { return job.unit.difference_from_si(si); };
-    const auto text = [&](double value) { return gum::round_to_quantum(value, 4); };
+    const auto shown = [&](double si) { return shown_to_quantum(job.unit.difference_from_si(si), 4); };
     for (std::size_t s = 0; s < m.series.size(); ++s) {
         reports::ClosureSeriesRow row;
         row.position = static_cast<std::int64_t>(m.series[s].position);
         row.repetition = m.series[s].repetition;
-        row.zero = in_unit(solution.zero(at(s)));
+        row.zero = shown(solution.zero(at(s)));
         if (m.removes_drift) {
-            row.drift = in_unit(solution.drift(at(s)));
+            row.drift = shown(solution.drift(at(s)));
         }
         if (closing[s]) {
-            row.misclosure = in_unit(*closing[s]);
+            row.misclosure = shown(*closing[s]);
         }
         double sum = 0.0;
         for (std::size_t r = 0; r < m.readings.size(); ++r) {
@@ -263,11 +256,8 @@ void fill_series(const CircleClosureJob& job, const engine::CircleClosureSolutio
                 sum += std::pow(solution.residuals(at(r)), 2);
             }
         }
-        row.residual_rms = in_unit(std::sqrt(sum / static_cast<double>(row.readings)));
-        row.printed.zero = text(row.zero);
-        row.printed.drift = row.drift ? text(*row.drift) : "";
-        row.printed.misclosure = row.misclosure ? text(*row.misclosure) : "";
-        row.printed.residual_rms = rounded(row.residual_rms);
+        row.residual_rms = shown_significant(
+            job.unit.difference_from_si(std::sqrt(sum / static_cast<double>(row.readings))), k_digits_of_u);
         closure.series.push_back(std::move(row));
     }
 }
@@ -283,11 +273,9 @@ void fill_residuals(const CircleClosureJob& job, const engine::CircleClosureSolu
         row.repetition = series.repetition;
         row.step = static_cast<std::int64_t>(reading.step);
         row.side = static_cast<std::int64_t>(m.side_at(series.position, reading.step));
-        row.reading = job.unit.from_si(reading.value);
-        row.residual = job.unit.difference_from_si(solution.residuals(at(r)));
+        row.reading = {job.unit.from_si(reading.value), job.readings_as_stated[r]};
+        row.residual = shown_to_quantum(job.unit.difference_from_si(solution.residuals(at(r))), 4);
         row.redundancy = solution.redundancy(at(r));
-        row.printed.reading = job.readings_as_stated[r];
-        row.printed.residual = gum::round_to_quantum(row.residual, 4);
         closure.residuals.push_back(std::move(row));
     }
 }
@@ -320,14 +308,13 @@ reports::CircleClosure closure_of(const CircleClosureJob& job, const gum::Circle
     closure.readings = static_cast<std::int64_t>(m.readings.size());
     closure.degrees_of_freedom = solution.degrees_of_freedom;
     closure.unknowns = closure.readings - static_cast<std::int64_t>(solution.degrees_of_freedom);
-    closure.residual_standard_deviation = job.unit.difference_from_si(solution.residual_standard_deviation);
-    closure.u_reading = job.unit.difference_from_si(solution.u_reading);
+    closure.residual_standard_deviation =
+        shown_significant(job.unit.difference_from_si(solution.residual_standard_deviation), k_digits_of_u);
+    closure.u_reading = shown_significant(job.unit.difference_from_si(solution.u_reading), k_digits_of_u);
     closure.nu_reading = finite_or_none(solution.nu_reading);
     closure.u_reading_from = m.uses_stated_u ? "stated" : "residuals";
     closure.condition_number = solution.condition_number;
-    closure.printed.residual_standard_deviation = rounded(closure.residual_standard_deviation);
-    closure.printed.u_reading = rounded(closure.u_reading);
-    closure.printed.unit = gum::unit_for_people(closure.unit);
+    closure.printed_unit = gum::unit_for_people(closure.unit);
     fill_tests(m, solution, closure);
     fill_series(job, solution, closure);
     fill_residuals(job, solution, closure);
@@ -363,13 +350,13 @@ reports::ResultCovariance covariance_of(const CircleClosureJob& job, const gum::
     const Eigen::MatrixXd V = covariance_in_unit(job, result);
     const Eigen::MatrixXd correlation = gum::correlation_matrix(V);
     out.matrix = rows_of(V);
-    out.correlation = rows_of(correlation);
+    out.correlation.number = rows_of(correlation);
     for (Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Index j = 0; j < correlation.cols(); ++j) {
             row.push_back(gum::round_to_quantum(correlation(i, j), 3));
         }
-        out.printed_correlation.push_back(std::move(row));
+        out.correlation.text.push_back(std::move(row));
     }
     return out;
 }

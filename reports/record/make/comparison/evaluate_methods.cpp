@@ -147,8 +147,7 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
     record.position_unit = request.position_unit ? request.position_unit->text() : "";
     record.organiser = job.organiser;
     record.audit_finding = audit_finding(request);
-    record.tolerance = request.tolerance;
-    record.printed_tolerance = printed_as_stated(request.tolerance);
+    record.tolerance = shown(request.tolerance, printed_as_stated);
     record.method_budget = std::move(method.budget);
     record.reference_budget = std::move(reference.budget);
     record.remarks = method.remarks;

@@ -215,9 +215,10 @@ void add_assigned_value(ItemMessages& messages) {
                                [](const gum::ItemResult::Weight& weight) { return weight.weight < 0.0; });
         },
         [](const ComparisonItemEvaluation& item) {
-            const auto weight = std::min_element(item.weights.begin(), item.weights.end(),
-                                                 [](const auto& a, const auto& b) { return a.weight < b.weight; });
-            return "participant \"" + weight->participant + "\" has the negative weight " + weight->printed;
+            const auto weight =
+                std::min_element(item.weights.begin(), item.weights.end(),
+                                 [](const auto& a, const auto& b) { return a.weight.number < b.weight.number; });
+            return "participant \"" + weight->participant + "\" has the negative weight " + weight->weight.text;
         });
 }
 

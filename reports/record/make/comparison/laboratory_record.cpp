@@ -305,8 +305,8 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
     item.not_consistent = ids(scheme, from.not_consistent);
     item.missing = ids(scheme, from.missing);
     for (const gum::ItemResult::Weight& weight : from.weights) {
-        item.weights.push_back({scheme.participants[weight.participant].id, weight.weight,
-                                gum::round_significant(weight.weight, k_digits_of_weight)});
+        item.weights.push_back({scheme.participants[weight.participant].id,
+                                {weight.weight, gum::round_significant(weight.weight, k_digits_of_weight)}});
     }
     if (from.consistency) {
         item.consistency = consistency_record(*from.consistency);
@@ -501,8 +501,7 @@ reports::SharedSource shared_record(const gum::ComparisonScheme& scheme, const g
             .first = scheme.participants[from.first].id,
             .second = scheme.participants[from.second].id,
             .covariance = from.covariance,
-            .correlation = from.correlation,
-            .printed_correlation = printed_score(from.correlation)};
+            .correlation = {from.correlation, printed_score(from.correlation)}};
 }
 
 }  // namespace

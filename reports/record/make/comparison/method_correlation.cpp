@@ -43,12 +43,12 @@ std::vector<reports::SharedSource> found_sources(const MethodComparisonRequest& 
             }
             if (std::abs(shared.covariance) > std::abs(entry->covariance)) {
                 entry->covariance = shared.covariance;
-                entry->correlation = shared.covariance / (method.uncertainty[i].u * reference.uncertainty[i].u);
+                entry->correlation.number = shared.covariance / (method.uncertainty[i].u * reference.uncertainty[i].u);
             }
         }
     }
     for (reports::SharedSource& source : found) {
-        source.printed_correlation = printed_score(source.correlation);
+        source.correlation.text = printed_score(source.correlation.number);
     }
     return found;
 }

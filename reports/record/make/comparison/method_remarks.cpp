@@ -209,14 +209,14 @@ private:
             " is found at every single point with a probability of 80 %, one of " + texts.found_with_95_percent.text +
             unit_ + " with 95 %. D_fail is smaller: it bounds the difference that is observed, and a deviation as " +
             "large as D_fail is found in about half of all comparisons.");
-        if (!record_.tolerance) {
+        if (!record_.tolerance.number) {
             return;
         }
-        const std::string tolerance = record_.printed_tolerance + unit_;
-        if (row.found_with_95_percent <= *record_.tolerance) {
+        const std::string tolerance = record_.tolerance.text + unit_;
+        if (row.found_with_95_percent <= *record_.tolerance.number) {
             say("A deviation as large as the tolerance of " + tolerance +
                 " would have been found at every point with a probability of 95 % or more.");
-        } else if (row.found_with_80_percent <= *record_.tolerance) {
+        } else if (row.found_with_80_percent <= *record_.tolerance.number) {
             say("A deviation as large as the tolerance of " + tolerance +
                 " would have been found at every point with a probability of 80 % or more, but not with 95 %.");
         } else {

@@ -109,18 +109,16 @@ reports::GlobalTest global_test(const RotaryTableSolution& solution) {
     };
     reports::GlobalTest test;
     test.probability = k_acceptance;
-    test.lower = limit(0.5 * (1.0 - k_acceptance));
-    test.upper = limit(0.5 * (1.0 + k_acceptance));
-    test.accepted = test.lower <= solution.chi_square && solution.chi_square <= test.upper;
-    test.printed_lower = gum::round_to_quantum(test.lower, 1);
-    test.printed_upper = gum::round_to_quantum(test.upper, 1);
+    test.lower = shown_to_quantum(limit(0.5 * (1.0 - k_acceptance)), 1);
+    test.upper = shown_to_quantum(limit(0.5 * (1.0 + k_acceptance)), 1);
+    test.accepted = test.lower.number <= solution.chi_square && solution.chi_square <= test.upper.number;
     if (test.accepted && solution.variance_basis == engine::VarianceBasis::estimated) {
         test.meaning =
             "Variance components were estimated from the same residuals, so that chi-square is near its degrees of "
             "freedom by construction: the test confirms the adjustment, not the stated uncertainties.";
     } else if (test.accepted) {
         test.meaning = "The residuals agree with the stated uncertainties.";
-    } else if (solution.chi_square > test.upper) {
+    } else if (solution.chi_square > test.upper.number) {
         test.meaning =
             "The residuals are larger than the stated uncertainties allow: an uncertainty is stated too small, or an "
             "effect is not in the model.";
@@ -137,19 +135,18 @@ void fill_test(reports::RotaryTable& rotary, const RotaryTableSolution& solution
     adjustment.parameters = solution.parameters;
     adjustment.degrees_of_freedom = solution.degrees_of_freedom;
     adjustment.iterations = solution.iterations;
-    adjustment.chi_square = solution.chi_square;
+    adjustment.chi_square = shown_to_quantum(solution.chi_square, 1);
     const auto nu = static_cast<double>(solution.degrees_of_freedom);
-    adjustment.p_value = nu > 0.0 ? gum::chi_square_upper_tail(solution.chi_square, nu) : 1.0;
-    adjustment.condition_number = solution.condition_number;
+    adjustment.p_value = shown_significant(nu > 0.0 ? gum::chi_square_upper_tail(solution.chi_square, nu) : 1.0, 2);
+    adjustment.condition_number = shown_significant(solution.condition_number, 2);
     // Estimated components are in the weights; nothing is multiplied by chi-square per degree of freedom.
-    adjustment.variance_factor = {1.0, solution.variance_factor, "a_priori", solution.variance_factor_reason};
+    adjustment.variance_factor = {.a_priori = 1.0,
+                                  .a_posteriori = shown_to_quantum(solution.variance_factor, 3),
+                                  .used = "a_priori",
+                                  .reason = solution.variance_factor_reason};
     if (solution.degrees_of_freedom > 0) {
         adjustment.global_test = global_test(solution);
     }
-    adjustment.printed.chi_square = gum::round_to_quantum(adjustment.chi_square, 1);
-    adjustment.printed.p_value = gum::round_significant(adjustment.p_value, 2);
-    adjustment.printed.variance_factor = gum::round_to_quantum(adjustment.variance_factor.a_posteriori, 3);
-    adjustment.printed.condition_number = gum::round_significant(adjustment.condition_number, 2);
 }
 
 void fill_components(reports::RotaryTable& rotary, const RotaryTableSolution& solution) {
@@ -166,8 +163,7 @@ void fill_components(reports::RotaryTable& rotary, const RotaryTableSolution& so
         component.printed = component.u > 0.0 ? printed(component.value, component.u, unit)
                                               : Printed{gum::round_significant(component.value, 2), "", unit.print};
         if (from.stated) {
-            component.stated = *from.stated / unit.si;
-            component.printed_stated = gum::round_significant(*component.stated, 2);
+            component.stated = shown_significant(*from.stated / unit.si, 2);
         }
         if (from.estimated) {
             component.degrees_of_freedom = finite_or_none(from.degrees_of_freedom);
@@ -208,9 +204,8 @@ reports::FlaggedDistance flagged_distance(const RotaryTableSolution& solution,
 
 void fill_reliability(reports::RotaryTable& rotary, const RotaryTableSolution& solution,
                       const RotaryTableMeasurement& measurement, const gum::UncertaintyBudget& propagation) {
-    rotary.outlier_critical_value = solution.critical_value;
+    rotary.outlier_critical_value = shown_to_quantum(solution.critical_value, 2);
     rotary.outlier_alpha = measurement.outliers.alpha;
-    rotary.printed_critical_value = gum::round_to_quantum(solution.critical_value, 2);
     for (std::size_t i = 0; i < solution.reliability.size(); ++i) {
         const engine::DistanceReliability& from = solution.reliability[i];
         reports::ReliabilityRow row;

@@ -36,8 +36,7 @@ void fill_location_errors(reports::RotaryTable& rotary, const jobs::RotaryTableJ
     }
     record.chi_square = errors.fit.chi_square;
     record.degrees_of_freedom = errors.fit.degrees_of_freedom;
-    record.p_value = errors.p_value;
-    record.printed_p = text::significant(errors.p_value, 2);
+    record.p_value = {errors.p_value, text::significant(errors.p_value, 2)};
     record.printed_residual = text::significant(
         std::sqrt(errors.fit.residuals.squaredNorm() / static_cast<double>(errors.fit.residuals.size())) /
             gum::k_micrometre,

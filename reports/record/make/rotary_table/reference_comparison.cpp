@@ -11,7 +11,6 @@
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
-#include "gum/rounding.h"
 #include "gum/type_a.h"
 #include "gum/type_b.h"
 #include "jobs/rotary_table/reference_budget.h"
@@ -47,18 +46,15 @@ reports::BudgetRow budget_row(const std::string& input, double u, const std::str
                               const std::string& source) {
     reports::BudgetRow row;
     row.input = input;
-    row.value = 0.0;
+    row.value.number = 0.0;
     row.unit = "um";
-    row.u = u;
+    row.u = shown_significant(u, 2);
     row.type = "B";
     row.distribution = distribution;
-    row.sensitivity = 1.0;
-    row.contribution = u;
-    row.share = std::pow(u / u_total, 2);
+    row.sensitivity.number = 1.0;
+    row.contribution = row.u;
+    row.share = shown_share(std::pow(u / u_total, 2));
     row.source = source;
-    row.printed.u = gum::round_significant(row.u, 2);
-    row.printed.contribution = gum::round_significant(row.contribution, 2);
-    row.printed.share = gum::percent(row.share);
     return row;
 }
 

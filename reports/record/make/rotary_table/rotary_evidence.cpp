@@ -55,10 +55,10 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
     reports::GroupTestRow row;
     row.kind = group_kind_name(test.kind);
     row.tests = static_cast<std::int64_t>(test.family);
-    row.test_value = test.chi_square;
+    row.test_value = shown_to_quantum(test.chi_square, 1);
     row.degrees_of_freedom = test.degrees_of_freedom;
-    row.critical_value = test.critical_value;
-    row.p_value = test.p_value;
+    row.critical_value = shown_to_quantum(test.critical_value, 1);
+    row.p_value = shown_significant(test.p_value, 2);
     const auto name = [](const std::vector<std::string>& names, std::size_t at) {
         return at == GroupTest::k_none ? std::string() : names[at];
     };
@@ -67,22 +67,17 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
     if (test.kind != GroupKind::drift) {  // a drift begins at the first visit
         row.pass = name(measurement.passes, test.pass);
         if (test.angle != GroupTest::k_none) {
-            row.angle_deg = measurement.angles_deg[test.angle];
-            row.printed.angle = text::shortest(*row.angle_deg);
+            const double angle = measurement.angles_deg[test.angle];
+            row.angle_deg = {angle, text::shortest(angle)};
         }
     }
     const auto [name_of_unit, unit] = unit_of_kind(test.kind);
     row.unit = name_of_unit;
-    row.estimate = test.estimate / unit;
+    row.estimate = shown_significant(test.estimate / unit, 2);
     if (test.minimal_detectable > 0.0) {
-        row.minimal_detectable = test.minimal_detectable / unit;
-        row.printed.minimal_detectable = gum::round_significant(*row.minimal_detectable, 2);
+        row.minimal_detectable = shown_significant(test.minimal_detectable / unit, 2);
     }
     row.suspicious = test.suspicious;
-    row.printed.test_value = gum::round_to_quantum(row.test_value, 1);
-    row.printed.critical_value = gum::round_to_quantum(row.critical_value, 1);
-    row.printed.p_value = gum::round_significant(row.p_value, 2);
-    row.printed.estimate = gum::round_significant(row.estimate, 2);
     return row;
 }
 
@@ -91,15 +86,14 @@ void fill_group_tests(reports::RotaryTable& rotary, const engine::GroupTests& gr
                       const RotaryTableMeasurement& measurement) {
     reports::GroupTestSummary summary;
     summary.alpha = engine::GroupTestOptions{}.alpha;
-    summary.scale = groups.scale;
-    summary.printed_scale = gum::round_to_quantum(groups.scale, 2);
+    summary.scale = shown_to_quantum(groups.scale, 2);
     for (const GroupTest& test : groups.tests) {
         const std::string kind = group_kind_name(test.kind);
         const auto found = std::find_if(summary.kinds.begin(), summary.kinds.end(),
                                         [&](const reports::GroupTestRow& row) { return row.kind == kind; });
         if (found == summary.kinds.end()) {
             summary.kinds.push_back(group_row(test, measurement));
-        } else if (test.p_value < found->p_value) {
+        } else if (test.p_value < found->p_value.number) {
             *found = group_row(test, measurement);
         }
     }
@@ -148,18 +142,15 @@ void fill_reversal_model(reports::RotaryTable& rotary, const engine::RotaryTable
         const DocumentUnit& unit = test.motion < 3 ? k_um : k_arcsec;
         reports::ReversalTestRow row;
         row.name = rotary.error_names[test.motion];
-        row.test_value = test.f;
+        row.test_value = shown_significant(test.f, 3);
         row.degrees_of_freedom = test.angles;
         if (std::isfinite(test.residual)) {
             row.residual_degrees_of_freedom = test.residual;
         }
-        row.p_value = test.p_value;
-        row.spread = test.spread / unit.si;
+        row.p_value = {test.p_value, test.p_value < 1e-4 ? "< 0.0001" : gum::round_significant(test.p_value, 2)};
+        row.spread = shown_significant(test.spread / unit.si, 2);
         row.unit = unit.record;
         row.depends_on_angle = test.depends_on_angle;
-        row.printed.test_value = gum::round_significant(row.test_value, 3);
-        row.printed.p_value = row.p_value < 1e-4 ? "< 0.0001" : gum::round_significant(row.p_value, 2);
-        row.printed.spread = gum::round_significant(row.spread, 2);
         model.tests.push_back(std::move(row));
     }
 }
@@ -239,23 +230,22 @@ std::string printed_phase(double degrees) {
 
 reports::HarmonicRow harmonic_row(const std::string& name, const DocumentUnit& unit,
                                   const engine::HarmonicAnalysis& analysis, double k) {
-    reports::HarmonicRow row{.name = name, .unit = unit.record, .orders = {}, .rms_rest = 0.0, .printed_rest = {}};
+    reports::HarmonicRow row{
+        .name = name, .unit = unit.record, .orders = {}, .rms_rest = shown_significant(analysis.rms_rest / unit.si, 2)};
     for (const engine::Harmonic& from : analysis.orders) {
         reports::HarmonicOrder order;
         order.order = from.order;
-        order.amplitude = from.amplitude / unit.si;
+        const double amplitude = from.amplitude / unit.si;
         order.u = from.u_amplitude / unit.si;
-        order.U = k * order.u;
-        order.phase_deg = from.phase * k_degrees;
-        const reports::Printed text = printed(order.amplitude, order.U, unit);
-        order.printed.amplitude = text.value;
-        order.printed.U = text.U;
+        const double U = k * order.u;
+        const double phase = from.phase * k_degrees;
+        const reports::Printed text = printed(amplitude, U, unit);
+        order.amplitude = {amplitude, text.value};
+        order.U = {U, text.U};
         // Of an amplitude within its uncertainty the phase says nothing.
-        order.printed.phase = order.amplitude > order.U ? printed_phase(order.phase_deg) : "";
+        order.phase_deg = {phase, amplitude > U ? printed_phase(phase) : ""};
         row.orders.push_back(std::move(order));
     }
-    row.rms_rest = analysis.rms_rest / unit.si;
-    row.printed_rest = gum::round_significant(row.rms_rest, 2);
     return row;
 }
 
@@ -299,21 +289,16 @@ reports::StationEnvironment environment_of(const jobs::RotaryTableJob& job, std:
     const auto at = static_cast<Eigen::Index>(station);
     reports::StationEnvironment row;
     row.station = measurement.stations[station];
-    row.fixture_degC = job.reference_temperature_degC + measurement.temperature_difference[at];
-    row.u_fixture_K = measurement.u_temperature[at];
-    row.air_degC = job.air[station].temperature_degC;
-    row.pressure_hPa = job.air[station].pressure_hPa;
-    row.humidity_percent = job.air[station].humidity_percent;
-    row.expansion_um = measurement.expansion * measurement.temperature_difference[at] * largest_distance_um;
-    const auto rounded = [](const std::optional<double>& v, int decimals) {
-        return v ? gum::round_to_quantum(*v, decimals) : std::string();
+    const auto shown = [](const std::optional<double>& v, int decimals) -> Shown<std::optional<double>> {
+        return v ? shown_to_quantum(*v, decimals) : Shown<std::optional<double>>();
     };
-    row.printed.fixture = rounded(row.fixture_degC, 3);
-    row.printed.u_fixture = gum::round_significant(row.u_fixture_K, 2);
-    row.printed.air = rounded(row.air_degC, 2);
-    row.printed.pressure = rounded(row.pressure_hPa, 1);
-    row.printed.humidity = rounded(row.humidity_percent, 0);
-    row.printed.expansion = rounded(row.expansion_um, 2);
+    const double difference = measurement.temperature_difference[at];
+    row.fixture_degC = shown_to_quantum(job.reference_temperature_degC + difference, 3);
+    row.u_fixture_K = shown_significant(measurement.u_temperature[at], 2);
+    row.air_degC = shown(job.air[station].temperature_degC, 2);
+    row.pressure_hPa = shown(job.air[station].pressure_hPa, 1);
+    row.humidity_percent = shown(job.air[station].humidity_percent, 0);
+    row.expansion_um = shown_to_quantum(measurement.expansion * difference * largest_distance_um, 2);
     return row;
 }
 
@@ -323,32 +308,30 @@ void fill_environment(reports::RotaryTable& rotary, const jobs::RotaryTableJob& 
         return;
     }
     reports::Environment environment;
-    environment.reference_degC = job.reference_temperature_degC;
-    environment.expansion_per_K = measurement.expansion;
-    environment.u_expansion_per_K = measurement.u_expansion;
-    environment.largest_distance_mm = largest_distance(measurement.fixture) / gum::k_millimetre;
+    const double reference = job.reference_temperature_degC;
+    environment.reference_degC = {reference, text::shortest(reference)};
+    environment.expansion_per_K = {measurement.expansion, gum::round_significant(1e6 * measurement.expansion, 3)};
+    environment.u_expansion_per_K = {measurement.u_expansion, gum::round_significant(1e6 * measurement.u_expansion, 2)};
+    environment.largest_distance_mm = shown_to_quantum(largest_distance(measurement.fixture) / gum::k_millimetre, 0);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
-        environment.stations.push_back(environment_of(job, j, environment.largest_distance_mm * 1000.0));
+        environment.stations.push_back(environment_of(job, j, environment.largest_distance_mm.number * 1000.0));
     }
+    double largest_share = 0.0;
     const auto source = std::find(rotary.budget_sources.begin(), rotary.budget_sources.end(), "fixture thermal");
     if (source != rotary.budget_sources.end()) {
         const auto at = static_cast<std::size_t>(source - rotary.budget_sources.begin());
         for (std::size_t c = 0; c < std::min<std::size_t>(6, rotary.budget_summary.size()); ++c) {
-            environment.largest_share = std::max(environment.largest_share, rotary.budget_summary[c].shares[at]);
+            largest_share = std::max(largest_share, rotary.budget_summary[c].shares.number[at]);
         }
     }
     const auto [cold, warm] =
         std::minmax_element(environment.stations.begin(), environment.stations.end(),
-                            [](const auto& a, const auto& b) { return a.fixture_degC < b.fixture_degC; });
-    environment.printed.lowest = cold->printed.fixture;
-    environment.printed.highest = warm->printed.fixture;
-    environment.printed.least_expansion = cold->printed.expansion;
-    environment.printed.most_expansion = warm->printed.expansion;
-    environment.printed.reference = text::shortest(environment.reference_degC);
-    environment.printed.expansion = gum::round_significant(1e6 * environment.expansion_per_K, 3);
-    environment.printed.u_expansion = gum::round_significant(1e6 * environment.u_expansion_per_K, 2);
-    environment.printed.largest_distance = gum::round_to_quantum(environment.largest_distance_mm, 0);
-    environment.printed.largest_share = gum::percent(environment.largest_share);
+                            [](const auto& a, const auto& b) { return a.fixture_degC.number < b.fixture_degC.number; });
+    environment.printed_lowest = cold->fixture_degC.text;
+    environment.printed_highest = warm->fixture_degC.text;
+    environment.printed_least_expansion = cold->expansion_um.text;
+    environment.printed_most_expansion = warm->expansion_um.text;
+    environment.largest_share = shown_share(largest_share);
     rotary.environment = std::move(environment);
 }
 

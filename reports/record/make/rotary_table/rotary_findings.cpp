@@ -26,14 +26,14 @@ constexpr const char* k_fixture_component = "fixture CMM";  // as a record names
 constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
 
 std::string chi_square_of(const AdjustmentSummary& a) {
-    return "chi-square is " + a.printed.chi_square + " with " + std::to_string(a.degrees_of_freedom) +
+    return "chi-square is " + a.chi_square.text + " with " + std::to_string(a.degrees_of_freedom) +
            " degrees of freedom";
 }
 
 Remark refuted(const AdjustmentSummary& a) {
     return {.message = {.code = "GC-ADJUST-0010",
                         .where = "adjustment",
-                        .what = chi_square_of(a) + " (p-value " + a.printed.p_value +
+                        .what = chi_square_of(a) + " (p-value " + a.p_value.text +
                                 "): the residuals of the distances refute the stated uncertainties",
                         .rule = "results are certified when the residuals do not refute the uncertainties that they "
                                 "rest on: the p-value of the global test is at least 0.001",
@@ -82,12 +82,12 @@ Remark left_out(std::size_t count, std::int64_t all) {
 std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
     std::vector<Remark> remarks;
     for (const reports::VarianceComponent& c : rotary.variance_components) {
-        if (c.name != k_fixture_component || c.used || !c.estimated || !c.stated || !c.degrees_of_freedom ||
-            *c.stated <= 0.0) {
+        if (c.name != k_fixture_component || c.used || !c.estimated || !c.stated.number || !c.degrees_of_freedom ||
+            *c.stated.number <= 0.0) {
             continue;
         }
         const double nu = *c.degrees_of_freedom;
-        const double ratio = c.value / *c.stated;
+        const double ratio = c.value / *c.stated.number;
         if (nu <= 0.0 || gum::chi_square_upper_tail(nu * ratio * ratio, nu) >= k_refuted) {
             continue;
         }
@@ -96,7 +96,7 @@ std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
                          .where = "variance components, fixture CMM",
                          .what = "the distances refute the stated covariance of the fixture: they give a "
                                  "standard uncertainty of " +
-                                 c.printed.value + " µm for a coordinate, and " + c.printed_stated + " µm is stated",
+                                 c.printed.value + " µm for a coordinate, and " + c.stated.text + " µm is stated",
                          .rule = {},
                          .action = "Measure the fixture again, or correct the uncertainty of its "
                                    "coordinates and evaluate anew."},
@@ -115,9 +115,9 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     const RotaryTable& rotary = *record.rotary;
     const AdjustmentSummary& a = rotary.adjustment;
     const auto degrees = static_cast<double>(a.degrees_of_freedom);
-    if (a.degrees_of_freedom > 0 && a.p_value < k_refuted) {
+    if (a.degrees_of_freedom > 0 && a.p_value.number < k_refuted) {
         remarks.push_back(refuted(a));
-    } else if (a.degrees_of_freedom > 0 && 1.0 - gum::chi_square_upper_tail(a.chi_square, degrees) < k_refuted) {
+    } else if (a.degrees_of_freedom > 0 && 1.0 - gum::chi_square_upper_tail(a.chi_square.number, degrees) < k_refuted) {
         remarks.push_back(overstated(a));
     }
     const auto removed = static_cast<std::size_t>(std::count_if(

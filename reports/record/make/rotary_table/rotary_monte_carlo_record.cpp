@@ -53,7 +53,7 @@ std::optional<Eigen::Index> output_of(const TrialPlace& place, std::size_t posit
 std::string quantity_name(const TrialPlace& place, const reports::RotaryTable& rotary) {
     switch (place.group) {
         case StatedGroup::error_motions:
-            return place.name + " at " + rotary.errors[place.index].printed_angle + "°";
+            return place.name + " at " + rotary.errors[place.index].angle_deg.text + "°";
         case StatedGroup::reversal:
             return "reversal of " + place.name;
         case StatedGroup::ranges:

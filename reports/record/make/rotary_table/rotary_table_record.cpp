@@ -79,20 +79,18 @@ reports::Result result_of(const gum::QuantityUncertainty& uncertainty, const gum
         row.input = group.name;
         const DocumentUnit input_unit = budget_unit(group.unit);
         row.unit = input_unit.record;
-        row.u = std::sqrt(variance.mean()) / input_unit.si;  // of one typical quantity of the group
-        row.nu = finite_or_none(group.degrees_of_freedom);
+        row.u =
+            shown_significant(std::sqrt(variance.mean()) / input_unit.si, 2);  // of one typical quantity of the group
+        row.nu.number = finite_or_none(group.degrees_of_freedom);
         row.type = type_letter(group.evaluation);
         row.distribution = group.distribution;
-        row.contribution = std::sqrt(propagation.budget[g].variance[output]) / unit.si;
-        row.share = propagation.budget[g].share[output];
+        row.contribution = shown_significant(std::sqrt(propagation.budget[g].variance[output]) / unit.si, 2);
+        row.share = shown_share(propagation.budget[g].share[output]);
         row.source = group.source;
         if (group.size() == 1) {
-            row.value = group.value[0] / input_unit.si;
-            row.sensitivity = uncertainty.sensitivity[g][output] * input_unit.si / unit.si;
+            row.value.number = group.value[0] / input_unit.si;
+            row.sensitivity.number = uncertainty.sensitivity[g][output] * input_unit.si / unit.si;
         }
-        row.printed.u = gum::round_significant(row.u, 2);
-        row.printed.contribution = gum::round_significant(row.contribution, 2);
-        row.printed.share = gum::percent(row.share);
         result.budget.push_back(std::move(row));
     }
     result.reported = reports::reported_result(result);
@@ -188,22 +186,21 @@ void fill_budget(reports::RotaryTable& rotary, const RotaryTableSolution& soluti
         reports::BudgetSummaryRow row;
         row.quantity = name;
         row.unit = unit_name;
-        row.shares.assign(budget_sources().size(), 0.0);
+        row.shares.number.assign(budget_sources().size(), 0.0);
         double total = 0.0;
         for (const Eigen::Index output : outputs) {
             const double variance = std::pow(propagation.standard_uncertainty[output], 2);
             total += variance;
             const std::vector<double> shares = shares_of(propagation, output);
             for (std::size_t s = 0; s < shares.size(); ++s) {
-                row.shares[s] += shares[s] * variance;
+                row.shares.number[s] += shares[s] * variance;
             }
         }
-        row.rms_u = std::sqrt(total / static_cast<double>(outputs.size())) / si;
-        for (double& share : row.shares) {
+        row.rms_u = shown_significant(std::sqrt(total / static_cast<double>(outputs.size())) / si, 2);
+        for (double& share : row.shares.number) {
             share = total > 0.0 ? share / total : 0.0;
-            row.printed_shares.push_back(gum::percent(share));
+            row.shares.text.push_back(gum::percent(share));
         }
-        row.printed_rms_u = gum::round_significant(row.rms_u, 2);
         rotary.budget_summary.push_back(std::move(row));
     };
     for (Eigen::Index c = 0; c < 6; ++c) {
@@ -307,8 +304,7 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
     fill_set_up(rotary, solution, propagation, measurement.axis);
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         reports::ErrorsAtAngle row;
-        row.angle_deg = measurement.angles_deg[i];
-        row.printed_angle = text::shortest(row.angle_deg);
+        row.angle_deg = {measurement.angles_deg[i], text::shortest(measurement.angles_deg[i])};
         for (std::size_t c = 0; c < 6; ++c) {
             row.errors[c] = stated_value(propagation, static_cast<Eigen::Index>(6 * i + c), c < 3 ? k_um : k_arcsec);
         }

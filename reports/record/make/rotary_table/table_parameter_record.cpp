@@ -39,20 +39,20 @@ std::pair<std::size_t, std::size_t> run_counts(const std::vector<std::vector<Eig
 
 reports::PositioningTarget target_of(double angle_deg, const engine::PositioningTarget& from, double u) {
     reports::PositioningTarget target;
-    target.angle_deg = angle_deg;
-    target.printed_angle = text::shortest(angle_deg);
-    const auto place = [&](const std::optional<double>& value, std::optional<double>& number, std::string& text) {
-        if (value) {
-            number = *value / k_arcsec.si;
-            // Digits down to those of the uncertainty of one deviation.
-            text = u > 0.0 ? gum::round_to_uncertainty(*number, u, 2).value : gum::round_significant(*number, 3);
+    target.angle_deg = {angle_deg, text::shortest(angle_deg)};
+    const auto shown = [u](const std::optional<double>& si) -> Shown<std::optional<double>> {
+        if (!si) {
+            return {};
         }
+        const double value = *si / k_arcsec.si;
+        // Digits down to those of the uncertainty of one deviation.
+        return {value, u > 0.0 ? gum::round_to_uncertainty(value, u, 2).value : gum::round_significant(value, 3)};
     };
-    place(from.mean_up, target.mean_up, target.printed_mean_up);
-    place(from.mean_down, target.mean_down, target.printed_mean_down);
-    place(from.s_up, target.s_up, target.printed_s_up);
-    place(from.s_down, target.s_down, target.printed_s_down);
-    place(from.reversal, target.reversal, target.printed_reversal);
+    target.mean_up = shown(from.mean_up);
+    target.mean_down = shown(from.mean_down);
+    target.s_up = shown(from.s_up);
+    target.s_down = shown(from.s_down);
+    target.reversal = shown(from.reversal);
     return target;
 }
 
@@ -72,19 +72,18 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
             accuracy.parameters.push_back(parameter_of(parameters, propagation, i));
         }
     }
-    accuracy.u_deviation = scope.u_deviation / k_arcsec.si;
-    accuracy.printed_u_deviation = gum::round_significant(accuracy.u_deviation, 2);
+    accuracy.u_deviation = shown_significant(scope.u_deviation / k_arcsec.si, 2);
     const engine::PositioningAccuracy positioning = model.positioning();
     for (std::size_t i = 0; i < positioning.targets.size(); ++i) {
         const engine::PositioningTarget& from = positioning.targets[i];
-        accuracy.targets.push_back(target_of(measurement.angles_deg[i], from, accuracy.u_deviation));
+        accuracy.targets.push_back(target_of(measurement.angles_deg[i], from, accuracy.u_deviation.number));
     }
     accuracy.remarks.push_back(
         "One pass of the table at one station is one run. The deviation of a run is the axial rotation of the table in "
         "that run, found from the distances of the run with everything else as adjusted.");
     const double share = scope.s_runs > 0.0 ? std::pow(scope.u_deviation / scope.s_runs, 2) : 0.0;
     if (scope.s_runs > 0.0) {
-        accuracy.remarks.push_back("Standard uncertainty of one deviation: " + accuracy.printed_u_deviation +
+        accuracy.remarks.push_back("Standard uncertainty of one deviation: " + accuracy.u_deviation.text +
                                    " ″; standard deviation of the runs at one target (rms): " +
                                    gum::round_significant(scope.s_runs / k_arcsec.si, 2) + " ″.");
     }

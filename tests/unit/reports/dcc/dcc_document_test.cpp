@@ -389,10 +389,8 @@ TEST(DccDocument, MarksJointResultsWithinTheScope) {
 TEST(DccDocument, StatesTheRectangleWhereThereIsNoEllipsoid) {
     EvaluationRecord record = test::sample_two_results_record();
     ASSERT_TRUE(record.region);
-    record.region->k_p.reset();
-    record.region->printed.k_p.clear();
-    record.region->k_q = 2.23;
-    record.region->printed.k_q = "2.23";
+    record.region->k_p = {};
+    record.region->k_q = {2.23, "2.23"};
     const std::string document = checked(record);
     EXPECT_EQ(document.find("ellipsoidalRegion"), std::string::npos);
     EXPECT_NE(document.find("<si:rectangularRegionMUXMLList>"), std::string::npos);

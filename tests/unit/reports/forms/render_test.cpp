@@ -64,7 +64,7 @@ std::string html_tags(std::string html) {
 std::vector<std::string> expected_rows(const EvaluationRecord& record) {
     std::vector<std::string> rows;
     for (const ErrorsAtAngle& at : record.rotary->errors) {
-        std::string row = " " + at.printed_angle + " ";
+        std::string row = " " + at.angle_deg.text + " ";
         for (const StatedValue& e : at.errors) {
             row += e.printed.value + " " + e.printed.U + " ";
         }

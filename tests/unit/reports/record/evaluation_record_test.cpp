@@ -86,7 +86,7 @@ TEST(EvaluationRecord, PositioningHasTheFormOfTheContract) {
     PositioningAccuracy& up = *one_direction.rotary->iso230_2;
     std::erase_if(up.parameters, [](const TableParameter& x) { return !x.name.ends_with("_up"); });
     up.runs_down = 0;
-    up.targets[0].mean_down.reset();
+    up.targets[0].mean_down.number.reset();
     const std::string text = to_canonical_json(one_direction);
     const json few = json::parse(text)["rotary"]["iso230_2"];
     EXPECT_FALSE(few.contains("M"));
@@ -410,7 +410,7 @@ TEST(BudgetRecord, ReadsBackToTheSameBytes) {
         EXPECT_EQ(to_canonical_json(record_from_json(text, "record.json")), text);
     }
     const EvaluationRecord again = record_from_json(to_canonical_json(test::sample_budget_record()), "x");
-    EXPECT_EQ(again.results[0].budget[1].components[2].printed.u, "6.7");
+    EXPECT_EQ(again.results[0].budget[1].components[2].u.text, "6.7");
     EXPECT_EQ(again.results[0].monte_carlo->histogram, test::sample_budget_record().results[0].monte_carlo->histogram);
     EXPECT_EQ(again.results[0].monte_carlo->numerical_error.shortest[1], 0.55);
 }
@@ -516,10 +516,10 @@ TEST(BudgetRecord, WriterRefusesPartsThatDoNotFitTogether) {
     r.results[0].U.reset();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
     r = test::sample_budget_record();
-    r.results[0].monte_carlo->u = std::numeric_limits<double>::infinity();
+    r.results[0].monte_carlo->u.number = std::numeric_limits<double>::infinity();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
     r = test::sample_two_results_record();
-    r.fits[0].y.pop_back();
+    r.fits[0].y.number.pop_back();
     EXPECT_THROW(static_cast<void>(to_canonical_json(r)), gum::NoResultError);
 }
 

@@ -87,7 +87,7 @@ TEST(ReportedResult, IsMadeOfTheNumbersOfARecordThatKnewNone) {
     old.k.reset();
     const ReportedResult alone = reported_result(old);
     EXPECT_EQ(alone.method, "monte_carlo");
-    EXPECT_EQ(*alone.interval, old.monte_carlo->symmetric);
+    EXPECT_EQ(*alone.interval, old.monte_carlo->symmetric.number);
     EXPECT_FALSE(alone.U);
 }
 

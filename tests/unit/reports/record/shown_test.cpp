@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reports/record/evaluation_record.h"
 #include "tests/support/record_refusal.h"
+#include "tests/support/sample_budget_record.h"
 #include "tests/support/sample_comparison_record.h"
 
 namespace gumcert::reports {
@@ -53,6 +55,34 @@ TEST(Shown, HasTextsWithoutANumberOfTheirKeyBesideIt) {
     const json point = sample()["comparison"]["points"][0];
     EXPECT_TRUE(point["printed"].contains("angle"));
     EXPECT_FALSE(point.contains("angle"));
+}
+
+TEST(Shown, OfAListHasATextOfEachElement) {
+    EvaluationRecord record = test::sample_two_results_record();
+    record.covariance->correlation = {{{1.0, 0.25}, {0.25, 1.0}}, {{"1", "a text"}, {"a text", "1"}}};
+    record.fits[0].u_y = {std::vector<double>(11, 0.5), std::vector<std::string>(11, "half")};
+    const std::string text = to_canonical_json(record);
+    const json written = json::parse(text);
+    EXPECT_EQ(written["covariance"]["correlation"][0], (json{1.0, 0.25}));
+    EXPECT_EQ(written["covariance"]["printed"]["correlation"][0], (json{"1", "a text"}));
+    const EvaluationRecord again = record_from_json(text, "x");
+    EXPECT_EQ(again.covariance->correlation.number, record.covariance->correlation.number);
+    EXPECT_EQ(again.covariance->correlation.text, record.covariance->correlation.text);
+    EXPECT_EQ(again.fits[0].u_y.number, record.fits[0].u_y.number);
+    EXPECT_EQ(again.fits[0].u_y.text, record.fits[0].u_y.text);
+}
+
+TEST(Shown, HasItsTextUnderAnotherKeyWhereTheRecordSaysSo) {
+    EvaluationRecord record = test::sample_two_results_record();
+    record.readings[0].autocorrelation_limit = {0.75, "a text"};
+    const std::string text = to_canonical_json(record);
+    const json readings = json::parse(text)["readings"][0];
+    EXPECT_EQ(readings["autocorrelation_limit"], 0.75);
+    EXPECT_EQ(readings["printed"]["limit"], "a text");
+    EXPECT_FALSE(readings["printed"].contains("autocorrelation_limit"));
+    const ReadingsSummary again = record_from_json(text, "x").readings[0];
+    EXPECT_EQ(again.autocorrelation_limit.number, 0.75);
+    EXPECT_EQ(again.autocorrelation_limit.text, "a text");
 }
 
 TEST(Shown, IsRefusedWithoutItsNumberOrItsText) {

@@ -296,7 +296,7 @@ TEST(BudgetCertificate, HostileNamesAreShownAsTexts) {
     const auto with = [](const std::string& name) {
         EvaluationRecord r = test::sample_two_results_record();
         r.results[0].monte_carlo = test::sample_budget_record().results[0].monte_carlo;
-        r.results[0].monte_carlo->symmetric = r.results[0].monte_carlo->shortest = {127.5, 128.0};
+        r.results[0].monte_carlo->symmetric.number = r.results[0].monte_carlo->shortest.number = {127.5, 128.0};
         r.results[0].name = r.covariance->names[0] = name;
         r.results[0].description = r.results[1].coverage_note = name;
         r.results[0].budget[0].input = r.results[0].budget[0].source = r.results[0].budget[0].unit = name;
@@ -366,10 +366,10 @@ TEST(BudgetCertificate, WorksWithoutOptionalParts) {
     EXPECT_THAT(section_ids(view_of(r)), ElementsAre("identification", "results", "input"));
     EvaluationRecord two = test::sample_two_results_record();
     two.covariance->file = "covariance.csv";
-    two.region->k_p.reset();
+    two.region->k_p.number.reset();
     two.region->smallest_region.reset();
     two.fits[0].x_name = "";
-    two.fits[0].x.clear();
+    two.fits[0].x.number.clear();
     const std::string text = text_of(two);
     EXPECT_THAT(text, HasSubstr("in the file covariance.csv"));
     EXPECT_THAT(text, HasSubstr("cannot be stated: the covariance matrix is singular"));

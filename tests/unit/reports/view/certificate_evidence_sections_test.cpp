@@ -66,7 +66,7 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
 TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     EvaluationRecord record = record_with_evidence();
     GroupTestRow drift = test::sample_group_test("drift", true);
-    drift.station = drift.pass = drift.printed.minimal_detectable = "";
+    drift.station = drift.pass = drift.minimal_detectable.text = "";
     GroupTestRow point = test::sample_group_test("reflector", false);
     point.station = point.pass = "";
     point.reflector = "R3";
@@ -138,13 +138,13 @@ TEST(EvidenceSections, ShowRunsMeansAndSpreadOfThePositioning) {
     const auto& series = plot.panels.at(0).series;
     ASSERT_EQ(series.size(), 6U);
     const PositioningTarget& first = record.rotary->iso230_2->targets[0];
-    EXPECT_EQ(series[0].points[0].U, 2.0 * *first.s_up);
-    EXPECT_EQ(series[0].points[0].y, *first.mean_up);
+    EXPECT_EQ(series[0].points[0].U, 2.0 * *first.s_up.number);
+    EXPECT_EQ(series[0].points[0].y, *first.mean_up.number);
     ASSERT_EQ(series[1].points.size(), 2U);
     EXPECT_EQ(series[1].points[1].y, 0.7);
-    EXPECT_EQ(series[2].points[0].y, *first.mean_up);
+    EXPECT_EQ(series[2].points[0].y, *first.mean_up.number);
     EXPECT_EQ(series[4].points[0].y, -0.5);
-    EXPECT_EQ(series[5].points[0].y, *first.mean_down);
+    EXPECT_EQ(series[5].points[0].y, *first.mean_down.number);
 }
 
 TEST(EvidenceSections, StateHarmonicsWithTheirUncertainty) {
@@ -188,8 +188,7 @@ TEST(EvidenceSections, ThinTablesOfManyAnglesAndKeepExtremes) {
     r.errors.clear();
     for (int i = 0; i < 720; ++i) {
         r.errors.push_back(one);
-        r.errors.back().angle_deg = 0.5 * i;
-        r.errors.back().printed_angle = std::to_string(i);
+        r.errors.back().angle_deg = {0.5 * i, std::to_string(i)};
     }
     r.errors[333].errors[4].value = 1e3;
     const json view = certificate_view(record, Wording(evidence_wording()));

@@ -61,7 +61,7 @@ EvaluationRecord in_a_machine(const std::string& by) {
     rotary.machine_frame = MachineFrame{.by = by,
                                         .source = "probe",
                                         .points = {{"R1", {0.1, 0.2, 0.3}, 2.0}, {"R2", {}, 2.0}, {"R3", {}, 2.0}},
-                                        .printed_p = "0.41",
+                                        .p_value = {1.0, "0.41"},
                                         .printed_residual = "1.3"};
     return record;
 }
@@ -105,11 +105,9 @@ TEST(RotaryCertificate, AdjustmentShowsBothFactorsAndTheTestInWords) {
     EXPECT_THAT(text, HasSubstr("χ² = 1032.6 lies between the limits 958.3 and 1137.5."));
     EXPECT_THAT(text, HasSubstr("Three components were estimated from the same residuals"));
     r.rotary->adjustment.global_test.accepted = false;
-    r.rotary->adjustment.chi_square = 2000.0;
-    r.rotary->adjustment.printed.chi_square = "2000.0";
+    r.rotary->adjustment.chi_square = {2000.0, "2000.0"};
     EXPECT_THAT(rotary_text_of(r), HasSubstr("χ² = 2000.0 is above the upper limit 1137.5"));
-    r.rotary->adjustment.chi_square = 900.0;
-    r.rotary->adjustment.printed.chi_square = "900.0";
+    r.rotary->adjustment.chi_square = {900.0, "900.0"};
     EXPECT_THAT(rotary_text_of(r), HasSubstr("χ² = 900.0 is below the lower limit 958.3"));
     const auto rows = rows_of(rotary_view_of(r), "variance-components");
     EXPECT_THAT(rows[0], ElementsAre("length noise", "0.0512", "0.0011", "µm", "0.05", "787", "812.0", "estimated",
@@ -170,10 +168,10 @@ TEST(RotaryCertificate, MonteCarloNamesWhatIsNotValidated) {
     const auto rows = rows_of(view, "monte-carlo-exceptions");
     ASSERT_EQ(rows.size(), 3U);
     const StatedValue& e = r.rotary->errors[3].errors[0];
-    EXPECT_THAT(rows[0], ElementsAre("EXA (30°)", e.printed.value, e.printed.U, e.monte_carlo->printed.mean,
-                                     e.monte_carlo->printed.u, e.monte_carlo->printed.symmetric[0],
-                                     e.monte_carlo->printed.symmetric[1], e.monte_carlo->printed.shortest[0],
-                                     e.monte_carlo->printed.shortest[1], "µm", "not validated"));
+    EXPECT_THAT(rows[0],
+                ElementsAre("EXA (30°)", e.printed.value, e.printed.U, e.monte_carlo->mean.text, e.monte_carlo->u.text,
+                            e.monte_carlo->symmetric.text[0], e.monte_carlo->symmetric.text[1],
+                            e.monte_carlo->shortest.text[0], e.monte_carlo->shortest.text[1], "µm", "not validated"));
     EXPECT_EQ(rows[1].back(), "not validated") << "what cannot be said is counted, not listed";
     EXPECT_THAT(rotary_text_of(r), HasSubstr("more trials decide it"));
     EXPECT_THAT(rotary_text_of(r), HasSubstr("Steps of a trial until it converged 2.31 on average, 4 at most"));
@@ -237,8 +235,8 @@ TEST(RotaryCertificate, ARecordWithoutTheNewPartsHasNoEmptyPlaces) {
     r.adjustment.global_test = {};
     r.adjustment.variance_factor.reason.clear();
     for (VarianceComponent& v : r.variance_components) {
-        v.stated.reset();
-        v.printed_stated.clear();
+        v.stated.number.reset();
+        v.stated.text.clear();
         v.degrees_of_freedom.reset();
         v.used = true;
     }

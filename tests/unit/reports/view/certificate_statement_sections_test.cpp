@@ -83,7 +83,7 @@ std::string text_of(const json& sections, const std::string& id) {
 /// A certificate of values of one quantity at points, by hand.
 EvaluationRecord of_values(const std::vector<CertifiedValue>& values) {
     EvaluationRecord record = test::certified_budget_record();
-    record.printed_coverage = "95.45 %";
+    record.coverage_probability.text = "95.45 %";
     certificate::CertifiedTable& table = record.certificate->tables.front();
     certificate::CertifiedColumn& column = table.columns.front();
     column.values = values;
@@ -197,9 +197,9 @@ TEST(CertificateStatement, SaysWhichValuesEachSentenceHoldsFor) {
     EvaluationRecord record = of_values(
         {value("normal", "2.00", {}), value("convolution", "1.65", {}), interval, value("student_t", "2.13", 20.0)});
     MonteCarloSummary trials;
-    trials.trials = 1000000;
-    trials.symmetric = {0.6, 1.3};
-    trials.shortest = {0.7, 1.4};
+    trials.trials.number = 1000000;
+    trials.symmetric.number = {0.6, 1.3};
+    trials.shortest.number = {0.7, 1.4};
     record.results.front().monte_carlo = trials;
     const std::string text = statement(record);
     EXPECT_THAT(text, HasSubstr("(a) The reported expanded uncertainty"));

@@ -117,7 +117,7 @@ TEST(ComparisonReport, FirstPageSaysWhatTheSignOfADifferenceMeansAndWhatUStandsF
     }
     EXPECT_THAT(answer_of(one_item(6)), HasSubstr("D = x − X, result minus assigned value"));
     EvaluationRecord record = test::sample_methods_record();
-    record.printed_coverage = "95.45 %";
+    record.coverage_probability.text = "95.45 %";
     EXPECT_THAT(answer_of(record), HasSubstr(squeezed("D = x − X, " + record.comparison->method_name + " minus " +
                                                       record.comparison->reference_name)));
     EXPECT_THAT(answer_of(record), HasSubstr("coverage probability of 95.45 %"));

@@ -26,9 +26,9 @@ const reports::StatedValue& changed(const EvaluationRecord& record) {
 
 /// Trials about 7 ± 2, far from the law of propagation.
 void refute(MonteCarloSummary& trials) {
-    trials.mean = 7.0;
-    trials.u = 1.0;
-    trials.symmetric = {5.0, 9.0};
+    trials.mean.number = 7.0;
+    trials.u.number = 1.0;
+    trials.symmetric.number = {5.0, 9.0};
     trials.validation->precise_enough = true;
     trials.validation->validated = false;
 }
@@ -57,7 +57,7 @@ TEST(ReportedChoice, AreThoseOfMonteCarloWhereItRefutesTheLaw) {
 TEST(ReportedChoice, AreAnIntervalWhereThatIsNotSymmetric) {
     EvaluationRecord record = record_with([](MonteCarloSummary& trials) {
         refute(trials);
-        trials.symmetric = {6.0, 9.0};
+        trials.symmetric.number = {6.0, 9.0};
     });
     report_rotary_results(record, CoverageChoice::as_validated);
     EXPECT_EQ(changed(record).printed.U, "");

@@ -64,7 +64,7 @@ TEST(BudgetFindings, ARefutedFitBlocksAnAccreditedCertificate) {
 TEST(BudgetFindings, TheRemedyOfARefutedFitIsTrue) {
     const reports::EvaluationRecord scaled = record_of(line(R"("u_y": 0.001}, "scale_by_residuals": true)"));
     EXPECT_EQ(findings(scaled, "accredited"), "");
-    EXPECT_EQ(scaled.fits.at(0).parameters.at(0).printed.u, "0.12");
+    EXPECT_EQ(scaled.fits.at(0).parameters.at(0).u.text, "0.12");
 }
 
 TEST(BudgetFindings, UncertaintiesThatAreFarTooLargeAreANote) {

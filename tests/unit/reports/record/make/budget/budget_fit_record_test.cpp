@@ -47,28 +47,28 @@ TEST(BudgetFitRecord, OffersWhatScalingByTheResidualsGives) {
     const EvaluationRecord scaled =
         record_of_fit(jobs::test::read_budget(line(1.0, R"("scale_by_residuals": true, )")));
     for (std::size_t i = 0; i < 2; ++i) {
-        ASSERT_TRUE(refuted.fits[0].parameters[i].scaled_u);
-        EXPECT_NEAR(*refuted.fits[0].parameters[i].scaled_u, scaled.fits[0].parameters[i].u,
-                    1e-12 * scaled.fits[0].parameters[i].u);
-        EXPECT_FALSE(scaled.fits[0].parameters[i].scaled_u);
+        ASSERT_TRUE(refuted.fits[0].parameters[i].scaled_u.number);
+        EXPECT_NEAR(*refuted.fits[0].parameters[i].scaled_u.number, scaled.fits[0].parameters[i].u.number,
+                    1e-12 * scaled.fits[0].parameters[i].u.number);
+        EXPECT_FALSE(scaled.fits[0].parameters[i].scaled_u.number);
     }
 }
 
 TEST(BudgetFitRecord, LeavesOutWhatHasNoMeaning) {
     const EvaluationRecord both = record_of_fit(jobs::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)")));
-    EXPECT_FALSE(both.fits[0].r_squared);
-    EXPECT_EQ(both.fits[0].printed.r_squared, "");
-    EXPECT_TRUE(record_of_fit(jobs::test::read_budget(line(0.1))).fits[0].r_squared);
+    EXPECT_FALSE(both.fits[0].r_squared.number);
+    EXPECT_EQ(both.fits[0].r_squared.text, "");
+    EXPECT_TRUE(record_of_fit(jobs::test::read_budget(line(0.1))).fits[0].r_squared.number);
 }
 
 TEST(BudgetFitRecord, PrintsTheDataWithTheirUncertainties) {
     const reports::FitSummary fit =
         record_of_fit(jobs::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)"))).fits.at(0);
-    EXPECT_EQ(fit.printed.x, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
-    EXPECT_EQ(fit.printed.y, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
-    EXPECT_EQ(fit.printed.u_x, std::vector<std::string>(6, "0.050"));
-    EXPECT_EQ(fit.printed.u_y, std::vector<std::string>(6, "0.10"));
-    EXPECT_EQ(fit.printed.residual.size(), 6U);
+    EXPECT_EQ(fit.x.text, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
+    EXPECT_EQ(fit.y.text, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
+    EXPECT_EQ(fit.u_x.text, std::vector<std::string>(6, "0.050"));
+    EXPECT_EQ(fit.u_y.text, std::vector<std::string>(6, "0.10"));
+    EXPECT_EQ(fit.residual.text.size(), 6U);
 }
 
 /// Over generated fits: the row of a fit is what the variance has beyond the inputs, its data add up to it, and no
@@ -105,19 +105,19 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
         EXPECT_FALSE(z.correlation);
         const BudgetRow& fit = z.budget[1];
         ASSERT_EQ(fit.role, "fit");
-        EXPECT_NEAR(std::hypot(z.budget[0].contribution, fit.contribution), z.u, 1e-10 * z.u);
-        EXPECT_LE(fit.share, 1.0 + 1e-12);
+        EXPECT_NEAR(std::hypot(z.budget[0].contribution.number, fit.contribution.number), z.u, 1e-10 * z.u);
+        EXPECT_LE(fit.share.number, 1.0 + 1e-12);
         double squares = 0.0;
         std::size_t sources = 0;
         for (const BudgetRow& part : fit.components) {
             if (part.role == "fit_data") {
-                squares += part.contribution * part.contribution;
-                EXPECT_GT(part.contribution, 0.0);
+                squares += part.contribution.number * part.contribution.number;
+                EXPECT_GT(part.contribution.number, 0.0);
                 ++sources;
             }
         }
         EXPECT_EQ(sources, trial % 3 == 2 ? 2U : 1U);
-        EXPECT_NEAR(std::sqrt(squares), fit.contribution, 1e-10 * fit.contribution);
+        EXPECT_NEAR(std::sqrt(squares), fit.contribution.number, 1e-10 * fit.contribution.number);
         EXPECT_EQ(fit.components.size(), sources + (quadratic ? 3U : 2U));
     }
 }
@@ -126,7 +126,7 @@ TEST(BudgetFitRecord, RowsOfFitsAddUpToTheVariance) {
 TEST(BudgetFitRecord, SplitsTheVarianceByColumn) {
     const auto part_of = [](const std::string& data, std::size_t part) {
         const EvaluationRecord record = record_of_fit(jobs::test::read_budget(line(0.1, "", data)));
-        return record.results.at(0).budget.at(1).components.at(part).contribution;
+        return record.results.at(0).budget.at(1).components.at(part).contribution.number;
     };
     const double alone = part_of(R"("u_y": 0.1)", 0);
     EXPECT_NEAR(part_of(R"("u_y": 0.1, "u_x": 0.0001)", 0), alone, 1e-5 * alone);
@@ -146,7 +146,7 @@ TEST(BudgetFitRecord, ParametersAreResultsOfTheirData) {
         ASSERT_EQ(result.budget.size(), 1U) << result.name;
         const BudgetRow& row = result.budget[0];
         EXPECT_EQ(row.input, "f");
-        EXPECT_NEAR(row.contribution, result.u, 1e-12 * result.u);
+        EXPECT_NEAR(row.contribution.number, result.u, 1e-12 * result.u);
         ASSERT_EQ(row.components.size(), 3U);
         EXPECT_EQ(row.components[0].input, "y");
         EXPECT_EQ(row.components[1].input, "x");

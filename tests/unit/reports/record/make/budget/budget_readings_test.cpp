@@ -31,7 +31,7 @@ TEST(BudgetReadings, AreThoseOfThePoints) {
                       {"point": "B", "x": {"observations": [2.1, 2.2, 2.4]}}])"));
     ASSERT_EQ(record.readings.size(), 2U);
     EXPECT_EQ(record.readings[0].point, "A");
-    EXPECT_DOUBLE_EQ(record.readings[0].mean, 1.2);
+    EXPECT_DOUBLE_EQ(record.readings[0].mean.number, 1.2);
     EXPECT_EQ(record.readings[1].point, "B");
     EXPECT_EQ(record.readings[1].n, 3);
 }
@@ -42,7 +42,7 @@ TEST(BudgetReadings, OfTheJobHoldAtTheOtherPoints) {
            "points": [{"point": "A", "x": {"observations": [1.1, 1.2, 1.3]}}, {"point": "B"}])"));
     ASSERT_EQ(record.readings.size(), 2U);
     EXPECT_EQ(record.readings[0].point, "");
-    EXPECT_DOUBLE_EQ(record.readings[0].mean, 150.0);
+    EXPECT_DOUBLE_EQ(record.readings[0].mean.number, 150.0);
     EXPECT_EQ(record.readings[1].point, "A");
     EXPECT_EQ(record.readings[1].observations, (std::vector<std::string>{"1.1", "1.2", "1.3"}));
 }
@@ -57,7 +57,7 @@ TEST(BudgetReadings, OutliersAreFoundInPointsGroupsAndMeans) {
     EXPECT_EQ(record.outliers[0].point, "A");
     EXPECT_EQ(record.outliers[0].of, "observations");
     EXPECT_EQ(record.outliers[0].position, 5);
-    EXPECT_EQ(record.outliers[0].printed.value, "49.99");
+    EXPECT_EQ(record.outliers[0].value.text, "49.99");
     EXPECT_EQ(record.outliers[1].of, "group");
     EXPECT_EQ(record.outliers[1].group, 1);
     EXPECT_EQ(record.outliers[1].position, 4);
@@ -117,12 +117,12 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
         const auto mean_of = [&](const std::string& input, const std::string& point) -> std::optional<double> {
             for (const auto& r : record.readings) {
                 if (r.input == input && r.point == point) {
-                    return r.mean;
+                    return r.mean.number;
                 }
             }
             for (const auto& v : record.variance_analyses) {
                 if (v.input == input && v.point == point) {
-                    return v.mean;
+                    return v.mean.number;
                 }
             }
             return std::nullopt;
@@ -147,7 +147,7 @@ TEST(BudgetReadings, EveryPrintedNumberIsOfAStatementInForce) {
             for (std::size_t i = 0; i < inputs; ++i) {
                 const reports::BudgetRow& row = record.results.at(p).budget.at(i);
                 EXPECT_EQ(row.input, job.inputs[i].name);
-                EXPECT_NEAR(*row.value, gum::input_at(job, i, p).components[0].stated_value, 1e-9);
+                EXPECT_NEAR(*row.value.number, gum::input_at(job, i, p).components[0].stated_value, 1e-9);
             }
         }
     }

@@ -249,7 +249,7 @@ TEST(ReportedResult, HasTheIntervalAndTheVerdictsOfTheExactDistribution) {
             ++by_trials;
             // An order statistic is off by the binomial scatter of its rank.
             const double scatter =
-                5.0 * std::sqrt(tail * (1.0 - tail) / static_cast<double>(e.y().monte_carlo->trials));
+                5.0 * std::sqrt(tail * (1.0 - tail) / static_cast<double>(e.y().monte_carlo->trials.number));
             const double nothing = 1e-9 * half;  // a distribution with a jump: just below and just above it
             EXPECT_LE(c.P(low - nothing), tail + scatter);
             EXPECT_GE(c.P(low + nothing), tail - scatter);
@@ -362,8 +362,8 @@ TEST(ReportedResult, IsThatOfTheLawForOutputsBesideOneWithoutDerivative) {
     EXPECT_EQ(e.record.results[0].reported.because, "no_derivative");
     EXPECT_EQ(e.record.results[1].reported.method, "law_of_propagation");
     EXPECT_NEAR(e.record.results[1].u, std::sqrt(2.0), 1e-12);
-    EXPECT_FALSE(e.record.results[0].budget.front().sensitivity) << "there is none";
-    EXPECT_TRUE(e.record.results[1].budget.front().sensitivity);
+    EXPECT_FALSE(e.record.results[0].budget.front().sensitivity.number) << "there is none";
+    EXPECT_TRUE(e.record.results[1].budget.front().sensitivity.number);
 }
 
 TEST(ReportedResult, StatesNoMomentThatDoesNotExist) {
@@ -373,15 +373,15 @@ TEST(ReportedResult, StatesNoMomentThatDoesNotExist) {
     const std::string trials = R"(, "coverage": "monte_carlo", "monte_carlo": {"trials": 1000000})";
     const Evaluated ratio = of("y = a/b", R"("a": {"value": 1, "u": 0.1}, "b": {"value": 0.5, "u": 0.5})", trials);
     EXPECT_FALSE(ratio.reported().u || ratio.reported().U);
-    EXPECT_FALSE(ratio.y().monte_carlo->u || ratio.y().monte_carlo->mean);
+    EXPECT_FALSE(ratio.y().monte_carlo->u.number || ratio.y().monte_carlo->mean.number);
     EXPECT_EQ(ratio.reported().value, 2.0);
     EXPECT_TRUE(ratio.tells("GC-BUDGET-0027"));
     const Evaluated three = of("y = x", R"("x": {"observations": [1, 1.1, 1.05]})", trials);
     EXPECT_FALSE(three.reported().u);
-    EXPECT_FALSE(three.y().monte_carlo->u);
-    EXPECT_TRUE(three.y().monte_carlo->mean) << "ν = 2 has an expectation";
+    EXPECT_FALSE(three.y().monte_carlo->u.number);
+    EXPECT_TRUE(three.y().monte_carlo->mean.number) << "ν = 2 has an expectation";
     const Evaluated two = of("y = x", R"("x": {"observations": [1, 1.1]})", trials);
-    EXPECT_FALSE(two.y().monte_carlo->mean);
+    EXPECT_FALSE(two.y().monte_carlo->mean.number);
     // Heavy, but with a variance; and bounded.
     EXPECT_TRUE(of("y = x", R"("x": {"value": 1, "u": 0.1, "nu": 4})", trials).reported().u);
     EXPECT_TRUE(of("y = exp(x)", R"("x": {"value": 0, "u": 0.5})", trials).reported().u);

@@ -21,10 +21,12 @@ TEST(BudgetTexts, StatedNumbersComeBackWithoutTracesOfConversion) {
 TEST(BudgetTexts, EstimatesEndWithTheirUncertainty) {
     EXPECT_EQ(printed_estimate(10.12345, 0.0123), "10.123");
     EXPECT_EQ(printed_estimate(10.12345, 0.0), "10.12345");
-    EXPECT_EQ(printed_degrees_of_freedom(INFINITY), "∞");
-    EXPECT_EQ(printed_degrees_of_freedom(NAN), "–");
-    EXPECT_EQ(printed_degrees_of_freedom(7.1234), "7.1");
-    EXPECT_EQ(printed_degrees_of_freedom(148.6), "148") << "as in the line of the result: never more than there are";
+    EXPECT_EQ(shown_degrees_of_freedom(INFINITY).text, "∞");
+    EXPECT_EQ(shown_degrees_of_freedom(NAN).text, "–");
+    EXPECT_FALSE(shown_degrees_of_freedom(NAN).number);
+    EXPECT_EQ(shown_degrees_of_freedom(7.1234).number, 7.1234);
+    EXPECT_EQ(shown_degrees_of_freedom(7.1234).text, "7.1");
+    EXPECT_EQ(shown_degrees_of_freedom(148.6).text, "148") << "as in the line of the result: never more than there are";
     EXPECT_EQ(rounded(0.012345, 2), "0.012");
 }
 

@@ -21,7 +21,7 @@ reports::EvaluationRecord record_with(const std::string& source) {
     reports::BudgetRow part;
     part.source = source;
     part.unit = test::sample_standard().unit;
-    part.u = 0.5 * test::sample_standard().U.value_or(0.0);
+    part.u.number = 0.5 * test::sample_standard().U.value_or(0.0);
     row.components = {part};
     result.budget = {row};
     record.results = {result};

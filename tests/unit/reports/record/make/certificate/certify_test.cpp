@@ -343,7 +343,7 @@ EvaluationRecord with_trials(double value, double low, double high) {
     record.results[0].coverage = "monte_carlo";
     reports::MonteCarloSummary m = test::trials_of(value, 0.25 * (high - low));
     m.validation.reset();
-    m.symmetric = {low, high};
+    m.symmetric.number = {low, high};
     record.results[0].monte_carlo = m;
     return record;
 }
@@ -671,7 +671,7 @@ EvaluationRecord confirmed(EvaluationRecord record) {
 
 TEST(Certify, MakesTheSampleBudgetACertificateThatPasses) {
     EvaluationRecord record = confirmed(test::sample_budget_record());
-    record.coverage_probability = record.results[0].coverage_probability = 0.9545;  // the sample states 99 %
+    record.coverage_probability.number = record.results[0].coverage_probability = 0.9545;  // the sample states 99 %
     CertificateData data = test::sample_certificate_data();
     data.specifications.pop_back();  // of the rotary table
     certify(record, data, {});

@@ -34,8 +34,8 @@ Condition with_limits(Condition condition, double lower, double upper) {
 /// Two stations, the fixture at 20.21 °C and at the stated temperature.
 EvaluationRecord record_at(double fixture, std::vector<Condition> conditions, double air = 20.2) {
     EvaluationRecord record = test::sample_record();
-    record.rotary->environment.emplace().stations = {{"P1", 20.21, 0.02, 20.2, 1013.0, 45.0},
-                                                     {"P2", fixture, 0.02, air, {}, {}}};
+    record.rotary->environment.emplace().stations = {{"P1", {20.21}, {0.02}, {20.2}, {1013.0}, {45.0}},
+                                                     {"P2", {fixture}, {0.02}, {air}, {}, {}}};
     record.certificate.emplace();
     record.certificate->data.conditions = std::move(conditions);
     return record;

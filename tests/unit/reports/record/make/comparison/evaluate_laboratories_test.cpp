@@ -156,7 +156,7 @@ TEST(EvaluateLaboratories, KeyComparisonByWeightedMean) {
     EXPECT_EQ(comparison.points[0].signal, "none");
     double weights = 0.0;
     for (const reports::ResultWeight& weight : item.weights) {
-        weights += weight.weight;
+        weights += weight.weight.number;
     }
     EXPECT_NEAR(weights, 1.0, 1e-14);
     const std::vector<gum::Diagnostic> messages = messages_of(job);
@@ -273,7 +273,7 @@ TEST(EvaluateLaboratories, CorrelationsOfParticipants) {
     const reports::Comparison comparison = evaluated(job);
     EXPECT_NEAR(comparison.items[0].value.number, 12.402686980609419, 1e-12);
     EXPECT_NEAR(*comparison.items[0].u.number, 0.06315789473684211, 1e-14);
-    EXPECT_NEAR(comparison.items[0].weights[1].weight, 0.0277008310249308, 1e-14);
+    EXPECT_NEAR(comparison.items[0].weights[1].weight.number, 0.0277008310249308, 1e-14);
     EXPECT_NEAR(comparison.items[0].consistency->chi_square.number, 18.52798168667279, 1e-9);
     const std::array<double, 6> u_d{0.07753115717187493, 0.13605543110221646, 0.18976585660336787,
                                     0.10203470160886428, 0.13605543110221646, 0.2932764571737902};
@@ -310,7 +310,7 @@ TEST(EvaluateLaboratories, SharedSources) {
     EXPECT_EQ(comparison.shared_sources[0].first, "L1");
     EXPECT_EQ(comparison.shared_sources[0].second, "L2");
     EXPECT_NEAR(comparison.shared_sources[0].covariance, 0.0064, 1e-16);
-    EXPECT_NEAR(comparison.shared_sources[0].correlation, 0.4266666666666667, 1e-14);
+    EXPECT_NEAR(comparison.shared_sources[0].correlation.number, 0.4266666666666667, 1e-14);
     EXPECT_NEAR(comparison.shared_sources[1].covariance, -0.004, 1e-16);
     independent.independent_sources = {"laser 7", "thermometer"};
     EXPECT_DOUBLE_EQ(evaluated(independent).items[0].value.number, evaluated(key_comparison()).items[0].value.number);
@@ -337,8 +337,8 @@ TEST(EvaluateLaboratories, UnknownCorrelationInsideAGroup) {
     ComparisonJob mean = key_comparison();
     mean.participants[0].group = mean.participants[4].group = "NMI-X";
     const reports::Comparison of_mean = evaluated(mean);
-    const double w_1 = of_mean.items[0].weights[0].weight;
-    const double w_5 = of_mean.items[0].weights[4].weight;
+    const double w_1 = of_mean.items[0].weights[0].weight.number;
+    const double w_5 = of_mean.items[0].weights[4].weight.number;
     const double u_D = *of_mean.points[4].u_D;
     const double worst = std::sqrt(u_D * u_D - 2.0 * (1.0 - w_5) * w_1 * 0.01);
     EXPECT_NEAR(*of_mean.points[4].En_worst.number, of_mean.points[4].D.number / (2.0 * worst), 2e-5);

@@ -72,7 +72,7 @@ TEST(EvaluateMethods, OfStatedValues) {
     EXPECT_EQ(record.position_unit, "deg");
     EXPECT_EQ(record.organiser, "Example Institute");
     EXPECT_EQ(record.correlation, "none");
-    EXPECT_EQ(record.printed_tolerance, "5");
+    EXPECT_EQ(record.tolerance.text, "5");
     EXPECT_EQ(record.audit_finding, "Laser method: limit taken as standard uncertainty");
     ASSERT_EQ(record.points.size(), 3U);
     EXPECT_EQ(record.points[0].D.text, "0.9");
@@ -173,11 +173,11 @@ TEST(EvaluateMethods, ComputesTheCovarianceFromSharedSources) {
     EXPECT_EQ(record.shared_sources[0].first, "Method");
     EXPECT_EQ(record.shared_sources[0].second, "Reference");
     EXPECT_NEAR(record.shared_sources[0].covariance, 0.04, 1e-12);
-    EXPECT_EQ(record.shared_sources[0].printed_correlation, "0.57");
+    EXPECT_EQ(record.shared_sources[0].correlation.text, "0.57");
     EXPECT_THAT(all_remarks(record), HasSubstr("Both budgets name laser."));
     // Tables of the points with the largest uncertainty: B of the method.
     ASSERT_EQ(record.method_budget.size(), 2U);
-    EXPECT_EQ(record.method_budget[1].printed.u, "0.50");
+    EXPECT_EQ(record.method_budget[1].u.text, "0.50");
     EXPECT_EQ(record.reference_budget.size(), 2U);
 }
 
@@ -236,8 +236,8 @@ TEST(EvaluateMethods, TablesOfBudgetsAreInTheUnitOfTheComparison) {
     const reports::Comparison record = evaluate_methods(job);
     EXPECT_NEAR(record.points[0].value.number, 10100.0, 1e-8);
     EXPECT_NEAR(*record.points[0].u, 500.0, 1e-9);
-    EXPECT_NEAR(record.method_budget[0].contribution, 400.0, 1e-9);
-    EXPECT_NEAR(record.method_budget[0].sensitivity.value(), 1000.0, 1e-9);
+    EXPECT_NEAR(record.method_budget[0].contribution.number, 400.0, 1e-9);
+    EXPECT_NEAR(record.method_budget[0].sensitivity.number.value(), 1000.0, 1e-9);
     EXPECT_NEAR(*record.summary.front().D_fail.number, *record.points[0].U_D.number, 1e-9);
 }
 

@@ -325,8 +325,7 @@ TEST(MethodRecord, RemarksNameTheDirection) {
 
 TEST(MethodRecord, DeviationsThatAreFoundAreHeldAgainstTheTolerance) {
     reports::Comparison record;
-    record.tolerance = 2.0;
-    record.printed_tolerance = "2";
+    record.tolerance = {2.0, "2"};
     add_method_comparison(comparison_of(sound()), "um", record);
     EXPECT_THAT(joined_remarks(record),
                 HasSubstr("tolerance of 2 µm would not have been found at every point with a probability of 80 %"));
@@ -334,13 +333,11 @@ TEST(MethodRecord, DeviationsThatAreFoundAreHeldAgainstTheTolerance) {
     EXPECT_THAT(joined_remarks(record), HasSubstr("A deviation of 2.9 µm is found at every single point"));
     EXPECT_THAT(joined_remarks(record), HasSubstr("one of 3.7 µm with 95 %"));
     record.remarks.clear();
-    record.tolerance = 3.0;
-    record.printed_tolerance = "3";
+    record.tolerance = {3.0, "3"};
     add_method_comparison(comparison_of(sound()), "um", record);
     EXPECT_THAT(joined_remarks(record), HasSubstr("with a probability of 80 % or more, but not with 95 %"));
     record.remarks.clear();
-    record.tolerance = 5.0;
-    record.printed_tolerance = "5";
+    record.tolerance = {5.0, "5"};
     add_method_comparison(comparison_of(sound()), "um", record);
     EXPECT_THAT(joined_remarks(record), HasSubstr("tolerance of 5 µm would have been found at every point with a "
                                                   "probability of 95 % or more."));

@@ -46,7 +46,7 @@ TEST(SideOfBudget, IsInTheUnitOfTheComparison) {
     EXPECT_NEAR(found.uncertainty.front().u, 5000.0, 1e-9);
     EXPECT_NEAR(found.covariance(0, 0), 25e6, 1e-6);
     ASSERT_EQ(found.budget.size(), 2U);
-    EXPECT_NEAR(found.budget[0].contribution, 3000.0, 1e-9);
+    EXPECT_NEAR(found.budget[0].contribution.number, 3000.0, 1e-9);
     ASSERT_EQ(found.sources.all.front().size(), 1U);
     EXPECT_EQ(found.sources.all.front().front().source, "laser");
     EXPECT_EQ(found.remarks.front(), "Values and uncertainties of Method come from the budget budget.json.");

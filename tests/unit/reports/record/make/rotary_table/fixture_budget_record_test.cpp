@@ -34,7 +34,7 @@ TEST(FixtureBudgetRecord, HasTheBudgetOfTheLeastCertainCoordinate) {
     EXPECT_EQ(record.largest_coordinate, "R3.x");
     ASSERT_EQ(record.largest.size(), 3U);
     EXPECT_EQ(record.largest[1].input, "d_cmm");
-    EXPECT_NEAR(record.largest[1].share, 0.09 / (0.09 + std::pow(0.15275, 2)), 1e-12);
+    EXPECT_NEAR(record.largest[1].share.number, 0.09 / (0.09 + std::pow(0.15275, 2)), 1e-12);
 }
 
 TEST(FixtureBudgetRecord, WithoutBudgetIsAsStated) {

@@ -31,7 +31,7 @@ TEST(LocationErrorRecord, HasTheFrameThePointsAndTheErrors) {
     EXPECT_DOUBLE_EQ(without.machine_frame->points[0].u_um, 2.0);
     EXPECT_DOUBLE_EQ(without.machine_frame->points[0].residual_um[2], 1.2);
     EXPECT_EQ(without.machine_frame->printed_residual, "1.2");
-    EXPECT_EQ(without.machine_frame->printed_p, "0.25");
+    EXPECT_EQ(without.machine_frame->p_value.text, "0.25");
     EXPECT_TRUE(without.location_errors.empty());
 
     gum::UncertaintyBudget& budget = errors.budget.emplace();

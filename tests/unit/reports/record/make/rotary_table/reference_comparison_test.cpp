@@ -160,7 +160,7 @@ TEST(ReferenceComparison, DividesTheRepeatabilityByTheRunsOfThePoint) {
     EXPECT_NEAR(*comparison.points[1].reference_u, std::sqrt(of_indicator + 0.04), 1e-12);
     ASSERT_EQ(comparison.reference_budget.size(), 3U);
     EXPECT_EQ(comparison.reference_budget[2].input, "repeatability, mean of 4 runs");
-    EXPECT_NEAR(comparison.reference_budget[0].share, 0.03 / (of_indicator + 0.01), 1e-12);
+    EXPECT_NEAR(comparison.reference_budget[0].share.number, 0.03 / (of_indicator + 0.01), 1e-12);
     // Resolution and repeatability are of each point apart.
     const double r01 = 0.03 / std::sqrt((0.09 + of_indicator + 0.01) * (0.09 + of_indicator + 0.04));
     const double r12 = 0.03 / (0.09 + of_indicator + 0.04);
@@ -293,7 +293,7 @@ TEST(ReferenceComparison, EvaluatesTheBudgetAtEveryPoint) {
                 9.0 / (3.0 + 2.0 * (r01 * r01 + r02 * r02 + r12 * r12)), 1e-9);
     ASSERT_EQ(comparison.reference_budget.size(), 4U);
     EXPECT_EQ(comparison.reference_budget[0].input, "reading");
-    EXPECT_NEAR(comparison.reference_budget[1].contribution, 0.5, 1e-12);
+    EXPECT_NEAR(comparison.reference_budget[1].contribution.number, 0.5, 1e-12);
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("budgets/indicator.json, evaluated at every point"));
     EXPECT_THAT(joined(comparison.remarks), HasSubstr("largest uncertainty, x 0°"));
     EXPECT_THAT(joined(comparison.remarks), testing::Not(HasSubstr("maximum permissible error")));
@@ -306,7 +306,7 @@ TEST(ReferenceComparison, TakesABudgetInAnyUnitOfLength) {
     const reports::Comparison comparison = reference_comparison(read(campaign_with_budget(budget)), displacement());
     EXPECT_NEAR(comparison.points[0].reference_value.number, 5.0, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, std::sqrt(0.38), 1e-12);
-    EXPECT_NEAR(comparison.reference_budget[1].contribution, 0.5, 1e-12);
+    EXPECT_NEAR(comparison.reference_budget[1].contribution.number, 0.5, 1e-12);
 }
 
 TEST(ReferenceComparison, LetsWhatDependsOnTheReadingFollowIt) {

@@ -16,8 +16,8 @@ using reports::EvaluationRecord;
 EvaluationRecord record_with(double chi_square, double p_value, std::size_t removed = 0) {
     EvaluationRecord record = test::sample_record();
     reports::RotaryTable& rotary = *record.rotary;
-    rotary.adjustment.chi_square = chi_square;
-    rotary.adjustment.p_value = p_value;
+    rotary.adjustment.chi_square.number = chi_square;
+    rotary.adjustment.p_value.number = p_value;
     rotary.adjustment.degrees_of_freedom = 100;
     rotary.reliability.resize(100);
     rotary.flagged.assign(removed, {});
@@ -84,7 +84,7 @@ TEST(RotaryFindings, ARefutedFixtureBlocksAnAccreditedCertificate) {
     reports::VarianceComponent fixture;
     fixture.name = "fixture CMM";
     fixture.value = 1.9;
-    fixture.stated = 1.0;
+    fixture.stated.number = 1.0;
     fixture.estimated = true;
     fixture.used = false;
     fixture.degrees_of_freedom = 12.0;  // 12 · 1.9² = 43.3: p = 2e-5
