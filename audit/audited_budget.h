@@ -133,6 +133,7 @@ struct ComparedReference {
     /// Where another point of the comparison has a larger |E_n|: what takes the place of value − reference, so that E_n is
     /// that of the other point.
     std::optional<double> largest_difference = {};
+    bool budget_is_reference = false;  ///< the budget is that of the reference: E_n is of `value` minus its value
 };
 
 /// What a budget says of the Monte Carlo trials that its uncertainty comes from.

@@ -143,6 +143,15 @@ std::string verdict_of(const AuditedBudget& budget, const BudgetOutcome& outcome
     return gum::verdict_name(gum::decide_conformity(*budget.rule, budget.rule_parameters, budget.limits, y).verdict);
 }
 
+/// E_n of a value that the reference is compared with.
+double score_of(const ComparedReference& reference, double value, double U_difference) {
+    if (reference.largest_difference) {
+        return gum::settled_score(*reference.largest_difference, 0.0, U_difference);
+    }
+    return reference.budget_is_reference ? gum::settled_score(reference.value, value, U_difference)
+                                         : gum::settled_score(value, reference.value, U_difference);
+}
+
 }  // namespace
 
 BudgetOutcome evaluate(const AuditedBudget& budget) {
@@ -178,9 +187,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         const double U_difference = gum::uncertainty_of_difference(outcome.U, budget.reference->expanded_uncertainty,
                                                                    budget.reference->correlation);
         if (U_difference > 0.0) {
-            outcome.en = budget.reference->largest_difference
-                             ? gum::settled_score(*budget.reference->largest_difference, 0.0, U_difference)
-                             : gum::settled_score(*outcome.value, budget.reference->value, U_difference);
+            outcome.en = score_of(*budget.reference, *outcome.value, U_difference);
         }
     }
     return outcome;

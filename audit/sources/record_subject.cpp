@@ -414,7 +414,8 @@ void add_side(AuditSubject& subject, const reports::Comparison& comparison, Audi
                                        .expanded_uncertainty = other_U,
                                        .correlation = point.correlation.value_or(0.0),
                                        .name = is_reference ? comparison.method_name : comparison.reference_name,
-                                       .point = at};
+                                       .point = at,
+                                       .budget_is_reference = is_reference};
     const reports::ComparisonPoint& largest = comparison.points[point_with_largest_score(comparison)];
     if (point.En.number && std::abs(largest.En.number.value_or(0.0)) > std::abs(*point.En.number)) {
         side.reference->largest_difference = difference_of_score(*largest.En.number, U, *side.reference);

@@ -85,6 +85,15 @@ TEST(BudgetOutcome, DecidesAndScores) {
     EXPECT_NEAR(*evaluate(budget).en, -70.0 / std::hypot(evaluate(budget).U, 40.0), 1e-12);
 }
 
+TEST(BudgetOutcome, ScoresALaboratoryAgainstTheReferenceWhoseBudgetItIs) {
+    AuditedBudget budget = test::budget_of({test::row("a", 0.3)});
+    budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0};
+    budget.value = 1.0;
+    budget.reference =
+        ComparedReference{.value = 0.5, .expanded_uncertainty = 0.8, .name = "laboratory", .budget_is_reference = true};
+    EXPECT_NEAR(evaluate(budget).en.value_or(0.0), -0.5, 1e-12);
+}
+
 TEST(BudgetOutcome, ScoresThePointThatIsWorse) {
     AuditedBudget budget = test::budget_of({test::row("a", 0.3)});
     budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0};

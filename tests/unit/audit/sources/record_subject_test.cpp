@@ -118,7 +118,7 @@ TEST(SubjectOfRecord, ReadsTheStatementsOfAReference) {
                                   [](const AuditFinding& finding) { return finding.rule == "U10"; });
     ASSERT_NE(mpe, report.findings.end());
     ASSERT_TRUE(mpe->effect && mpe->effect->alone.en);
-    EXPECT_NEAR(std::abs(*mpe->effect->alone.en), 0.8 / std::hypot(0.6, 0.8 / std::sqrt(3.0)), 1e-9);
+    EXPECT_NEAR(*mpe->effect->alone.en, 0.8 / std::hypot(0.6, 0.8 / std::sqrt(3.0)), 1e-9);
 }
 
 TEST(SubjectOfRecord, ComparesAtThePointThatIsAskedFor) {
@@ -126,6 +126,7 @@ TEST(SubjectOfRecord, ComparesAtThePointThatIsAskedFor) {
     EXPECT_EQ(largest.budgets[0].reference->point, 1U);
     EXPECT_FALSE(largest.budgets[0].reference->largest_difference);
     EXPECT_NEAR(evaluate(largest.budgets[0]).en.value_or(0.0), 0.8, 1e-9);
+    EXPECT_NEAR(evaluate(largest.budgets[1]).en.value_or(0.0), 0.8, 1e-9) << "of the reference: the same sign";
     const AuditSubject first = subject_of(compared(), "record.json", 0);
     EXPECT_EQ(first.budgets[0].value, -0.5);
     EXPECT_NEAR(evaluate(first.budgets[0]).en.value_or(0.0), 0.8, 1e-9) << "of the other point";
