@@ -11,6 +11,7 @@
 #include "audit/nested_budgets.h"
 #include "audit/severity.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/rounding.h"
 
 namespace gumcert::audit {
 namespace {
@@ -40,6 +41,9 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     }
     if (claims.U && !claims.U->text.empty()) {
         outcome.printed_U = claims.U->text;
+    } else if (claims.U && claims.U->value > 0.0) {
+        outcome.printed_U =
+            gum::round_to_uncertainty(outcome.value.value_or(0.0), claims.U->value, budget.digits, budget.rounding).U;
     }
     if (!claims.verdict.empty()) {
         outcome.verdict = claims.verdict;

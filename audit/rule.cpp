@@ -116,7 +116,7 @@ void FindingCollector::add(AuditFinding finding, FindingSeverity severity) {
 }
 
 std::vector<AuditFinding> FindingCollector::take() {
-    constexpr std::size_t k_most_places = 12;
+    constexpr std::size_t k_most_places = 4;
     for (AuditFinding& finding : findings_) {
         if (!finding.other_places.empty()) {
             finding.evidence.push_back("the same at " + text::listed(finding.other_places, k_most_places));

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
@@ -46,13 +48,39 @@ std::string signed_percent(double share) {
     return text == "0.0" ? text : (share > 0.0 ? "+" : "-") + text;
 }
 
-/// The number as the file prints it, else its shortest digits.
-std::string stated_text(const std::optional<audit::StatedNumber>& number) {
-    if (!number) {
-        return "";
+/// Of the shortest text that gives the number.
+std::ptrdiff_t significant_digits(double number) {
+    const std::string all = text::shortest(number);
+    const std::string_view digits = std::string_view(all).substr(0, all.find('e'));
+    const std::size_t first = digits.find_first_of("123456789");
+    return first == digits.npos ? 0
+                                : std::count_if(digits.begin() + static_cast<std::ptrdiff_t>(first), digits.end(),
+                                                [](char c) { return c != '.'; });
+}
+
+/// A number without a text, of a record: as it was typed into the job where it has `most` significant digits at most. What was
+/// computed has more, and is rounded to `digits`.
+std::string typed_or_rounded(double number, int most, int digits) {
+    if (!std::isfinite(number)) {
+        return "∞";
     }
-    return number->text.empty() ? (std::isfinite(number->value) ? text::shortest_plain(number->value) : "∞")
-                                : printable(number->text);
+    return significant_digits(number) <= most ? text::shortest_plain(number)
+                                              : text::without_trailing_zeros(gum::round_significant(number, digits));
+}
+
+/// The number as the file prints it.
+std::string stated_text(const std::optional<audit::StatedNumber>& number) {
+    constexpr int k_most = 10;
+    return !number                ? ""
+           : number->text.empty() ? typed_or_rounded(number->value, k_most, k_most)
+                                  : printable(number->text);
+}
+
+/// The same of an uncertainty or a sensitivity.
+std::string stated_part(const std::optional<audit::StatedNumber>& number, double used) {
+    constexpr int k_most = 6;
+    return number && !number->text.empty() ? printable(number->text)
+                                           : typed_or_rounded(number ? number->value : used, k_most, k_digits);
 }
 
 PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims = nullptr) {
@@ -65,8 +93,9 @@ PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims
                        .En = outcome.en ? gum::round_to_quantum(*outcome.en, 2) : "",
                        .verdict = printable(outcome.verdict)};
     if (claims != nullptr) {
+        // A number without a text was computed here: it is rounded like the others beside it.
         const auto take = [](const std::optional<audit::StatedNumber>& claim, std::string& text) {
-            text = claim ? stated_text(claim) : text;
+            text = claim && !claim->text.empty() ? printable(claim->text) : text;
         };
         take(claims->value, all.value);
         take(claims->u_c, all.u_c);
@@ -143,26 +172,27 @@ double contribution_of(const AuditedRow& row) {
 
 AuditedRowView row_view(const AuditedRow& row, double sum_of_squares) {
     const double part = contribution_of(row);
-    AuditedRowView view{
-        .quantity = printable(row.quantity),
-        .unit = unit_text(row.unit),
-        .estimate = stated_text(row.estimate),
-        .stated = stated_text(row.stated),
-        .divisor = stated_text(row.divisor),
-        .u = row.u ? stated_text(row.u) : rounded(row.used_u),
-        .sensitivity = row.sensitivity ? stated_text(row.sensitivity) : text::shortest_plain(row.used_sensitivity),
-        .nu = row.nu ? stated_text(row.nu) : "",
-        .source = printable(row.source),
-        .comment = printable(row.comment),
-        .place = printable(row.place),
-        .shape = printable(row.shape_text),
-        .shape_name = name_of(row.shape),
-        .contribution = part,
-        .contribution_text = rounded(part),
-        .share = part * part / sum_of_squares,
-        .share_percent = "",
-        .in_sum = row.in_sum,
-        .findings = {}};
+    AuditedRowView view{.quantity = printable(row.quantity),
+                        .unit = unit_text(row.unit),
+                        .estimate = stated_text(row.estimate),
+                        .stated = stated_text(row.stated),
+                        .divisor = stated_text(row.divisor),
+                        .u = stated_part(row.u, row.used_u),
+                        .sensitivity = stated_part(row.sensitivity, row.used_sensitivity),
+                        .nu = !row.nu                ? ""
+                              : row.nu->text.empty() ? printed_nu(row.nu->value)
+                                                     : printable(row.nu->text),
+                        .source = printable(row.source),
+                        .comment = printable(row.comment),
+                        .place = printable(row.place),
+                        .shape = printable(row.shape_text),
+                        .shape_name = name_of(row.shape),
+                        .contribution = part,
+                        .contribution_text = rounded(part),
+                        .share = part * part / sum_of_squares,
+                        .share_percent = "",
+                        .in_sum = row.in_sum,
+                        .findings = {}};
     view.share_percent = gum::percent(view.share);
     if (view.divisor.empty() && row.certificate_k) {
         view.divisor = text::shortest_plain(*row.certificate_k);
@@ -216,9 +246,9 @@ ContributorView contributor_view(const ContributorKind& kind, const AuditedBudge
     return view;
 }
 
-/// A limit or reference of a budget: its shortest digits.
+/// A capability, limit or reference of a budget.
 std::string plain_number(const std::optional<double>& number) {
-    return number ? text::shortest_plain(*number) : "";
+    return number ? typed_or_rounded(*number, 10, 10) : "";
 }
 
 AuditedResultView::Claim claim_of(const std::optional<audit::StatedNumber>& claim, const audit::Interval& allowed) {
@@ -236,7 +266,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.capability_number = budget.capability;
     view.coverage = name_of(budget.coverage.kind);
     if (budget.coverage.kind == audit::CoverageRule::Kind::fixed) {
-        view.stated_k = text::shortest_plain(budget.coverage.k);
+        view.stated_k = typed_or_rounded(budget.coverage.k, 6, k_digits);
     } else {
         view.coverage_probability = text::without_trailing_zeros(text::fixed(100.0 * budget.coverage.probability, 2));
     }

@@ -81,6 +81,41 @@ TEST(AuditViewOfABudget, SaysWhichClaimsTheRowsDoNotAllow) {
     EXPECT_FALSE(view_of(report).files[0].results[0].claim_u_c.allowed);
 }
 
+TEST(AuditViewOfABudget, PrintsTypedNumbersAsTypedAndRoundsComputedOnes) {
+    const auto row_with = [](double u, double estimate) {
+        audit::AuditReport report = test::sample_audit();
+        audit::AuditedRow& row = report.subject.budgets[0].rows[3];
+        row.u = row.sensitivity = audit::exact_number(u, "");
+        row.estimate = audit::exact_number(estimate, "");
+        row.nu = audit::exact_number(5.783117190965824, "");
+        return view_of(report).files[0].results[0].rows[0];
+    };
+    const AuditedRowView typed = row_with(0.00125, 50.000623);
+    EXPECT_EQ(typed.u, "0.00125");
+    EXPECT_EQ(typed.sensitivity, "0.00125");
+    EXPECT_EQ(typed.estimate, "50.000623");
+    const AuditedRowView computed = row_with(0.1 * 39.0 + 0.1 - 0.1, 49.99999999999999);
+    EXPECT_EQ(computed.u, "3.9") << "not 3.9000000000000004";
+    EXPECT_EQ(computed.estimate, "50");
+    EXPECT_EQ(row_with(std::sqrt(0.125), 1e6 / 3.0).u, "0.354");
+    EXPECT_EQ(row_with(std::sqrt(0.125), 1e6 / 3.0).estimate, "333333.3333");
+    EXPECT_EQ(computed.nu, "5.8");
+}
+
+TEST(AuditViewOfABudget, AClaimThatWasComputedIsRoundedLikeTheOthers) {
+    audit::AuditSubject subject;
+    subject.budgets = {test::sample_audited_budget()};
+    audit::AuditedBudget& budget = subject.budgets[0];
+    budget.claims.u_c = audit::exact_number(0.658761, "");
+    budget.claims.U = audit::exact_number(1.31752301, "");
+    budget.claims.k = audit::exact_number(2.000004, "");
+    const audit::AuditReport report = audit::audit(std::move(subject), test::sample_rules());
+    const AuditedResultView result = view_of(report).files[0].results[0];
+    EXPECT_EQ(result.claimed.u_c, "0.659");
+    EXPECT_EQ(result.claimed.U, "1.3");
+    EXPECT_EQ(result.claimed.k, "2.00");
+}
+
 TEST(AuditViewOfABudget, AsksForSixContributors) {
     const AuditView view = view_of(test::sample_audit());
     const std::vector<ContributorView>& all = view.files[0].results[0].contributors;
