@@ -46,15 +46,6 @@ std::vector<double> standard_uncertainties(const Eigen::MatrixXd& stated, const 
     return list;
 }
 
-std::vector<std::string> printed_as_stated(const std::vector<double>& values) {
-    std::vector<std::string> texts;
-    texts.reserve(values.size());
-    for (const double value : values) {
-        texts.push_back(as_stated(value));
-    }
-    return texts;
-}
-
 std::vector<std::string> printed_rounded(const std::vector<double>& values, int digits) {
     std::vector<std::string> texts;
     texts.reserve(values.size());
@@ -119,7 +110,7 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
         for (std::size_t q = 0; q < fit.regressors.size(); ++q) {
             FitSummary::Regressor regressor{
                 .name = fit.regressors[q], .unit = fit.regressor_units[q].text(), .values = column(q), .printed = {}};
-            regressor.printed = printed_as_stated(regressor.values);
+            regressor.printed = series_as_stated(regressor.values);
             summary.regressors.push_back(std::move(regressor));
         }
     }
@@ -129,8 +120,8 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
         summary.residual.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
     }
     summary.u_y = standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit);
-    summary.printed.x = printed_as_stated(summary.x);
-    summary.printed.y = printed_as_stated(summary.y);
+    summary.printed.x = series_as_stated(summary.x);
+    summary.printed.y = series_as_stated(summary.y);
     summary.printed.u_x = printed_rounded(summary.u_x, reports::k_digits_of_u);
     summary.printed.u_y = printed_rounded(summary.u_y, reports::k_digits_of_u);
     summary.printed.residual = printed_rounded(summary.residual, k_digits_of_residual);
