@@ -63,11 +63,12 @@ StatementKeys StatementKeys::with(std::string_view key, double number, const Csv
     return both;
 }
 
-StatementKeys StatementKeys::with(std::string_view key, const std::vector<double>& numbers, const CsvTable& table,
-                                  const CsvCell& cell, ProblemList& problems, const std::string& column) const {
+StatementKeys StatementKeys::with(std::string_view key, const std::vector<double>& numbers, int decimals,
+                                  const CsvTable& table, const CsvCell& cell, ProblemList& problems,
+                                  const std::string& column) const {
     StatementKeys both = *this;
     both.stands_at(table, cell, problems, column);
-    both.put({key, std::make_shared<const json>(numbers), both.origin_, false});
+    both.put({key, std::make_shared<const json>(numbers), both.origin_, false, decimals});
     return both;
 }
 
@@ -256,6 +257,11 @@ std::optional<std::vector<double>> StatementKeys::numbers(std::string_view key) 
         }
     }
     return numbers.size() == elements->size() ? std::optional{std::move(numbers)} : std::nullopt;
+}
+
+int StatementKeys::decimals_in_table(std::string_view key) const {
+    const Entry* entry = find(key);
+    return entry == nullptr ? 0 : entry->decimals;
 }
 
 const json* StatementKeys::array(std::string_view key) const {

@@ -32,8 +32,10 @@ public:
                                      ProblemList& problems, const std::string& column) const;
 
     /// The same with several numbers of a row, the first of which stands in the cell.
-    [[nodiscard]] StatementKeys with(std::string_view key, const std::vector<double>& numbers, const CsvTable& table,
-                                     const CsvCell& cell, ProblemList& problems, const std::string& column) const;
+    /// \param decimals  the most with which one of them is written
+    [[nodiscard]] StatementKeys with(std::string_view key, const std::vector<double>& numbers, int decimals,
+                                     const CsvTable& table, const CsvCell& cell, ProblemList& problems,
+                                     const std::string& column) const;
 
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Null pointer when the key is absent, or its number was refused while the text was read.
@@ -52,6 +54,8 @@ public:
     /// Degrees of freedom: a number above 0 or "inf".
     [[nodiscard]] std::optional<double> degrees_of_freedom(std::string_view key) const;
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key) const;
+    /// The most decimals with which one of the numbers under a key is written, where they stand in a table; else 0.
+    [[nodiscard]] int decimals_in_table(std::string_view key) const;
     /// An object or an array of the document under a key; refused when it is something else.
     [[nodiscard]] std::optional<JsonObject> object(std::string_view key, std::span<const std::string_view> keys) const;
     [[nodiscard]] const nlohmann::json* array(std::string_view key) const;
@@ -81,6 +85,7 @@ private:
         std::shared_ptr<const nlohmann::json> value;  ///< owned only where it comes from a table
         std::shared_ptr<const Origin> origin;
         bool is_member = true;  ///< of the object at the origin's pointer; else the value itself stands there
+        int decimals = 0;       ///< of numbers of a table, as they are written
     };
     [[nodiscard]] const Entry* find(std::string_view key) const;
     [[nodiscard]] static std::string where_of(const Entry& entry);

@@ -35,7 +35,10 @@ struct StatedQuantity {
     double degrees_of_freedom = std::numeric_limits<double>::infinity();  ///< for the law of propagation
     Distribution distribution;  ///< what Monte Carlo draws, coherent SI (JCGM 101:2008, 6.4)
     std::string source, note, significance;
-    std::vector<double> observations;                 ///< coherent SI, in the order read
+    std::vector<double> observations;  ///< coherent SI, in the order read
+    /// The most decimals with which one of them was written, in the unit of the input, where it is known: what the
+    /// display had; nothing is evaluated from it
+    int observation_decimals = 0;
     std::optional<double> pooled_standard_deviation;  ///< coherent SI, where it is pooled; its ν is degrees_of_freedom
     std::optional<GroupedReadings> groups;
     /// Samples from a file: its name, and the values in the order of its rows, coherent SI. Quantities with samples of

@@ -165,7 +165,8 @@ CellSum convolve(std::span<const Centred> distributions, double widest_grid, dou
     reach = std::min(reach, widest);
     const double h = reach / static_cast<double>(k_last_cell);
 
-    Eigen::FFT<double> transform;
+    // It keeps its table of sines, which takes as long as a transform.
+    thread_local Eigen::FFT<double> transform;
     // The spectrum of a sum of independent quantities is the product of their spectra.
     std::vector<std::complex<double>> product;
     for (const Centred& centred : distributions) {

@@ -73,6 +73,8 @@ double value_in_unit(const gum::BudgetInput& input) {
     return sum;
 }
 
+constexpr int k_most_decimals = 15;  // a number in double precision has no more that mean something
+
 /// Readings of one input in a row of a file of points.
 struct FileReadings {
     std::vector<double> numbers;
@@ -707,7 +709,6 @@ void BudgetInputs::fill_columns(std::size_t points, BudgetJob& job) {
 }
 
 void BudgetInputs::note_decimals(std::size_t input, std::size_t point, int decimals) {
-    constexpr int k_most_decimals = 15;
     std::vector<int>& all = decimals_[input];
     all.resize(point + 1, -1);
     all[point] = std::min(decimals, k_most_decimals);
@@ -1067,8 +1068,9 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             const auto found = overrides.find(input);
             const StatementKeys& before = found == overrides.end() ? *stated_[input].keys : found->second;
             const FileColumn& column = columns[read.first];
-            overrides.insert_or_assign(input, before.with("observations", read.numbers, *table,
-                                                          table->cell(row, read.first), *file->problems, column.name));
+            overrides.insert_or_assign(
+                input, before.with("observations", read.numbers, std::min(read.decimals, k_most_decimals), *table,
+                                   table->cell(row, read.first), *file->problems, column.name));
             ++stated_[input].overridden["observations"];
             note_decimals(input, job.points.size(), read.decimals + (read.numbers.size() > 1 ? 1 : 0));
         }

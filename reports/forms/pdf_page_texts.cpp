@@ -1,12 +1,12 @@
 #include "reports/forms/pdf_page_texts.h"
 
+#include "reports/forms/pdf_drawn_codes.h"
 #include "reports/forms/qpdf_objects.h"
 #include "text/utf8.h"
 
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 
 namespace gumcert::reports {
@@ -35,7 +35,7 @@ std::string from_utf16(const std::string& bytes) {
     return text;
 }
 
-unsigned code_of(const std::string& bytes) {
+unsigned code_of(std::string_view bytes) {
     unsigned code = 0;
     for (const char c : bytes.substr(0, 4)) {
         code = (code << 8U) | static_cast<unsigned>(static_cast<unsigned char>(c));
@@ -129,53 +129,51 @@ std::string bare(const std::string& text) {
     return out;
 }
 
-class PageReader : public Object::ParserCallbacks {
-public:
-    PageReader(Object fonts, std::map<QPDFObjGen, CodeTexts>& known) : fonts_(std::move(fonts)), known_(known) {}
-    void handleObject(Object object) override {
-        if (!object.isOperator()) {
-            operands_.push_back(object);
-            return;
-        }
-        const std::string name = object.getOperatorValue();
-        if (name == "Tf" && operands_.size() == 2 && operands_[0].isName() && fonts_.isDictionary()) {
-            Object font = fonts_.getKey(operands_[0].getName());
-            const QPDFObjGen id = font.getObjGen();
-            if (font.isDictionary() && !known_.contains(id)) {
-                known_.emplace(id, code_texts(font));
-            }
-            font_ = font.isDictionary() ? &known_.at(id) : nullptr;
-        } else if (name == "Tj" || name == "TJ" || name == "'" || name == "\"") {
-            for (Object& operand : operands_) {
-                show(operand);
-            }
-        }
-        operands_.clear();
+/// The decoded content of a page; of several streams with a blank between them, as if they were one.
+std::string content_of(Object page) {
+    std::string content;
+    for (Object& part : page.getPageContents()) {
+        const std::shared_ptr<Buffer> data = part.getStreamData(qpdf_dl_all);
+        content.append(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
+        content += '\n';
     }
-    void handleEOF() override {}
-    [[nodiscard]] std::string text() const { return bare(text_); }
+    return content;
+}
+
+/// The texts of the fonts of a document, each read when a page first draws with it.
+class Fonts {
+public:
+    /// \return null where there is no such font
+    const CodeTexts* find(Object resources, const std::string& name) {
+        Object font = resources.isDictionary() ? resources.getKey("/" + name) : Object::newNull();
+        if (!font.isDictionary()) {
+            return nullptr;
+        }
+        const auto [found, is_new] = known_.try_emplace(font.getObjGen());
+        if (is_new) {
+            found->second = code_texts(font);
+        }
+        return &found->second;
+    }
 
 private:
-    void show(Object operand) {
-        if (operand.isArray()) {
-            for (Object item : operand.getArrayAsVector()) {
-                show(item);
-            }
-        } else if (operand.isString() && font_ != nullptr) {
-            const std::string bytes = operand.getStringValue();
-            for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {  // two bytes a code (Identity-H)
-                const auto found = font_->find(code_of(bytes.substr(i, 2)));
-                text_ += found == font_->end() ? "" : found->second;
-            }
+    std::map<QPDFObjGen, CodeTexts> known_;
+};
+
+std::string text_of_page(Object page, Fonts& fonts) {
+    Object resources = page.getKey("/Resources");
+    resources = resources.isDictionary() ? resources.getKey("/Font") : Object::newNull();
+    std::string text;
+    for (const DrawnCodes& drawn : drawn_codes(content_of(page))) {
+        const CodeTexts* font = fonts.find(resources, drawn.font);
+        // Two bytes a code (Identity-H).
+        for (std::size_t i = 0; font != nullptr && i + 1 < drawn.codes.size(); i += 2) {
+            const auto found = font->find(code_of(std::string_view(drawn.codes).substr(i, 2)));
+            text += found == font->end() ? "" : found->second;
         }
     }
-
-    Object fonts_;
-    std::map<QPDFObjGen, CodeTexts>& known_;
-    const CodeTexts* font_ = nullptr;
-    std::vector<Object> operands_;
-    std::string text_;
-};
+    return bare(text);
+}
 
 std::string digits_of(std::string_view text) {
     std::string digits;
@@ -283,13 +281,10 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
     QPDF pdf;
     pdf.setSuppressWarnings(true);
     pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
-    std::map<QPDFObjGen, CodeTexts> fonts;
+    Fonts fonts;
     std::vector<std::string> texts;
-    for (Object page : pdf.getAllPages()) {
-        Object resources = page.getKey("/Resources");
-        PageReader reader(resources.isDictionary() ? resources.getKey("/Font") : Object::newNull(), fonts);
-        page.parsePageContents(&reader);
-        texts.push_back(reader.text());
+    for (const Object& page : pdf.getAllPages()) {
+        texts.push_back(text_of_page(page, fonts));
     }
     return texts;
 }

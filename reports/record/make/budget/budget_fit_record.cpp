@@ -46,7 +46,7 @@ std::vector<double> standard_uncertainties(const Eigen::MatrixXd& stated, const 
     return list;
 }
 
-/// Numbers and the texts that a function makes of them.
+/// Numbers and their texts, each made by itself.
 template <class Print>
 Shown<std::vector<double>> shown(std::vector<double> numbers, const Print& print) {
     std::vector<std::string> texts;
@@ -54,6 +54,12 @@ Shown<std::vector<double>> shown(std::vector<double> numbers, const Print& print
     for (const double number : numbers) {
         texts.push_back(print(number));
     }
+    return {std::move(numbers), std::move(texts)};
+}
+
+/// Data of one column, with equal decimals.
+Shown<std::vector<double>> shown_series(std::vector<double> numbers) {
+    std::vector<std::string> texts = series_as_stated(numbers);
     return {std::move(numbers), std::move(texts)};
 }
 
@@ -109,22 +115,22 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
     if (fit.regressors.size() == 1) {
         summary.x_name = fit.regressors.front();
         summary.x_unit = fit.regressor_units.front().text();
-        summary.x = shown(column(0), as_stated);
+        summary.x = shown_series(column(0));
         summary.u_x = shown(standard_uncertainties(fit.x_uncertainty, fit.regressor_units.front()), printed_u);
     } else {
         for (std::size_t q = 0; q < fit.regressors.size(); ++q) {
             summary.regressors.push_back({.name = fit.regressors[q],
                                           .unit = fit.regressor_units[q].text(),
-                                          .values = shown(column(q), as_stated)});
+                                          .values = shown_series(column(q))});
         }
     }
     for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
         summary.y.number.push_back(fit.ordinate_unit.from_si(fit.y(i)));
-        summary.y.text.push_back(as_stated(summary.y.number.back()));
         summary.fitted.push_back(fit.ordinate_unit.from_si(fit.y(i) - solved.residuals(i)));
         summary.residual.number.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
         summary.residual.text.push_back(rounded(summary.residual.number.back(), k_digits_of_residual));
     }
+    summary.y.text = series_as_stated(summary.y.number);
     summary.u_y = shown(standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit), printed_u);
 }
 

@@ -80,9 +80,7 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
     summary.component = stated.quantity.name;
     summary.unit = stated.input.unit.text();
     summary.point = stated.point;
-    for (const double reading : readings) {
-        summary.observations.push_back(as_stated(reading));
-    }
+    summary.observations = series_as_stated(readings, stated.quantity.observation_decimals);
     summary.n = static_cast<std::int64_t>(readings.size());
     summary.mean.number = readings.front();
     if (readings.size() >= 2) {
@@ -169,6 +167,7 @@ reports::VarianceAnalysis variance_analysis(const Stated& stated) {
 void add_outliers(const Stated& stated, const char* of, std::size_t group, std::span<const double> readings,
                   reports::EvaluationRecord& record) {
     const double step = stated_resolution(stated.input);
+    const std::vector<std::string> printed = series_as_stated(readings, stated.quantity.observation_decimals);
     for (const gum::OutlyingReading& found : gum::outlying_readings(readings, step)) {
         reports::OutlyingReading out;
         out.input = stated.input.name;
@@ -182,7 +181,7 @@ void add_outliers(const Stated& stated, const char* of, std::size_t group, std::
         out.value.number = found.value;
         out.G.number = found.G;
         out.p_value.number = found.p_value;
-        out.value.text = as_stated(found.value);
+        out.value.text = printed[found.position];
         out.G.text = rounded(found.G, 3);
         out.p_value.text = printed_p_value(found.p_value);
         record.outliers.push_back(std::move(out));

@@ -1,8 +1,10 @@
 #include "reports/record/make/budget/budget_texts.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
@@ -19,13 +21,44 @@ std::string printed_estimate(double value, double u) {
     return u > 0.0 ? gum::round_to_uncertainty(value, u, reports::k_digits_of_u).value : text::shortest(value);
 }
 
-std::string as_stated(double value) {
+namespace {
+
+/// The number that was written, without the traces of conversion.
+double written_number(double value) {
     std::array<char, 32> text{};
     const auto written = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 15);
     double back = value;
     std::from_chars(text.data(), written.ptr, back);
     // The 15 digits are what was written, unless conversion moved the number by more than its own rounding.
-    return text::shortest(std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value);
+    return std::fabs(back - value) <= 4e-16 * std::fabs(value) ? back : value;
+}
+
+}  // namespace
+
+std::string as_stated(double value) {
+    return text::shortest(written_number(value));
+}
+
+std::vector<std::string> series_as_stated(std::span<const double> values, int least) {
+    // With decimals that are known each number was written without an exponent.
+    const double least_plain = least > 0 ? 1e-15 : 1e-4;
+    std::vector<std::string> texts;
+    texts.reserve(values.size());
+    int most = std::max(least, 0);
+    bool is_plain = true;
+    for (const double value : values) {
+        texts.push_back(text::shortest_plain(written_number(value), least_plain));
+        is_plain = is_plain && texts.back().find('e') == std::string::npos;
+        most = is_plain ? std::max(most, certificate::decimals_of(texts.back())) : 0;
+    }
+    for (std::string& text : texts) {
+        const int lacking = is_plain ? most - certificate::decimals_of(text) : 0;
+        if (lacking > 0) {
+            text += text.find('.') == std::string::npos ? "." : "";
+            text.append(static_cast<std::size_t>(lacking), '0');
+        }
+    }
+    return texts;
 }
 
 std::string printed_p_value(double p) {

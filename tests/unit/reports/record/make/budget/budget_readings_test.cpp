@@ -47,6 +47,22 @@ TEST(BudgetReadings, OfTheJobHoldAtTheOtherPoints) {
     EXPECT_EQ(record.readings[1].observations, (std::vector<std::string>{"1.1", "1.2", "1.3"}));
 }
 
+TEST(BudgetReadings, PrintTheResolutionWithWhichTheyWereWritten) {
+    const std::string keys =
+        R"("model": ["y = x + d"], "inputs": {"x": {"unit": "V", "components": [{"name": "a", "observations": [10.10, 10.12, 9.9]},
+                                                                            {"name": "b", "half_width": 0.1, "value": 0}]},
+                                              "d": {"unit": "V", "value": 0, "u": 0.1}})";
+    EXPECT_EQ(record_of(jobs::test::read_budget(keys)).readings.at(0).observations,
+              (std::vector<std::string>{"10.10", "10.12", "9.90"}));
+    // A table knows that all of them had two decimals; each point has its own.
+    const EvaluationRecord record = record_of(jobs::test::read_budget(
+        R"("model": ["y = x"], "inputs": {"x": {"unit": "V"}}, "points": {"file": "points.csv"})",
+        {{"points.csv", "point,x.1,x.2\nA,10.10,10.20\nB,100.0,101.0\n"}}));
+    ASSERT_EQ(record.readings.size(), 2U);
+    EXPECT_EQ(record.readings[0].observations, (std::vector<std::string>{"10.10", "10.20"}));
+    EXPECT_EQ(record.readings[1].observations, (std::vector<std::string>{"100.0", "101.0"}));
+}
+
 TEST(BudgetReadings, OutliersAreFoundInPointsGroupsAndMeans) {
     const EvaluationRecord record = record_of(jobs::test::read_budget(
         R"("model": ["y = x + g"], "inputs": {"x": {"unit": "mV"}, "g": {"unit": "mV",

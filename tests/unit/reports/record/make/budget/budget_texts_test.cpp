@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
 
 namespace gumcert::reports {
 namespace {
@@ -16,6 +22,35 @@ TEST(BudgetTexts, StatedNumbersComeBackWithoutTracesOfConversion) {
     EXPECT_EQ(as_stated(0.1 * 3.0), "0.3");
     EXPECT_EQ(as_stated(1.0 / 3.0), "0.3333333333333333");
     EXPECT_EQ(text::shortest(-0.0), "0");
+}
+
+TEST(BudgetTexts, NumbersOfASeriesHaveEqualDecimals) {
+    using Texts = std::vector<std::string>;
+    EXPECT_EQ(series_as_stated(std::vector{10.1, 10.12, -9.0}), (Texts{"10.10", "10.12", "-9.00"}));
+    EXPECT_EQ(series_as_stated(std::vector{10.1, 10.2}, 3), (Texts{"10.100", "10.200"}));
+    EXPECT_EQ(series_as_stated(std::vector{10.0, 7.0}), (Texts{"10", "7"}));
+    EXPECT_EQ(series_as_stated(std::vector{100000.0, 100000.5}), (Texts{"100000.0", "100000.5"}));
+    EXPECT_EQ(series_as_stated(std::vector{5.1e-6, 5e-6}, 7), (Texts{"0.0000051", "0.0000050"}));
+    EXPECT_EQ(series_as_stated(std::vector{1e-30, 0.5}), (Texts{"1e-30", "0.5"})) << "no decimals to add";
+    EXPECT_TRUE(series_as_stated({}).empty());
+}
+
+TEST(BudgetTexts, ASeriesMovesNoValue) {
+    std::mt19937_64 draws(18);
+    for (int run = 0; run < 2000; ++run) {
+        std::vector<double> values;
+        for (std::uint64_t i = draws() % 8; i < 8; ++i) {
+            const double digits = static_cast<double>(draws() % 2'000'000) - 1e6;
+            values.push_back(digits / std::pow(10.0, static_cast<double>(draws() % 7)));
+        }
+        const std::vector<std::string> texts = series_as_stated(values, 1 + static_cast<int>(draws() % 5));
+        ASSERT_EQ(texts.size(), values.size());
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_EQ(std::stod(texts[i]), std::stod(as_stated(values[i]))) << texts[i];
+            EXPECT_EQ(texts[i].size() - std::min(texts[i].find('.'), texts[i].size()),
+                      texts[0].size() - std::min(texts[0].find('.'), texts[0].size()));
+        }
+    }
 }
 
 TEST(BudgetTexts, EstimatesEndWithTheirUncertainty) {

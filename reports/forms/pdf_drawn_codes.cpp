@@ -1,0 +1,160 @@
+#include "reports/forms/pdf_drawn_codes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace gumcert::reports {
+
+namespace {
+
+bool is_white(char c) {
+    return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\0';
+}
+
+/// Characters that end a name, a number or an operator (ISO 32000-1:2008, 7.2.2).
+bool is_delimiter(char c) {
+    return std::string_view("()<>[]{}/%").find(c) != std::string_view::npos;
+}
+
+/// The value of a hexadecimal digit; -1 of any other character.
+int hexadecimal_value(char c) {
+    if (c >= '0' && c <= '9') {
+        return c - '0';
+    }
+    const char small = static_cast<char>(c | 0x20);
+    return small >= 'a' && small <= 'f' ? small - 'a' + 10 : -1;
+}
+
+/// Reads the content once, from left to right. Made for many pages: no object is kept but the strings and the last name
+/// since the last operator.
+class ContentReader {
+public:
+    explicit ContentReader(std::string_view content) : rest_(content) {}
+
+    std::vector<DrawnCodes> read() {
+        while (!rest_.empty()) {
+            const char c = rest_.front();
+            if (is_white(c)) {
+                rest_.remove_prefix(1);
+            } else if (c == '%') {
+                rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
+            } else if (c == '(') {
+                read_literal_string();
+            } else if (c == '<' && !rest_.starts_with("<<")) {
+                read_hexadecimal_string();
+            } else if (c == '/') {
+                rest_.remove_prefix(1);
+                name_ = take_regular();
+            } else if (is_delimiter(c)) {
+                rest_.remove_prefix(1);  // of an array or a dictionary
+            } else {
+                read_number_or_operator();
+            }
+        }
+        return std::move(drawn_);
+    }
+
+private:
+    std::string_view take_regular() {
+        std::size_t length = 0;
+        while (length < rest_.size() && !is_white(rest_[length]) && !is_delimiter(rest_[length])) {
+            ++length;
+        }
+        const std::string_view taken = rest_.substr(0, length);
+        rest_.remove_prefix(length);
+        return taken;
+    }
+
+    void read_hexadecimal_string() {
+        int high = -1;
+        std::size_t at = 1;
+        for (; at < rest_.size() && rest_[at] != '>'; ++at) {
+            const int value = hexadecimal_value(rest_[at]);
+            if (value >= 0 && high >= 0) {
+                strings_ += static_cast<char>(high * 16 + value);
+                high = -1;
+            } else if (value >= 0) {
+                high = value;
+            }
+        }
+        if (high >= 0) {
+            strings_ += static_cast<char>(high * 16);  // a digit that is missing is 0
+        }
+        rest_.remove_prefix(std::min(at + 1, rest_.size()));
+    }
+
+    void read_literal_string() {
+        int open = 0;
+        do {
+            const char c = rest_.front();
+            rest_.remove_prefix(1);
+            if (c == '\\') {
+                read_escape();
+                continue;
+            }
+            open += c == '(' ? 1 : c == ')' ? -1 : 0;
+            const bool is_frame = (c == '(' && open == 1) || open == 0;
+            if (!is_frame) {
+                strings_ += c;
+            }
+        } while (open > 0 && !rest_.empty());
+    }
+
+    /// What stands behind a backslash (ISO 32000-1:2008, table 3).
+    void read_escape() {
+        if (rest_.empty()) {
+            return;
+        }
+        int code = 0;
+        std::size_t digits = 0;
+        while (digits < 3 && digits < rest_.size() && rest_[digits] >= '0' && rest_[digits] <= '7') {
+            code = code * 8 + (rest_[digits++] - '0');
+        }
+        if (digits > 0) {
+            strings_ += static_cast<char>(code);
+            rest_.remove_prefix(digits);
+            return;
+        }
+        constexpr std::string_view k_letters = "nrtbf";
+        constexpr std::string_view k_meanings = "\n\r\t\b\f";
+        const char c = rest_.front();
+        rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : 1);
+        if (const std::size_t letter = k_letters.find(c); letter != std::string_view::npos) {
+            strings_ += k_meanings[letter];
+        } else if (c != '\r' && c != '\n') {  // the end of a line is left out together with its backslash
+            strings_ += c;
+        }
+    }
+
+    void read_number_or_operator() {
+        const std::string_view word = take_regular();
+        if ((word.front() >= '0' && word.front() <= '9') || word.front() == '-' || word.front() == '+' ||
+            word.front() == '.') {
+            return;
+        }
+        if (word == "Tf") {
+            font_ = name_;
+        } else if (word == "Tj" || word == "TJ" || word == "'" || word == "\"") {
+            drawn_.push_back({std::string(font_), strings_});
+        } else if (word == "ID") {
+            // The bytes of an image within the content end before EI.
+            rest_.remove_prefix(std::min(rest_.find("EI"), rest_.size()));
+        }
+        strings_.clear();
+    }
+
+    std::string_view rest_;
+    std::string_view name_;
+    std::string_view font_;
+    std::string strings_;
+    std::vector<DrawnCodes> drawn_;
+};
+
+}  // namespace
+
+std::vector<DrawnCodes> drawn_codes(std::string_view content) {
+    return ContentReader(content).read();
+}
+
+}  // namespace gumcert::reports

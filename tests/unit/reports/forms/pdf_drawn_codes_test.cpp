@@ -1,0 +1,52 @@
+#include "reports/forms/pdf_drawn_codes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace gumcert::reports {
+namespace {
+
+/// "font:codes font:codes", codes as they are.
+std::string drawn(std::string_view content) {
+    std::string all;
+    for (const DrawnCodes& one : drawn_codes(content)) {
+        all += (all.empty() ? "" : " ") + one.font + ":" + one.codes;
+    }
+    return all;
+}
+
+TEST(DrawnCodes, AreThoseOfEveryOperatorThatDraws) {
+    EXPECT_EQ(drawn("BT /f0 12 Tf 1 0 0 -1 0 0 Tm (a) Tj [(b) -10 <63> 7(d)]TJ /f1 8.5 Tf (e) ' 1 2 (f) \" ET"),
+              "f0:a f0:bcd f1:e f1:f");
+    EXPECT_EQ(drawn("(x) Tj"), ":x");
+    EXPECT_EQ(drawn(""), "");
+}
+
+TEST(DrawnCodes, StringsOfOtherOperatorsAreNotDrawn) {
+    EXPECT_EQ(drawn("/Span << /MCID 3 /Alt (words) /E <616263> >> BDC /f0 9 Tf (a) Tj EMC"), "f0:a");
+    EXPECT_EQ(drawn("% (words) Tj\n/f0 9 Tf (a) Tj"), "f0:a");
+    EXPECT_EQ(drawn("BI /W 1 /H 1 ID (\\(( EI /f0 9 Tf (a) Tj"), "f0:a");
+}
+
+TEST(DrawnCodes, AStringIsDecoded) {
+    EXPECT_EQ(drawn("<6 16\n2 5> Tj"), ":abP");  // a digit that is missing is 0
+    EXPECT_EQ(drawn("(a(b)c) Tj"), ":a(b)c");
+    EXPECT_EQ(drawn("(\\(\\)\\\\\\n\\101\\1012\\x\\\nz) Tj"), ":()\\\nAA2xz");
+    EXPECT_EQ(drawn("(\\0501\\)) Tj"), ":(1)");
+}
+
+/// Whatever is cut off, the reader ends, and what it has read before is a beginning of the whole.
+TEST(DrawnCodes, ContentMayEndAnywhere) {
+    const std::string content = "/f0 12 Tf [<0001> -10 (a\\)b(c))] TJ % end\n/f1 9 Tf BI ID x EI <61> Tj (\\7";
+    const std::string whole = drawn(content);
+    for (std::size_t length = 0; length <= content.size(); ++length) {
+        const std::string part = drawn(std::string_view(content).substr(0, length));
+        EXPECT_EQ(whole.substr(0, part.size()), part) << length;
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::reports
