@@ -28,6 +28,9 @@ bool is_open_interval(const std::string& text) {
     return false;
 }
 
+// A scope is read once and decides about many certificates: what can be read in two ways is refused here, all of it at
+// once, and not where a value happens to fall between two points. Form first, for every other check follows from it;
+// the expression last, for it can be compiled only with arguments that are in order.
 class Check {
 public:
     explicit Check(const Capability& capability) : c_(capability) {}
@@ -69,6 +72,7 @@ void Check::U(const std::string& key, double value) {
 }
 
 void Check::rising(const std::string& key, double before, double value) {
+    // Strictly: between two points at one place nothing could be interpolated.
     if (!(std::isfinite(value) && value > before)) {
         say(key, text::shortest(value) + " after " + text::shortest(before), "points rise, so that each stands once",
             "Put the points in order, each once.");
@@ -185,6 +189,7 @@ void Check::function() {
             "State it, for instance \"0.5 + 0.7*L\" or \"Q[0.5, 0.7*L]\".");
         return;
     }
+    // "< 2" names no smallest uncertainty: any U would satisfy it.
     if (is_open_interval(c_.expression)) {
         say("/expression", "an open interval: \"" + c_.expression + "\"",
             "a capability is one number for each value of its arguments (ILAC-P14:09/2020)",
@@ -242,6 +247,7 @@ std::vector<CapabilityProblem> Check::run() {
         arguments(2, 2);
         matrix();
     } else {
+        // A function of nothing is a value.
         arguments(1, c_.arguments.max_size());
         function();
     }

@@ -6,6 +6,10 @@
 
 namespace gumcert::engine {
 
+// Observation equation l = |P − Q| − l0, weights 1/u². Solved for the positions and constants, x̂ = (JᵀV⁻¹J)⁻¹JᵀV⁻¹l at
+// the last linearisation, with the covariance (JᵀV⁻¹J)⁻¹ of stated uncertainties (a priori). Residuals of the groups
+// are whitened, observed minus predicted over u; what is reported is adjusted minus observed in metres.
+
 namespace {
 
 /// |P - Q| - l0. Blocks: P, Q, then l0 when there is one.
@@ -20,6 +24,7 @@ public:
         if (jacobians == nullptr) {
             return;
         }
+        // ∂|P − Q|/∂Q is the unit vector along the line of sight, that by P its negative.
         const Eigen::Vector3d direction = difference / distance;
         if (jacobians[0] != nullptr) {
             Eigen::Map<Eigen::Vector3d> derivative(jacobians[0]);
@@ -80,6 +85,8 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
 
     NetworkSolution solution;
     solution.summary = adjustment.solve(options);
+    // The rank is asked before convergence: a network that is not determined need not converge, and the names of what
+    // is missing are the better message.
     const NormalEquations normal = adjustment.linearise();
     solution.rank = normal.rank(options.rank_tolerance);
     if (solution.rank.deficient) {
@@ -132,6 +139,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
     solution.chi_square = solution.summary.chi_square;
     solution.degrees_of_freedom = static_cast<long>(normal.observation_count() - normal.parameter_count());
 
+    // Distances were added before the priors: group i is distance i.
     for (std::size_t i = 0; i < distances.size(); ++i) {
         const LinearisedGroup& group = normal.groups()[i];
         const auto size = static_cast<Eigen::Index>(group.columns.size());

@@ -12,6 +12,16 @@
 #include "text/numbers.h"
 
 namespace gumcert::gum {
+
+// Sums of squares are formed from deviations about means, in two passes, never as Σ x² − n x̄² and never as a
+// difference of two others: the total is the sum of its parts. A small effect beside large ones, or a scatter of the
+// last digits beside a large value, keeps its digits so.
+// Why mean squares are compared and subtracted as they are, for I groups of J subgroups of K readings. Their
+// expectations:
+// within σ_w², between subgroups σ_w² + K σ_s², between groups σ_w² + K σ_s² + J K σ_g².
+// Each line holds all that lies below it. It is tested against the next one, and a variance is the difference of two
+// lines, which chance can make negative: then it is 0, and said so.
+
 namespace {
 
 // 64 bits of mantissa on x86-64. Differences of observations about a common centre are exact in it.
@@ -139,6 +149,8 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     Real squared_sizes = 0.0L;
     for (const Sample& sample : samples) {
         within.sum_of_squares += sample.sum_of_squares;
+        // Two means: of groups of different sizes, the one that counts groups belongs to an effect between them, the
+        // other one to none.
         mean_of_means += sample.mean / j;
         squared_sizes += sample.size * sample.size;
     }
@@ -180,6 +192,7 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     result.between_estimate = static_cast<double>(root_of_square(between.mean_square()));
     result.within_standard_deviation = static_cast<double>(root_of_square(within.mean_square()));
     // Of groups of one size it is that size.
+    // E(MS_between) = σ_w² + n₀ σ_B².
     const Real effective_size = (n - squared_sizes / n) / (j - 1.0L);
     result.between_variance_clipped = between.mean_square() < within.mean_square();
     result.between_standard_deviation =
@@ -230,6 +243,7 @@ OneWayAnalysis one_way_analysis(std::span<const ObservationGroup> groups, double
         }
         require_finite(group.mean, name + ", mean");
         require_not_negative(group.standard_deviation, name + ", standard deviation");
+        // s² = SS/(n − 1), the other way round.
         const Real s = group.standard_deviation;
         const auto size = static_cast<Real>(group.observations);
         samples.push_back(
@@ -310,6 +324,8 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
         static_cast<double>(root_of_square((of_groups - of_subgroups) / (j_count * k_count)));
     result.between_subgroup_variance_clipped = of_subgroups < of_readings;
     result.between_group_variance_clipped = of_groups < of_subgroups;
+    // σ_g²/I + σ_s²/(I J) + σ_w²/(I J K) is the expectation of MS_groups divided by I J K: no single variance is
+    // needed.
     result.u_of_mean = static_cast<double>(root_of_square(of_groups / (i_count * j_count * k_count)));
     return result;
 }

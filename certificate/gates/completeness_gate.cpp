@@ -10,6 +10,13 @@
 
 namespace gumcert::certificate {
 
+// In the order of ISO/IEC 17025:2017, 7.8.2.1; the letter of a finding is the item there. FindingList::item() knows
+// which items may be left out for a reason; what is no such item is critical or major in its own right.
+// A field counts as filled in only where its text says something: "n/a", a dash or "SN-tbd" are not empty, and tell a
+// reader nothing.
+// Dates and persons are checked against each other where both are there. What must not be missing has a finding of its
+// own, and one gap should not be told twice.
+
 namespace {
 
 constexpr FindingSeverity k_critical = FindingSeverity::critical;
@@ -23,6 +30,7 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
     if (!is_postal_address(address_lines(data.laboratory.address))) {
         found.item(k_critical, 'b', "/laboratory/address", "the address of the laboratory is missing", "State it.");
     }
+    // Work in the laboratory has its address for the place; only elsewhere it says something of its own.
     if (data.place.kind != "laboratory" && !is_postal_address(address_lines(data.place.address))) {
         found.item(k_critical, 'c', "/place/address", "the place where the work was done is missing",
                    "State its address: the work was not done in the laboratory.");
@@ -57,6 +65,7 @@ void method(FindingList& found, const CertificateData& data) {
                    "nothing is said of additions to, deviations or exclusions from the method",
                    "List them, or state \"no_deviations\": true.");
     }
+    // First and last day: a version that ended in between was not the method of the whole work.
     const std::string& last = last_day(data.dates);
     if (!last.empty() && (!is_within(data.dates.performed_from, m.valid_from, m.valid_to) ||
                           !is_within(last, m.valid_from, m.valid_to))) {
@@ -126,6 +135,7 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
                            "Let an authorised person do it, or correct the dates of the authorisation.");
         }
     };
+    // Who reviews and authorises acts on the day of the authorisation, who performs on those of the work.
     const std::string& authorised = data.dates.authorised.empty() ? data.dates.issued : data.dates.authorised;
     // A person who was authorised for a part of the work only: the day that is not covered is the one that is named.
     const bool first_day =
@@ -153,12 +163,14 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
 /// U = 0 says that nothing was evaluated; a capability in its place would only hide that.
 void no_uncertainty(FindingList& found, const CertifiedColumn& column) {
     const auto zero = [](const CertifiedValue& v) {
+        // Contributions that cancel leave u = 0 and no k, hence no U that could be compared with 0.
         const bool cancelled = !v.U && v.u == 0.0 && !v.interval && v.coverage == "none";
         return (v.U == 0.0 || cancelled) && !v.external;
     };
     const auto accredited = [&](const CertifiedValue& v) { return zero(v) && !v.scope_entry.empty(); };
     if (std::any_of(column.values.begin(), column.values.end(), zero)) {
         const bool any = std::any_of(column.values.begin(), column.values.end(), accredited);
+        // Within the scope of an accreditation a U of 0 is below any capability: it blocks the issue.
         found.add(any ? k_critical : k_major, "R07-4a", iso_17025("7.8.4.1 a"), column.result,
                   "the evaluated expanded uncertainty is 0", "State the uncertainties of the inputs.");
     }
@@ -173,6 +185,7 @@ void results(FindingList& found, const Certificate& certificate) {
                 found.item(k_critical, 'm', column.result, "the result has no unit", "State its unit.");
             }
             const bool without = std::any_of(column.values.begin(), column.values.end(), [](const CertifiedValue& v) {
+                // A result of another laboratory has what that one stated.
                 return v.u > 0.0 && v.printed_U.empty() && !v.interval && !v.external;
             });
             if (without) {
@@ -220,6 +233,7 @@ void conditions(FindingList& found, const CertificateData& data) {
 
 /// A reference with a number ("Table 2"), or a sentence.
 bool says_where(const LocalisedText& text) {
+    // "Table 2" is no sentence, and says where all the same.
     const bool numbered = text.in("en").find_first_of("0123456789") != std::string::npos;
     return is_stated(text) && (numbered || is_statement(text));
 }
@@ -260,6 +274,8 @@ void amendment(FindingList& found, const CertificateData& data) {
     }
     const Amendment& a = *data.amendment;
     const bool replaced = a.kind == "replaced";
+    // A new certificate takes a number of its own, and says which one it replaces; compared by letters and digits, so
+    // that a space more does not make another number.
     if (!is_identification(a.number)) {
         found.critical("R12", iso_17025(replaced ? "7.8.8.3" : "7.8.8.2"), "/amendment/number",
                        "the certificate that this one amends or replaces is not named", "State its number.");

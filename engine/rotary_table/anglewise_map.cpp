@@ -4,6 +4,10 @@
 
 namespace gumcert::engine {
 
+// Whatever grows with the angles is kept as blocks of one angle, and what ties angles to each other has few dimensions:
+// the border of the adjustment (stations, dead paths, fixture …) and the ten of the datum (ADR 0032). Only who asks for
+// combinations of all quantities gets a matrix of which both sides grow.
+
 namespace {
 
 std::optional<Eigen::Index> reversal_column(const JointAdjustment& adjustment, const NormalEquations& normal) {
@@ -42,6 +46,7 @@ AnglewiseMap with_mean_reversal(const AnglewiseMap& map) {
     result.change = Eigen::MatrixXd::Zero(changes + 6, 12 * angles);
     for (Eigen::Index i = 0; i < angles; ++i) {
         result.change.block(0, 12 * i, changes, 6) = map.change.middleCols<6>(6 * i);
+        // The mean is one more number that all angles share, as the ten of the datum are.
         result.change.block<6, 6>(changes, 12 * i + 6).diagonal().setConstant(1.0 / static_cast<double>(angles));
     }
     return result;
@@ -113,6 +118,7 @@ AnglewiseMap reported_map(const DatumSolution& datum, Eigen::Index border,
     }
     map.by_change = Eigen::MatrixXd::Zero(rows, 10);
     map.by_change.topRows(errors) = datum.motion_map;
+    // The change is (six of the world, O, O, S, S): its last four are the set-up, whose reported values move with it.
     map.by_change.block<4, 4>(errors, 6).setIdentity();
     map.change = datum.change_map();
     return map;
@@ -154,6 +160,7 @@ PoseCovariance pose_covariance(const JointAdjustment& adjustment, const NormalEq
     for (std::size_t i = 0; i < angles; ++i) {
         for (int r = 0; r < w; ++r) {
             const Eigen::Index row = normal.column(adjustment.pose_block(i), r);
+            // Held components (home) have no row: they stay 0, do not vary and follow nothing.
             if (row < 0) {
                 continue;
             }
@@ -181,6 +188,7 @@ AnglewiseCovariance covariance_of(const AnglewiseMap& map, const PoseCovariance&
         change_own.middleCols(i, w).noalias() = map.change.middleCols(i, w) * poses.own.middleRows(i, w);
     }
     const TallMatrix common = gain_of(map, poses.by_border) * border_root;
+    // D (K W Kᵀ) Dᵀ half by half, so that the sum with its transpose is exactly symmetric.
     TallMatrix cross = 0.5 * map.by_change * (change_own * map.change.transpose());  // U
     TallMatrix own(map.local.rows(), q);
     for (Eigen::Index i = 0; i < map.angles(); ++i) {
@@ -231,6 +239,8 @@ AnglewiseSensitivity::OfVisit AnglewiseSensitivity::of_visit(std::size_t visit) 
         }
     }
     const Eigen::Index first = w * result.angle;
+    // ∂b/∂l = C (J_bᵀ + Fᵀ J_eᵀ) V⁻¹ and ∂w/∂l = W J_eᵀ V⁻¹, e = F b + w. A visit has one pose, so that w of one angle
+    // alone moves.
     by_border.noalias() += poses_.by_border.middleRows(first, w).transpose() * by_pose;
     const Eigen::MatrixXd pose = poses_.own.middleRows(first, w) * by_pose;
     result.shared.resize(shared_.cols(), weighted.rows());
@@ -247,6 +257,7 @@ Eigen::MatrixXd AnglewiseSensitivity::of_prior(std::size_t group_index) const {
         group.cholesky.triangularView<Eigen::Lower>().transpose().solve(group.jacobian).transpose();
     const Eigen::Index border = covariance_.border();
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(shared_.cols(), weighted.cols());
+    // No pose, hence no w: what a prior moves goes through the border alone.
     result.topRows(border).noalias() = covariance_.border_covariance()(Eigen::all, group.columns) * weighted;
     return result;
 }

@@ -14,6 +14,7 @@ constexpr std::size_t k_most_notes = 5;
 
 std::string size_of(double length) {
     const double size = std::abs(length) / gum::k_micrometre;
+    // 999.5 is 1000 in three digits, which would be a millimetre written in µm.
     return size < 999.5 ? text::significant(size, 3) + " µm" : text::significant(size / 1000.0, 3) + " mm";
 }
 
@@ -34,6 +35,8 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
     }
     std::string place = "station " + measurement.stations[test.station];
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
+        // A place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the
+        // file.
         place += ", pass " + measurement.passes[test.pass] + ", " +
                  text::significant(measurement.angles_deg[test.angle], 8) + "°";
     }
@@ -48,6 +51,7 @@ std::string scale_of(const GroupTest& test, const RotaryTableMeasurement& measur
     std::string text = "the distances put the whole fixture " + text::significant(size * 1e6, 3) + " ppm " +
                        (is_smaller ? "smaller" : "larger") + " than its coordinates at its temperature";
     if (measurement.expansion > 0.0) {
+        // ΔT = ε/α: the likely cause, as the number that a laboratory can check.
         text += ", as if it were " + text::significant(size / measurement.expansion, 2) + " K " +
                 (is_smaller ? "colder" : "warmer") + " than stated";
     }
@@ -106,6 +110,8 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::reflector:
             selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
             break;
+        // Not one visit is wrong there, but all from some visit on, or all in their order: leaving distances out is no
+        // cure.
         case GroupKind::dead_path_change:
         case GroupKind::drift:
         case GroupKind::succession:

@@ -9,6 +9,14 @@
 
 namespace gumcert::engine {
 
+// l = s |E(θ) R(θ) T_s p (1 + α ΔT) − q| − l0, with exact rotations: linearised rows would be off by 0.19 µm at set-up
+// errors of 193 µm and 109″, as much as the noise of the lengths (design note rotary-table.md, 1).
+// A group of observations is one visit of the table, because its distances share the pose that the table had:
+// V = diag(u²) + A Σ Aᵀ, A = ∂l/∂pose, Σ the repeatability of the table (ADR 0008).
+// What is known beforehand (fixture, expansion, scale, temperature) is a pseudo-observation of its parameter. What is
+// stated as exact is held, for a variance of 0 has no weight. Distances do not tell E(θ) from a motion of the world and
+// from the set-up of the fixture: E(home) is held at zero, T_s at a preliminary value (ADR 0006).
+
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -64,6 +72,8 @@ public:
             if (jacobians == nullptr) {
                 continue;
             }
+            // ∂l/∂q = −s u, ∂l/∂s = |P − q|, ∂l/∂p = (1 + α ΔT) s uᵀ E R T_s, u the unit vector along the line of
+            // sight.
             const Eigen::Vector3d direction = scale / distance * difference;  // s u
             if (jacobians[0] != nullptr) {
                 double* row = jacobians[0] + i * k_station_size;
@@ -74,6 +84,7 @@ public:
             }
             // Derivatives by the chain rule along the line of sight, turned into the frame of what moves.
             const Eigen::Vector3d in_fixture = fixture_to_world.transpose() * direction;
+            // By the stretch 1 + α ΔT, whose derivatives are α by ΔT and ΔT by α.
             const double along = in_fixture.dot(point);
             if (jacobians[0] != nullptr) {
                 jacobians[0][i * k_station_size + k_temperature] = expansion * along;
@@ -257,6 +268,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
             std::make_shared<VisitModel>(nominal_rotation(measurement, visit.angle), set_up_, sense, pose_size(),
                                          std::move(targets), std::move(positions), seen.size(), fixture.size());
         const Eigen::Index n = observed.size();
+        // The identity holds the place: weights need the derivatives by the poses, see set_weights().
         adjustment_.add_observations(std::move(model), std::move(blocks), std::move(observed),
                                      Eigen::MatrixXd::Identity(n, n));
     }
@@ -301,6 +313,7 @@ Eigen::VectorXd JointAdjustment::stated_variance(std::size_t visit) const {
     Eigen::VectorXd variance(static_cast<Eigen::Index>(observations.size()));
     for (std::size_t k = 0; k < observations.size(); ++k) {
         const LengthObservation& length = measurement_->lengths[observations[k]];
+        // The noise is that of the whole distance; the displayed length lacks the dead path.
         const double distance = length.length + adjustment_.parameters(dead_path_blocks_[length.dead_path])[0];
         // Both parts have causes of their own: they add in squares.
         const double proportional = u.u_proportional * distance;
@@ -321,6 +334,7 @@ Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const Stoch
         Eigen::Vector3d::Constant(stochastic.variance_tilt);
     repeatability[3 + axial_coordinate(measurement_->axis)] = stochastic.variance_axial;
     if (repeatability.maxCoeff() > 0.0) {
+        // Left out, it would make the stated uncertainties about three times too small (ADR 0008).
         const Eigen::MatrixXd pose = pose_jacobian(visit);
         covariance.noalias() += pose * repeatability.asDiagonal() * pose.transpose();
     }
@@ -328,6 +342,7 @@ Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const Stoch
 }
 
 void JointAdjustment::set_weights(const StochasticModel& stochastic) {
+    // Parts of one size, whatever the number of threads.
     constexpr std::size_t k_visits_of_a_part = 256;
     FixedParts(visits_.size(), k_visits_of_a_part)
         .run(adjustment_.workers(), [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -391,6 +406,7 @@ void JointAdjustment::copy_parameters_from(const JointAdjustment& other) {
         Eigen::VectorXd pose(pose_size());
         pose.head<6>() = other.adjustment_.parameters(other.pose_blocks_[i]).head<6>();
         if (reversal_by_angle_) {
+            // One reversal of all angles is the start of that of each.
             pose.tail<6>() = other.reversal(i);
         }
         adjustment_.set_parameters(pose_blocks_[i], std::move(pose));

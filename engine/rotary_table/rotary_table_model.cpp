@@ -8,6 +8,14 @@
 
 namespace gumcert::engine {
 
+// The estimate by an adjustment, seen as a function of its inputs: y(l, …) = datum(x̂(l, …)). Everything that the
+// adjustment weighs is an input: a length, and the stated value of each prior as well.
+// ∂x̂/∂l = N⁻¹ Jᵀ V⁻¹ with N = Jᵀ V⁻¹ J, at weights that are held: that the weights come from the same residuals shows
+// in the degrees of freedom, not in the coefficients.
+// Two sets of normal equations: those with free dead paths first, from which the covariance of the dead paths comes;
+// then the dead paths are held, and all coefficients are those of the estimator that knows them (rotary_table_model.h
+// says why).
+
 namespace {
 
 /// Let Monte Carlo draw uncorrelated quantities between limits; their standard uncertainties stay as they are.
@@ -110,6 +118,7 @@ void require_evaluable_size(const RotaryTableMeasurement& measurement) {
     }
     const auto angles = static_cast<double>(measurement.angles.size());
     const auto millions = [](double number) { return std::to_string(std::llround(number / 1e6)) + " million"; };
+    // Both sizes of the matrix are proportional to the angles.
     const auto possible = static_cast<long long>(angles * std::sqrt(k_most_sensitivity_coefficients / count));
     throw gum::NoResultError(gum::Diagnostic{
         "GC-ADJUST-0008", "law of propagation",
@@ -206,6 +215,8 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     const auto pose_order = repeatability_order(measurement_.axis);
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const LinearisedGroup& group = joint.groups()[v];
+        // Rows of the dead paths in N⁻¹ Jᵀ V⁻¹ = N⁻¹ J̃ᵀ L⁻¹ with J̃ = L⁻¹ J, V = L Lᵀ: how each length of the visit
+        // moves them.
         const Eigen::MatrixXd whitened = covariance(path_columns, group.columns) * group.jacobian.transpose();
         const Eigen::MatrixXd gain =
             group.cholesky.triangularView<Eigen::Lower>().transpose().solve(whitened.transpose()).transpose();
@@ -217,6 +228,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         path_variance.col(3) += stochastic.variance_tilt * by_pose.rightCols(2).rowwise().sum();
     }
     const LinearisedGroup& prior = joint.groups()[nominal_.fixture_prior()];
+    // The prior is whitened by its own covariance: the sum of squares is the variance.
     path_variance.col(4) =
         (covariance(path_columns, prior.columns) * prior.jacobian.transpose()).rowwise().squaredNorm();
     const std::array<double, 5> component_nu{degrees_of_freedom.length_noise, degrees_of_freedom.table_linear,
@@ -228,6 +240,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
             covariance(path_columns[static_cast<std::size_t>(d)], path_columns[static_cast<std::size_t>(d)]);
         double sum = 0.0;
         for (Eigen::Index k = 0; k < path_variance.cols(); ++k) {
+            // ν_eff = u⁴ / Σ u_k⁴/ν_k over the components that were estimated.
             sum += path_variance(d, k) * path_variance(d, k) / component_nu[static_cast<std::size_t>(k)];
         }
         path_nu = std::min(path_nu, sum > 0.0 ? total * total / sum : std::numeric_limits<double>::infinity());
@@ -332,6 +345,8 @@ JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {
             deviation[order[static_cast<std::size_t>(4 + c)]] = x[layout_.tilt + 2 * at + c];
         }
         const Eigen::Index n = visit_pose_[v].rows();
+        // A table that deviates by δ shows lengths that are longer by A δ: taken off, they are those of the pose that
+        // is asked for.
         Eigen::VectorXd observed = x.segment(first, n) - visit_pose_[v] * deviation;
         if (has_resolution) {
             observed += x.segment(layout_.resolution + first, n);
@@ -339,6 +354,7 @@ JointAdjustment RotaryTableModel::solve_at(const Eigen::VectorXd& x) const {
         least_squares.set_observed(v, std::move(observed));
         first += n;
     }
+    // From the solution on, without a trust region: the inputs move by their uncertainties, and the minimum with them.
     const SolveSummary summary = least_squares.refine(SolverOptions{});
     if (!summary.converged) {
         throw gum::NoResultError(gum::Diagnostic{"GC-ADJUST-0006", "rotary table model",
@@ -424,6 +440,7 @@ Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjus
         }
     }
     if (layout_.resolution < layout_.size) {
+        // A part of a step is added to a length: the same coefficients.
         result.middleCols(layout_.resolution, first) = result.leftCols(first);
     }
     Eigen::Index next = layout_.scale;

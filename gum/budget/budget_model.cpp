@@ -17,6 +17,16 @@
 
 namespace gumcert::gum {
 
+// How the inputs of a budget become what is propagated and drawn:
+// 1. Inputs tied by correlations or by common readings, directly or through others, make one group: degrees of freedom
+// can be combined for independent contributions only (JCGM 100:2008, G.4.1), and a covariance is valid as a whole or
+// not at all.
+// 2. Columns of one file of samples make one group. All other components are groups of one.
+// 3. A group gets values, covariance, degrees of freedom, and what Monte Carlo draws of it; ADR 0025 says why.
+// 4. Parameters of fits follow as groups of their own.
+// The symbol of an equation is the sum of its components, so that each of them has the sensitivity coefficient of the
+// symbol.
+
 namespace {
 
 constexpr std::size_t k_streams_an_input = 4096;  // more components than an input may have
@@ -26,6 +36,8 @@ constexpr double k_attained = 1e-9;  // beyond the largest coefficient of correl
 /// Of random numbers: of one component of an input, at one point of a table or of all that share it. An input that all
 /// points share has the same draws at all of them, which makes the results of the points correlated as they are.
 std::uint64_t stream_of(std::size_t input, std::size_t component, std::optional<std::size_t> point) {
+    // Below 2^32 there is room for a million inputs, so that no two streams have one number; 0 in the upper half is
+    // what all points share.
     return (point ? std::uint64_t{*point + 1} << 32U : std::uint64_t{0}) + input * k_streams_an_input + component;
 }
 
@@ -51,6 +63,8 @@ std::vector<std::vector<std::size_t>> clusters(const Budget& budget) {
     const auto join = [&](std::size_t i, std::size_t j) {
         const std::size_t a = root(i);
         const std::size_t b = root(j);
+        // The first input stays the root: groups come in the order of the inputs, whatever the order of the
+        // correlations.
         parent[std::max(a, b)] = std::min(a, b);
     };
     for (const InputCorrelation& correlation : budget.correlations) {
@@ -202,6 +216,8 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
     const auto is_t = [&](std::size_t i) {
         return members[i].quantity().distribution.kind == DistributionKind::student_t;
     };
+    // Correlation of the deviates pair by pair, as if a pair were alone; whether all of them exist together is asked
+    // below.
     Eigen::MatrixXd N = Eigen::MatrixXd::Identity(n, n);
     std::vector<Diagnostic> problems;
     for (Eigen::Index row = 0; row < n; ++row) {
@@ -238,6 +254,7 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
         throw InputError(std::move(problems));
     }
     if (!is_positive_semidefinite(N)) {
+        // 2 is no limit: no coefficient can move by more.
         const auto nearest = nearest_correlation(N, Eigen::MatrixXd::Constant(n, n, 2.0));
         if (!nearest) {
             throw InputError(
@@ -255,6 +272,7 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
                 const auto j = static_cast<std::size_t>(row);
                 if (profiles[i] && profiles[j] && profiles[i]->has_correlation() && profiles[j]->has_correlation()) {
                     const double r = HermiteProfile::pearson(*profiles[i], *profiles[j], (*nearest)(row, column));
+                    // Told in the coefficients that the job states, not in those of the deviates.
                     most = std::max(most, std::abs(r - R(row, column)));
                 }
             }
@@ -282,6 +300,8 @@ void set_dependence(const Budget& budget, const std::vector<Member>& members, co
     });
     const bool single = std::all_of(members.begin(), members.end(),
                                     [](const Member& member) { return member.stated->components.size() == 1; });
+    // From the most that is known to the least: an ensemble, jointly normal, jointly t; a copula where the marginals
+    // alone are known.
     if (observed != nullptr && all_of_kind(DistributionKind::student_t)) {
         // t with n − 1 degrees of freedom, however many inputs were observed: each linear combination has the
         // distribution of the mean of its n rows then (docs/adr/0030-simultaneous-observations.md).
@@ -388,6 +408,7 @@ void add_joint_samples(const std::vector<Member>& members, std::optional<std::si
         for (Eigen::Index i = 0; i < j; ++i) {
             // Divisor n, as u of samples has it.
             const double covariance = deviations.col(i).dot(deviations.col(j)) / static_cast<double>(rows);
+            // Rounding may take |r| above 1.
             const double scale = std::sqrt(group.covariance(i, i)) * std::sqrt(group.covariance(j, j));
             group.covariance(i, j) = group.covariance(j, i) = std::clamp(covariance, -scale, scale);
             coefficients += (coefficients.empty() ? "r(" : ", r(") + members[static_cast<std::size_t>(i)].name() +
@@ -629,6 +650,9 @@ BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::Curve
         InputGroup group;
         group.name = budget.fits[f].name;
         group.source = budget.fits[f].name;
+        // A covariance that is scaled by the residuals has one estimated variance for all parameters: together they are
+        // t with its degrees of freedom. Where the uncertainties of the points are stated, nothing is estimated:
+        // normal.
         group.evaluation = fit.covariance_scaled ? Evaluation::type_a : Evaluation::type_b;
         group.value = fit.parameters;
         group.covariance = fit.covariance;

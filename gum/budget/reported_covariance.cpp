@@ -49,9 +49,12 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
     for (const BudgetPointResult& point : result.points) {
         draws.emplace_back(point.model->inputs(), seed, point.streams);
     }
+    // A coefficient of M trials is known to 1/√M: to 0.2 % of 200 000, to 0.4 % of the 80 000 that 500 results get.
     const double pairs = static_cast<double>(n) * static_cast<double>(n);
     const auto trials = static_cast<Eigen::Index>(
         std::clamp(static_cast<std::uint64_t>(k_most_products / pairs), k_fewest_together, k_most_together));
+    // Sums are taken about the values of the law of propagation: near enough to the means that Σ d² − (Σ d)²/M does not
+    // cancel, and one pass does.
     Eigen::RowVectorXd centre(n);
     Eigen::Index column = 0;
     for (const BudgetPointResult& point : result.points) {
@@ -76,6 +79,7 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
         sum += all.colwise().sum();
         squares.selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
     }
+    // V = (Σ d dᵀ − (Σ d)ᵀ(Σ d)/M)/(M − 1)
     squares.triangularView<Eigen::StrictlyUpper>() = squares.transpose();
     const auto count = static_cast<double>(trials);
     return (squares - sum.transpose() * sum / count) / (count - 1.0);
@@ -83,6 +87,8 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
 
 /// The same correlations beside other standard uncertainties.
 Eigen::MatrixXd with_uncertainties(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& u) {
+    // So the diagonal is the square of the u that is printed, whichever method gave it, and 200 000 trials do not
+    // contradict the million that a result rests on.
     const Eigen::MatrixXd R = correlation_matrix(covariance);
     Eigen::MatrixXd scaled(u.size(), u.size());
     for (Eigen::Index j = 0; j < u.size(); ++j) {
@@ -108,6 +114,7 @@ Eigen::MatrixXd reported_covariance(const Budget& budget, const BudgetResult& re
     }
     const Eigen::VectorXd u = reported_uncertainties(result);
     Eigen::MatrixXd covariance;
+    // One point: the trials of its results are drawn together already.
     if (result.points.size() == 1) {
         covariance = result.points.front().monte_carlo->covariance;
     } else if (static_cast<std::size_t>(u.size()) <= k_most_drawn_together) {

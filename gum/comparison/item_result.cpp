@@ -13,6 +13,10 @@
 
 namespace gumcert::gum {
 
+// The order of the steps is that of what they need: σ_pt may be a percentage of the assigned value; the checks of the
+// items need σ_pt; u(X) needs what the checks say of the items; and the score that decides follows from u(X) against
+// σ_pt.
+
 namespace {
 
 constexpr double k_rounding_of_criterion = 1.0 + 1e-14;  // of u(X)/σ_pt, which is exactly the limit in decimal numbers
@@ -75,6 +79,7 @@ std::optional<double> sigma_pt_of(const LaboratoryData& data, double assigned_va
         case SigmaPtMethod::percent_of_assigned:
             return request.value / 100.0 * std::abs(assigned_value);
         case SigmaPtMethod::mass_fraction:
+            // The formula is one of mass fractions, not of their unit: there and back.
             return sigma_pt_of_mass_fraction(assigned_value * request.mass_fraction_per_unit) /
                    request.mass_fraction_per_unit;
         case SigmaPtMethod::precision:
@@ -142,6 +147,7 @@ void add_checks(const LaboratoryData& data, ItemResult& result) {
 /// U = t_p(ν) u of the scatter, with what the item adds; k = U/u(X) says how far it is from the usual 2.
 void expand_by_scatter(double coverage_probability, const ConsensusScatter& scatter, double of_items,
                        ItemResult& result) {
+    // The value alone: the difference from a laboratory that has no uncertainty and no part in it.
     const SpreadUncertainty nothing;
     const SpreadDifference whole =
         spread_difference(nothing, scatter.of_value, of_items, 0.0, 0.0, 1.0, coverage_probability);
@@ -166,12 +172,14 @@ std::optional<double> coverage_with_scatter(const LaboratoryData& data, const As
         return std::nullopt;
     }
     const double tau = median(u);
+    // A variance τ² between laboratories adds τ² Σ w² to u²(X).
     if (assigned.weights.size() > 0) {
         variance = assigned.weights.squaredNorm();
     } else {
         variance = (*assigned.u / tau) * (*assigned.u / tau);  // of a median: as its uncertainty grows with u
     }
     const double u_with = std::hypot(*assigned.u, tau * std::sqrt(variance));
+    // P(|y − Y| ≤ U) for a normal y with u_with: the square of (y − Y)/u_with is χ² with 1 degree of freedom.
     return chi_square_lower_tail((U / u_with) * (U / u_with), 1.0);
 }
 
@@ -185,6 +193,8 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
         const std::vector<UncertaintyContribution> parts = {{*assigned.u, assigned.degrees_of_freedom}, {of_items}};
         const double nu =
             *result.u > 0.0 ? effective_degrees_of_freedom(parts) : std::numeric_limits<double>::infinity();
+        // What comes from the scatter goes first: k u(X) of few results does not cover what it claims (ADR 0028). A
+        // stated U stays as its owner stated it, as long as the items add nothing.
         if (assigned.scatter && *result.u > 0.0) {
             expand_by_scatter(scheme.coverage_probability, *assigned.scatter, of_items, result);
             if (assigned.scatter->others.empty()) {
@@ -212,6 +222,7 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
             result.U_of_scores = of_scores.converted ? std::optional(of_scores.U) : std::nullopt;
         }
     }
+    // Trials of the value know nothing of the items.
     if (assigned.intervals && of_items == 0.0) {
         result.low = assigned.intervals->low;
         result.high = assigned.intervals->high;
@@ -240,6 +251,7 @@ void add_consensus_check(const LaboratoryData& data, ItemResult& result) {
 
 DecidingScore deciding_score(const LaboratoryData& data, const ItemResult& result) {
     if (result.sigma_pt) {
+        // σ_pt is what the scheme asks of its participants, whatever uncertainty they state; so it goes before E_n.
         return result.criterion_met ? DecidingScore::z : DecidingScore::z_prime;
     }
     if (result.u && !data.with_u().empty()) {

@@ -25,6 +25,7 @@ public:
 
     /// U of an estimate by the scatter of the results.
     void expand(ReferenceEstimate& estimate, const SpreadUncertainty& spread) const {
+        // Results that are equal have no scatter to take U from; that says nothing of the value.
         if (estimate.u && spread.u > 0.0) {
             estimate.U = coverage_factor(coverage_probability_, spread.degrees_of_freedom) * spread.u;
             estimate.degrees_of_freedom = spread.degrees_of_freedom;
@@ -53,6 +54,7 @@ public:
             }
             if (data_.item->assigned_value.method == AssignedValueMethod::median &&
                 data_.item->assigned_value.median_by_trials && method == AssignedValueMethod::median) {
+                // The median by trials has its own interval; U of the plain median does not belong to it.
                 estimate.U = std::nullopt;
                 estimate.degrees_of_freedom = std::numeric_limits<double>::infinity();
             }
@@ -89,6 +91,8 @@ void take_robust(ReferenceEstimate& estimate, const RobustEstimate& value) {
 
 void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const LaboratoryResults& results) {
     const AssignedValueRequest& request = data.item->assigned_value;
+    // The variance between laboratories, and so all means with τ, is estimated as if results were independent. The
+    // largest subset of many laboratories costs too much to stand there unasked.
     const bool independent = results.covariance.size() == 0;
     estimates.add(AssignedValueMethod::weighted_mean,
                   [&](ReferenceEstimate& estimate) { take(estimate, weighted_mean(results)); });
@@ -189,6 +193,7 @@ std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, cons
     std::vector<std::size_t> tested = data.contributing;
     std::optional<ConsistencyTest> test = assigned.subset;
     if (test) {
+        // Pairs are counted among those that the value rests on: those left out are told apart from them already.
         std::erase_if(tested, [&](std::size_t i) {
             return std::find(assigned.not_consistent.begin(), assigned.not_consistent.end(), i) !=
                    assigned.not_consistent.end();
@@ -258,9 +263,11 @@ std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, doubl
             pair.second = second.participant;
             pair.d = difference.d;
             pair.u = difference.u;
+            // E_n takes both U for one probability of about 95 %, as that of a laboratory against the value (ADR 0028).
             const auto U_of = [&](const ResultUncertainty& stated) {
                 return en_uncertainty(stated.u, stated.U, stated.k, stated.degrees_of_freedom, coverage_probability).U;
             };
+            // Rounding may take |r| above 1.
             pair.U = uncertainty_of_difference(U_of(*first.uncertainty), U_of(*second.uncertainty),
                                                std::clamp(r, -1.0, 1.0));
             if (pair.U > 0.0) {

@@ -51,6 +51,7 @@ MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
     differences.U_reference.resize(m);
     differences.covariance.resize(m, m);
     const double u_X = *points.front()->u_assigned;
+    // D_i = x_i − X, c_i = cov(x_i, X): all differences have X in common, and c_i where the result is part of X.
     const double variance_of_X = u_X * u_X;
     for (Eigen::Index i = 0; i < m; ++i) {
         const ScoredResult& point = *points[static_cast<std::size_t>(i)];
@@ -67,6 +68,8 @@ MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
             differences.covariance(i, j) =
                 between - item.assigned.covariance[a] - item.assigned.covariance[b] + variance_of_X;
         }
+        // The u_D that the score has. Where it comes from the scatter of the others, it is not that of the stated
+        // uncertainties.
         differences.covariance(i, i) = *point.u_difference * *point.u_difference;
     }
     return differences;
@@ -179,12 +182,16 @@ void add_ellipse(YoudenDiagram& diagram) {
     diagram.centre_second = of_second.location;
     diagram.scale_first = of_first.scale;
     diagram.scale_second = of_second.scale;
+    // By ranks and medians: one outlier, which the diagram is to show, would stretch an ellipse of moments until it is
+    // inside. 2 sin(π ρ/6) is the coefficient of two normal quantities whose ranks have ρ.
     diagram.correlation =
         std::clamp(2.0 * std::sin(std::numbers::pi / 6.0 * rank_correlation(first, second)), -1.0, 1.0);
     if (diagram.points.size() < k_least_points || !(diagram.scale_first > 0.0) || !(diagram.scale_second > 0.0)) {
         return;
     }
     const double radius = ellipsoid_coverage_factor(k_probability, 2, std::numeric_limits<double>::infinity());
+    // (1, 0; r, √(1 − r²)) is the root of the correlation matrix: it takes the circle of radius √χ²_0.95(2) to the
+    // ellipse.
     const double across = std::sqrt(1.0 - diagram.correlation * diagram.correlation);
     for (std::size_t i = 0; i <= k_corners; ++i) {
         const double angle =
@@ -234,6 +241,7 @@ Eigen::MatrixXd covariance_of_vector(const ComparisonVector& vector, const std::
     Eigen::MatrixXd covariance(m, m);
     for (Eigen::Index a = 0; a < m; ++a) {
         for (Eigen::Index b = 0; b < m; ++b) {
+            // cov(D_a, D_b) = cov(x_a, x_b) + cov(X_a, X_b) − cov(x_a, X_b) − cov(X_a, x_b)
             const double own = a == b ? 1.0 : vector.correlation.size() > 0 ? vector.correlation(a, b) : 0.0;
             const double reference = a == b                                    ? 1.0
                                      : vector.reference_correlation.size() > 0 ? vector.reference_correlation(a, b)
@@ -263,6 +271,7 @@ std::optional<VectorScore> vector_score(const ComparisonVector& vector, const st
         score.vector_en = vector_en(d, covariance_of_vector(vector, points), coverage_probability);
         const double k_p =
             ellipsoid_coverage_factor(coverage_probability, points.size(), std::numeric_limits<double>::infinity());
+        // E_n of a vector is √(Dᵀ V⁻¹ D)/k_p; this is Dᵀ V⁻¹ D again.
         score.mahalanobis_square = score.vector_en * score.vector_en * k_p * k_p;
     } catch (const DiagnosedError&) {
         return std::nullopt;
@@ -368,6 +377,7 @@ std::vector<YoudenDiagram> youden_diagrams(const ComparisonScheme& scheme, const
             YoudenDiagram diagram{.first_item = first, .second_item = second, .round = round};
             diagram.sigma_first = scale_of_z(of_first->result);
             diagram.sigma_second = scale_of_z(of_second->result);
+            // Limits of z on one axis alone would read as limits of both.
             if (!diagram.sigma_first || !diagram.sigma_second) {
                 diagram.sigma_first = diagram.sigma_second = std::nullopt;
             }

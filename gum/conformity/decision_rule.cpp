@@ -11,6 +11,10 @@
 #include "text/numbers.h"
 
 namespace gumcert::gum {
+
+// A rule is a row of a table: which parameters it looks at, and what it needs of them. All checks read the rows, so
+// that a new rule has them all.
+
 namespace {
 
 constexpr std::array<std::string_view, 8> k_methods = {"1", "2", "3", "4", "5", "6", "rds", "rp10"};
@@ -183,10 +187,13 @@ void z540_3(const DecisionRuleParameters& p, const ToleranceLimits& limits, Sent
             say.emplace_back("Method " + p.method + " of DR-09 needs population_reliability or population_deviation.");
         }
     } else if (p.probability && *p.probability != 0.02 && !p.alternative) {
+        // The guard bands of these methods are made for a global risk of 2 %. With an alternative the probability may
+        // be meant for that rule.
         say.emplace_back("Method " + p.method +
                          " of DR-09 has a guard band of its own; a probability other than 0.02 cannot be " +
                          "kept by it.");
     }
+    // The ratio is that of the width of the tolerance to U; one limit has no width.
     if (rests_on_ratio(p.method) && !limits.two_sided()) {
         say.emplace_back("Method " + p.method + " of DR-09 needs two limits.");
     }
@@ -260,6 +267,7 @@ void Check::ranges() {
 void Check::unused() {
     // A parameter that a rule does not look at is refused: who states a guard band must not believe that it was kept.
     const Uses own = uses_of(rule_);
+    // Ratio, largest U and the alternative itself are never those of the alternative: they decide whether it applies.
     const Uses other = p_.alternative && own.alternative ? uses_of(*p_.alternative) : Uses{};
     const auto refuse_unused = [&](bool stated, bool used, const char* key) {
         if (stated && !used) {
@@ -297,6 +305,7 @@ void Check::population() {
         say("A population needs two limits, between which it is centred, or population_centre.");
         return;
     }
+    // Solved for only with parameters that are in their ranges.
     if (sentences_.empty() && !stated_population(p_, limits_)) {
         say("No population with this population_centre has this population_reliability.");
     }
@@ -310,6 +319,7 @@ void Check::alternative() {
         say("The alternative of " + id_ + " is the same rule again.");
         return;
     }
+    // An alternative has none of its own (parameters_of_alternative): this goes one level deep.
     for (const std::string& sentence : check_decision_rule(*p_.alternative, parameters_of_alternative(p_), limits_)) {
         say("Alternative: " + sentence);
     }
@@ -323,6 +333,7 @@ std::vector<std::string> Check::run() {
     unused();
     needs();
     population();
+    // It looks at the same parameters, and would say the same again.
     if (sentences_.empty()) {
         alternative();
     }

@@ -15,6 +15,11 @@
 
 namespace gumcert::gum {
 
+// From texts to a tape. The order of the steps: names of inputs and unknowns must be known before the equations are
+// read, so that d(x) can be told as a forgotten "*"; all left sides before a name on a right side can be called
+// unknown; and equations are checked for units in the order in which they use each other, because the unit of a left
+// side is that of its right side. The tape is built in the same order, last, of equations without any problem.
+
 namespace {
 
 constexpr std::size_t k_most_problems = 100;
@@ -126,6 +131,7 @@ private:
         std::map<std::string, bool, std::less<>> left_sides;
         for (const EquationText& equation : equations_) {
             const std::string_view text = equation.text;
+            // The left sides before anything is parsed: an equation may use one that stands below it.
             const std::string_view left = text.substr(0, std::min(text.find('='), std::size_t{512}));
             const std::size_t first = left.find_first_not_of(" \t\r\n");
             if (first != std::string_view::npos) {
@@ -185,6 +191,7 @@ private:
         for (std::size_t i = 0; i < trees_.size(); ++i) {
             const SyntaxTree& tree = trees_[i];
             std::vector<std::uint32_t> column(tree.names.size(), 1);
+            // Backwards, so that the first place of a name is the one that stays.
             for (std::size_t n = tree.nodes.size(); n-- > 0;) {
                 if (tree.nodes[n].operation == Operation::quantity) {
                     column[tree.nodes[n].name] = tree.nodes[n].column;
@@ -369,6 +376,7 @@ private:
             if (!tree.is_whole()) {
                 continue;
             }
+            // A kind that is not known stays silent: one wrong unit is told once, and not again by all that use it.
             std::vector<const QuantityKind*> quantities;
             for (const Symbol* symbol : meanings_[i]) {
                 const QuantityKind* kind = nullptr;
@@ -403,6 +411,7 @@ private:
                 check_result(temperatures_[i], kinds.back(), warnings_);
             }
             for (const SyntaxNode& node : tree.nodes) {
+                // Units have told whether an exponent is constant; the tape takes that value.
                 if (node.operation == Operation::power) {
                     constants_[i].emplace(node.right, kinds[static_cast<std::size_t>(node.right)].constant);
                 }
@@ -472,6 +481,7 @@ private:
             }
         }
         add_unknowns(false);
+        // Every unknown is used, and no left side stands alone: then the unknowns are what was asked for.
         if (outputs.empty()) {
             add_unknowns(true);
         }
@@ -519,6 +529,7 @@ private:
                                                                         : &unknowns_[symbol->index].unit);
                 }
             }
+            // Last in, first out: turned round, the first name of the text is visited first.
             open.insert(open.end(), next.rbegin(), next.rend());
         }
         return units;
@@ -610,6 +621,7 @@ private:
         for (const bool unknown : reached.unknowns) {
             uses_unknowns = uses_unknowns || unknown;
         }
+        // Implicit equations are solved together: who uses one unknown depends on all that stands in any of them.
         if (uses_unknowns) {
             roots.insert(roots.end(), implicit_.begin(), implicit_.end());
             reached = reach(roots);

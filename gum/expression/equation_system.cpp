@@ -15,6 +15,12 @@
 
 namespace gumcert::gum {
 
+// Implicit equations F(x, z) = 0 are solved for z by Newton's method. The outputs y = g(x, z(x)) then have the
+// derivatives
+// dy/dx = ∂g/∂x + ∂g/∂z S, S = dz/dx = −(∂F/∂z)⁻¹ ∂F/∂x
+// by the theorem of implicit functions: exact at the solution, whatever way the search took, and not where ∂F/∂z is
+// singular. So a search that ends there has no result.
+
 namespace {
 
 /// Memory of one thread for all that is evaluated one point at a time.
@@ -166,6 +172,7 @@ bool EquationSystem::Compiled::invert_slope(Workspace& workspace) const {
         workspace.inverse(0, 0) = 1.0 / slope(0, 0);
         return std::isfinite(workspace.inverse(0, 0));
     }
+    // A_s = R A C with C for the units of the unknowns and R for those of the equations; A⁻¹ = C A_s⁻¹ R.
     workspace.column_scale = slope.cwiseAbs().colwise().maxCoeff().transpose();
     if (workspace.column_scale.minCoeff() == 0.0) {
         return false;
@@ -242,6 +249,7 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
         for (Eigen::Index j = 0; j < u; ++j) {
             double& scale = workspace.scale[index(j)];
             if (iteration == 0) {
+                // An unknown that starts at 0, or ends there, has no size of its own to hold a step against.
                 scale = std::max(std::fabs(z[j]), std::fabs(workspace.step(j)));
             }
             const double step = std::fabs(workspace.step(j));
@@ -252,10 +260,13 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
         }
         // Newton's steps shrink quadratically at a single solution. Steps that only halve tell a double one, where
         // there are no sensitivity coefficients.
+        // At a double solution the derivative vanishes with the residual, and each step is half of the one before: 0.5
+        // lies above the 0.3, near a single solution the ratio goes to 0.
         linear = last_was_whole && size > 0.3 * last_size && size < 1e-3 ? linear + 1 : 0;
         if (linear >= k_linear_steps || (converged && lost)) {
             return Search::singular;
         }
+        // This step is taken as well: it is at hand, and leaves an error of its square.
         if (converged) {
             for (Eigen::Index j = 0; j < u; ++j) {
                 z[j] += workspace.step(j);
@@ -264,6 +275,9 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
             return Search::converged;
         }
         last_size = size;
+        // The same inverse is applied to the residual at the shortened step: what it gives is the next correction as
+        // seen from here, in the units of the unknowns. A step of length λ should leave 1 − λ of it; a quarter of that
+        // is asked for.
         double length = 1.0;
         for (;; length *= 0.5) {
             if (length < k_shortest_step) {
@@ -495,6 +509,7 @@ Eigen::MatrixXd EquationSystem::jacobian(const Eigen::VectorXd& x) const {
         const auto n = static_cast<Eigen::Index>(compiled_->inputs());
         const auto u = static_cast<Eigen::Index>(residuals);
         const Eigen::MatrixXd slopes = gradients(tape, workspace.tape, 0, residuals);
+        // Columns: ∂F/∂x, then ∂F/∂z.
         workspace.slope = slopes.rightCols(u);
         if (!compiled_->invert_slope(workspace)) {
             throw NoResultError(compiled_->why_no_solution(workspace, Search::singular));
@@ -534,6 +549,7 @@ std::vector<Eigen::MatrixXd> EquationSystem::hessians(const Eigen::VectorXd& x) 
         }
         for (std::size_t i = 0; i < result.size(); ++i) {
             Eigen::MatrixXd total = along.transpose() * result[i] * along;
+            // y″ = Sᵀ g″ S + ∂g/∂z z″ with z″ = −(∂F/∂z)⁻¹ Sᵀ F″ S: the row ∂g/∂z (∂F/∂z)⁻¹ is formed once for all F_k.
             const Eigen::RowVectorXd weights =
                 output_slopes.row(static_cast<Eigen::Index>(i)).tail(u) * workspace.inverse;
             for (std::size_t k = 0; k < residuals; ++k) {

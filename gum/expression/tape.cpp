@@ -9,6 +9,13 @@
 
 namespace gumcert::gum {
 
+// Derivatives are those of the rules of calculus, step by step, not differences.
+// First ones by a reverse sweep: from the root back, each step passes its adjoint w = ∂root/∂v on to its operands, w
+// ∂v/∂a and w ∂v/∂b. One sweep gives the derivatives by all leaves, and a model has many inputs and few outputs.
+// Second ones by the derivative of that sweep in the direction of each leaf (forward over reverse): tangents ∂v/∂x_j
+// forwards, then adjoints and their tangents backwards. One leaf gives one column of the matrix.
+// Trials run step by step over columns of 256 of them: each step is decoded once for all of them.
+
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
@@ -74,11 +81,13 @@ First first_partials(double a, double b, double v) {
     } else if constexpr (operation == multiply) {
         return {b, a};
     } else if constexpr (operation == divide) {
+        // v/b and not a/b²: b² may leave the range of numbers where the quotient does not.
         return {1.0 / b, -v / b};
     } else if constexpr (operation == power) {
         // By the base b a^(b−1); by the exponent a^b ln a, whose limit at a = 0 is 0 for b > 0 and does not exist else.
         return {b == 0.0 ? 0.0 : b * std::pow(a, b - 1.0), a == 0.0 ? (b > 0.0 ? 0.0 : k_nan) : v * std::log(a)};
     } else if constexpr (operation == Operation::atan2) {
+        // b/h² in two quotients, for the same reason.
         const double h = std::hypot(a, b);
         return {b / h / h, -a / h / h};
     } else if constexpr (operation == minimum) {
@@ -108,6 +117,7 @@ Second second_partials(double a, double b, double v, const First& d) {
     } else if constexpr (operation == Operation::tan) {
         return {2.0 * v * d.a};
     } else if constexpr (operation == Operation::asin || operation == Operation::acos) {
+        // ± a/√(1 − a²)³; the cube of the first derivative brings the sign.
         return {a * d.a * d.a * d.a};
     } else if constexpr (operation == Operation::atan) {
         return {-2.0 * a * d.a * d.a};
@@ -289,6 +299,7 @@ double Tape::gradient(TapeWorkspace& workspace, std::size_t root) const {
     double rounding = 0.0;
     for (std::size_t k = top + 1; k-- > lowest;) {
         const double w = adjoint[base + k];
+        // What the root does not depend on here is passed over: its partials may be infinite, and 0·∞ would be NaN.
         if (w == 0.0) {
             continue;
         }
@@ -307,6 +318,7 @@ std::vector<Eigen::MatrixXd> Tape::second_derivatives(TapeWorkspace& workspace) 
     std::vector<Eigen::MatrixXd> result(roots_.size(), Eigen::MatrixXd::Zero(leaves, leaves));
     workspace.tangent.assign(slots, 0.0);
     workspace.adjoint_tangent.assign(slots, 0.0);
+    // Numbers of moving steps are summed up: whether one of a range moves is a difference of two sums.
     workspace.moving.assign(steps_.size() + 1, 0);
     double* const adjoint = workspace.adjoint.data();
     double* const tangent = workspace.tangent.data();
@@ -536,6 +548,7 @@ TapeBuilder::TapeBuilder(std::size_t leaves) : leaves_(leaves), entries_(leaves)
 
 TapeBuilder::Node TapeBuilder::constant(double value) {
     const auto [place, is_new] =
+        // By bits: 0 and −0 are two constants, for 1/0 and 1/−0 are two values. NaN is equal to itself so.
         constants_.try_emplace(std::bit_cast<std::uint64_t>(value), static_cast<Node>(entries_.size()));
     if (is_new) {
         entries_.push_back({.operation = Operation::number, .value = value, .origin = {}});
@@ -549,6 +562,7 @@ bool TapeBuilder::is_number(Node node, double value) const {
 }
 
 TapeBuilder::Node TapeBuilder::whole_power(Node base, int exponent, StepOrigin origin) {
+    // By squaring: x^n takes at most 2 log2 n products, which trials run in packets; pow() is called for each trial.
     Node square = base;
     Node result = -1;
     for (int rest = std::abs(exponent); rest != 0; rest >>= 1) {
@@ -563,6 +577,9 @@ TapeBuilder::Node TapeBuilder::whole_power(Node base, int exponent, StepOrigin o
 }
 
 TapeBuilder::Node TapeBuilder::step(Operation operation, Node a, Node b, StepOrigin origin) {
+    // Beside whole powers, only what gives the same bits for every value is rewritten: x·0 stays a product, since it is
+    // NaN where x is infinite, and x + 0, since −0 + 0 is 0. min(x, x) is x: as a step it would be a tie without
+    // derivative.
     switch (operation) {
         case Operation::celsius:
             return step(Operation::subtract, a, constant(k_ice_point), origin);
@@ -613,6 +630,7 @@ TapeBuilder::Node TapeBuilder::step(Operation operation, Node a, Node b, StepOri
     }
     if (entry(a).operation == Operation::number && (b < 0 || entry(b).operation == Operation::number)) {
         const double value = apply(operation, entry(a).value, b < 0 ? 0.0 : entry(b).value);
+        // 1/0 stays a step with its place in the text, for the message.
         if (std::isfinite(value)) {
             return constant(value);
         }
@@ -658,6 +676,7 @@ Tape TapeBuilder::finish(const std::vector<Node>& residuals, const std::vector<N
     }
     const std::size_t base = tape.first_step_slot();
     std::vector<std::size_t> chosen;
+    // Steps of the residuals first: the search for the unknowns runs these alone, again and again.
     for (const bool first_pass : {true, false}) {
         for (std::size_t i = leaves_; i < entries_.size(); ++i) {
             if (entries_[i].operation != Operation::number &&

@@ -23,11 +23,23 @@
 #include "text/numbers.h"
 
 namespace gumcert::gum {
+
+// A run with a fixed number of trials goes over them in passes:
+// 1. The first trials, the pilot, tell the searches for order statistics where the values lie.
+// 2. All trials: moments, products, first counts of the searches; values are kept as far as memory allows.
+// 3. As often as a search asks for it: kept values, or the same trials drawn again. Regions need mean and covariance of
+// all trials and histograms their range, so that neither can be counted in the pass before.
+// An adaptive run only finds the number of trials (JCGM 101:2008, 7.9.4). A run with that number then gives the result,
+// which so does not depend on how the number was found.
+// Sums of numbers are merged in the order of the trials, for the sum of rounded numbers depends on its order; counts
+// are whole numbers, which any thread may add at any time.
+
 namespace {
 
 constexpr std::uint64_t k_block = 4096;  // trials; part of what the bytes of a result depend on
 constexpr std::uint64_t k_most_trials = 10'000'000'000;
 constexpr std::uint64_t k_pilot = 1024;
+// A standard deviation of 16 batches is known to 1/√(2·15) = 18 %: enough for an error of an end.
 constexpr std::uint64_t k_batches = 16;
 constexpr std::uint64_t k_largest_batch = 8192;
 constexpr std::uint64_t k_smallest_batch = 20;
@@ -52,6 +64,8 @@ struct Sums {
             *this = other;
             return;
         }
+        // Σ (y_i − ȳ_i)(y_j − ȳ_j) of both parts = A + B + n_a n_b/(n_a + n_b) d_i d_j, d the difference of the means.
+        // It comes before the moments are merged, which takes the mean of this part away.
         const Eigen::Index m = products.rows();
         if (m > 0) {
             const double na = static_cast<double>(moments.front().count);
@@ -70,6 +84,7 @@ struct Sums {
         for (std::size_t j = 0; j < moments.size(); ++j) {
             moments[j].merge(other.moments[j]);
         }
+        // Parts come in the order of the trials, so that the first one found is the one of the lowest number.
         if (not_finite == 0) {
             first_not_finite = other.first_not_finite;
         }
@@ -86,6 +101,7 @@ struct Sums {
                 result(i, j) = products(i, j) / divisor;
                 result(j, i) = result(i, j);
             }
+            // The u that is stated, squared: covariance and results agree to the last bit.
             const double u = moments[static_cast<std::size_t>(j)].standard_deviation();
             result(j, j) = u * u;
         }
@@ -154,6 +170,8 @@ public:
             no_ellipsoid_because_ = "An output does not vary, so the covariance matrix of the outputs is singular.";
             return;
         }
+        // With correlations in place of covariances no unit decides what is singular. An eigenvalue is off by rounding
+        // by some m ε λ_max; below a hundred times that the smallest one cannot be told from 0.
         const Eigen::MatrixXd correlation = correlation_matrix(covariance);
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
         const double limit = 100.0 * static_cast<double>(m) * std::numeric_limits<double>::epsilon();
@@ -185,6 +203,8 @@ public:
         if (!has_ellipsoid()) {
             return;
         }
+        // (η − y)ᵀ V⁻¹ (η − y) = zᵀ z where L z = (η_j − y_j)/u_j and L Lᵀ is the correlation matrix: no inverse is
+        // formed.
         for (Eigen::Index j = 0; j < m; ++j) {  // L z = scaled deviations, for all trials at once
             for (Eigen::Index k = 0; k < j; ++k) {
                 scratch.col(j) -= root_(j, k) * scratch.col(k);
@@ -242,6 +262,7 @@ public:
     }
 
     void fill(MonteCarloRegions& regions, std::vector<std::uint64_t> counts, std::uint64_t trials, double p) const {
+        // Cells have one volume: the fullest ones first make up the fraction p with the fewest of them.
         std::sort(counts.begin(), counts.end(), std::greater<>());
         const double wanted = p * static_cast<double>(trials);
         std::uint64_t inside = 0;
@@ -284,6 +305,7 @@ public:
           scratch_(workers_.size()) {
         // Wide models are evaluated in parts of a block, so that the drawn values stay near the processor: a megabyte.
         const std::uint64_t most = (std::uint64_t{1} << 17) / static_cast<std::uint64_t>(draws_.size() + m_ + 1);
+        // By the model alone, never by the threads: the moments of a block are merged part by part.
         rows_ = std::clamp<std::uint64_t>(most / 32 * 32, 32, k_block);
     }
 
@@ -366,6 +388,7 @@ public:
           progress_from_(progress_from) {
         const auto outputs = static_cast<std::uint64_t>(m_);
         keeps_all_ = trials <= options.memory.kept_trials && trials <= options.memory.kept_values / outputs;
+        // All batches of all outputs are kept: 2^22 values, 32 MiB, up to a thousand outputs.
         batch_ = std::clamp<std::uint64_t>((std::uint64_t{1} << 22) / k_batches / outputs, 256, k_largest_batch);
         batch_ = std::min(batch_, trials / k_batches);
         with_regions_ = options.regions && m_ > 1;
@@ -394,6 +417,7 @@ private:
     void begin() {
         const std::uint64_t pilot = std::min(k_pilot, trials_);
         kept_.resize(index(keeps_all_ ? trials_ : std::max(batch_ * k_batches, pilot)), m_);
+        // Drawn once more in the first pass. Here they set the bins of the searches only, and no result rests on them.
         Eigen::MatrixXd first(index(pilot), m_);
         source_.evaluate(0, 0, pilot,
                          [&](std::uint64_t from, const Values& y) { first.middleRows(index(from), y.rows()) = y; });
@@ -403,6 +427,8 @@ private:
                 : outputs <= 200  ? 6
                 : outputs <= 1000 ? 4
                                   : 3;  // some MB a worker
+        // Where all trials are kept, a search may collect them all: it never divides its bins then, and is always
+        // exact.
         const std::uint64_t most = keeps_all_ ? std::max(options_.memory.collected_values / outputs, trials_)
                                               : std::max<std::uint64_t>(options_.memory.collected_values / outputs, 64);
         searches_.reserve(static_cast<std::size_t>(m_));
@@ -437,6 +463,7 @@ private:
         const std::uint64_t blocks = (trials_ + k_block - 1) / k_block;
         const std::uint64_t round =
             m_ <= 64 ? 64 : std::uint64_t{2} * static_cast<std::uint64_t>(source_.workers().size());
+        // Merged after each round: with m×m products a block, sums of all blocks could not be held.
         std::vector<Sums> partial(static_cast<std::size_t>(round));
         for (std::uint64_t begin = 0; begin < blocks; begin += round) {
             const std::uint64_t here = std::min(round, blocks - begin);
@@ -487,6 +514,7 @@ private:
         Eigen::MatrixXd first;
         Eigen::MatrixXd scratch;
         const Eigen::Index pilot = index(std::min(k_pilot, trials_));
+        // kept_ has the pilot trials in any case, see begin().
         distances_->evaluate(kept_.topRows(pilot), first, scratch);
         const std::uint64_t rank = enclosing_rank(options_.coverage_probability, trials_);
         for (Eigen::Index j = 0; j < 2; ++j) {
@@ -796,6 +824,7 @@ public:
           numbers_(static_cast<std::size_t>(4 * outputs + 3)) {}
 
     void add(const SequenceResult& sequence) {
+        // u, and with it the tolerance, is that of all trials so far: that of one sequence would scatter too much.
         all_.merge(sequence.sums);
         for (std::size_t j = 0; j < sequence.symmetric.size(); ++j) {
             const Moments& moments = sequence.sums.moments[j];
@@ -845,6 +874,7 @@ private:
     }
     /// Twice the standard deviation of the average.
     [[nodiscard]] static bool settled(const Moments& number, double tolerance) {
+        // 2 s/√h ≤ δ, s the standard deviation of the h sequences, s/√h that of their average.
         return 2.0 * number.standard_deviation() / std::sqrt(static_cast<double>(number.count)) <= tolerance;
     }
 
@@ -920,6 +950,8 @@ double numerical_tolerance(double u, int digits) {
     const char* exponent = std::find(static_cast<const char*>(text.data()), static_cast<const char*>(written.ptr), 'e');
     int power = 0;
     std::from_chars(exponent[1] == '+' ? exponent + 2 : exponent + 1, written.ptr, power);
+    // u = c 10^ℓ with ℓ = power − digits + 1: ½ 10^ℓ is 5·10^(power − digits). Read as text it is the double nearest to
+    // that, which a product with a power of ten need not be.
     const std::string half_unit = "5e" + std::to_string(power - digits);
     double tolerance = 0.0;
     std::from_chars(half_unit.data(), half_unit.data() + half_unit.size(), tolerance);

@@ -21,6 +21,12 @@
 
 namespace gumcert::gum {
 
+// The order of the steps: the budget of the fixture gives the covariance that the adjustment weighs with; the
+// adjustment gives values, weights and degrees of freedom; the law of propagation takes them as a measurement model;
+// what is derived (parameters of the axis, location errors, contact point) is propagated from the same inputs, so that
+// correlations between angles go into it; Monte Carlo draws the same inputs last, and is held against the law.
+// The joint method goes angle by angle (ADR 0032), the sequential one by all sensitivity coefficients.
+
 namespace {
 
 constexpr double k_detection_power = 0.8;  // of the minimal detectable bias, as Baarda chose it
@@ -45,6 +51,8 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
         *joint, {.fixture = result.fixture.model, .derived = result.parameter_model->parameters()});
     MonteCarloOptions options = monte_carlo_options(asked, threads, progress);
     options.coverage_probability = request.coverage_probability;
+    // Hundreds of outputs: regions of all of them say nothing, and counts of cells for each would be held by every
+    // thread.
     options.regions = false;
     options.histogram = false;
     const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
@@ -101,7 +109,10 @@ QuantityUncertainty stated_by_all_coefficients(const MeasurementModel& model, do
 engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasurement& measurement) {
     engine::EvaluationOptions options;
     options.critical_value = two_sided_normal_critical_value(measurement.outliers.alpha);
+    // δ0 = z_(1−α/2) + z_(1−β): a bias of δ0 σ/√r exceeds the limit with the probability 1 − β, 3.29 + 0.84 = 4.13 for
+    // α = 0.001.
     options.non_centrality = options.critical_value + standard_normal_quantile(k_detection_power);
+    // Of a residual whose variance is estimated: t of its degrees of freedom in place of the normal distribution.
     options.student_critical_value = [alpha = measurement.outliers.alpha](double degrees_of_freedom) {
         return coverage_factor(1.0 - alpha, degrees_of_freedom);
     };
@@ -169,6 +180,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
         report("Monte Carlo");
         result.monte_carlo = monte_carlo_of(request, result, threads, progress);
         for (const std::optional<Validation>& validation : result.monte_carlo->validations) {
+            // Trials that are too few to tell have not validated anything.
             const bool failed = validation && !(validation->validated && validation->precise_enough);
             result.validation_failed = result.validation_failed || (request.monte_carlo->validate && failed);
         }

@@ -48,6 +48,7 @@ InputGroup group_of_variants(const std::vector<InputGroup>& variants) {
         u(i) = std::sqrt(variant.covariance(0, 0));
         group.marginals.push_back(variant.marginals.front());
     }
+    // One probability for all: correlation 1, of rank one.
     group.covariance = u * u.transpose();
     group.dependence = Dependence::same_probability;
     return group;
@@ -98,6 +99,7 @@ void warn_of_columns(const RotaryTableRequest& request, const Eigen::MatrixXd& c
     for (Eigen::Index i = 0; i < request.stated_fixture_u.size(); ++i) {
         const double stated = request.stated_fixture_u(i);
         const double u = std::sqrt(covariance(i, i));
+        // Too small misleads as much as too large.
         const double ratio = stated > 0.0 ? std::max(u / stated, stated / u) : 1.0;
         if (ratio > largest) {
             largest = ratio;
@@ -127,6 +129,8 @@ void evaluate(RotaryTableRequest& request, FixtureUncertainty& fixture) {
     const BudgetResult& result = fixture.budget.emplace(evaluate_budget(budget, 1));
     check_output(request, result);
     check_values(request, budget, result);
+    // With what the coordinates share (CMM, temperature, expansion) off the diagonal: six reflectors that are all wrong
+    // alike are not six independent ones.
     const Eigen::MatrixXd covariance = budget_covariance(result);
     std::vector<std::string> names;
     Eigen::Index largest = 0;
@@ -154,6 +158,8 @@ void evaluate(RotaryTableRequest& request, FixtureUncertainty& fixture) {
 JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector<std::string>& names) {
     // Groups in the order in which the points first bring them, so that the result depends on the job alone.
     std::vector<SharedInput> shared;
+    // Equal streams are what points have in common (budget_inputs): a name would not do, since one name may stand for
+    // an input of each point.
     std::unordered_map<std::uint64_t, std::size_t> by_stream;
     struct Use {
         std::size_t input = 0, variant = 0;
@@ -193,6 +199,7 @@ JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector
     for (std::size_t p = 0; p < result.points.size(); ++p) {
         Point point{.model = result.points[p].model, .inputs = {}};
         for (std::size_t g = 0; g < uses[p].size(); ++g) {
+            // A variant is one column of its group; a group of several quantities has one variant only, see above.
             const Eigen::Index first = shared[uses[p][g].input].first + static_cast<Eigen::Index>(uses[p][g].variant);
             for (Eigen::Index i = 0; i < point.model->inputs()[g].size(); ++i) {
                 point.inputs.push_back(first + i);

@@ -38,6 +38,7 @@ double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Ma
                       std::size_t reflector) {
     const double stretch =
         1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
+    // |(1 + α ΔT) R(θ) p − q|: the model of JointAdjustment with E and T_s the identity and l0 = 0.
     return (stretch * (rotation * measurement.fixture.row(static_cast<Eigen::Index>(reflector)).transpose()) -
             *measurement.station_start[station])
         .norm();
@@ -73,6 +74,7 @@ void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_pa
             measurement.passes.push_back(measurement.stations[j] + (down ? "-2" : "-1"));
             const std::size_t angles = measurement.angles.size();
             for (std::size_t step = 0; step < angles; ++step) {
+                // The table goes back the way it came: time and drift run against the angle in the sense −.
                 const std::size_t i = down ? angles - 1 - step : step;
                 const Eigen::Matrix3d rotation = nominal_rotation(measurement, i);
                 for (std::size_t m = 0; m < reflectors; ++m) {
@@ -90,6 +92,7 @@ void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_pa
                                             "stands where reflector " + measurement.reflectors[m] + " comes to",
                                             "a distance is greater than 0", "move the station", gum::Severity::error});
                     }
+                    // The line that the distance gets in a file: the first one holds the names of the columns.
                     length.line = measurement.lengths.size() + 2;
                     measurement.lengths.push_back(length);
                 }
@@ -130,6 +133,7 @@ RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement,
             const Eigen::Matrix3d rotation = nominal_rotation(result, i);
             for (auto entry = begin; entry != end; ++entry) {
                 LengthObservation length = entry->second;
+                // Numbered as they are met, so that one which began in mid-turn, and is not met, is left out.
                 if (!used[length.dead_path]) {
                     used[length.dead_path] = result.dead_paths.size();
                     result.dead_paths.push_back(measurement.dead_paths[length.dead_path]);

@@ -111,6 +111,7 @@ RotaryTableMeasurement part_of(const RotaryTableMeasurement& from, const std::ve
     result.temperature_difference = from.temperature_difference(station_rows).eval();
     result.u_temperature = from.u_temperature(station_rows).eval();
     result.fixture = from.fixture(kept_indices(reflectors), Eigen::all).eval();
+    // Rows and columns of what is left: the covariance of a part is a part of the covariance.
     std::vector<Eigen::Index> coordinates;
     for (const Eigen::Index m : kept_indices(reflectors)) {
         coordinates.insert(coordinates.end(), {3 * m, 3 * m + 1, 3 * m + 2});
@@ -246,6 +247,7 @@ RotaryTableMeasurement with_twice_the_angles(const RotaryTableMeasurement& measu
     const double step =
         count > 1 ? (measurement.angles.back() - measurement.angles.front()) / static_cast<double>(count - 1) : 0.0;
     const double gap = 2.0 * std::numbers::pi - (measurement.angles.back() - measurement.angles.front());
+    // Half a step of tolerance: steps of a plan need not be equal, and an arc with a gap of two steps is not closed.
     const bool closed = gap > 0.5 * step && gap < 1.5 * step;
     RotaryTableMeasurement result = measurement;
     result.angles.clear();
@@ -335,6 +337,8 @@ LayoutVariances::LayoutVariances(const RotaryTableMeasurement& measurement, cons
     prior_.border = Eigen::MatrixXd::Zero(border_.size, border_.size);
     prior_.poses = Eigen::MatrixXd::Zero(6 * angles, 6);
     prior_.mixed = Eigen::MatrixXd::Zero(6 * angles, border_.size);
+    // Fixture and expansion are known once, however many stations there are: their priors are not in the information of
+    // any station. Scale and temperature belong to one station, and are.
     const std::unique_ptr<Observer> any = observer(0);
     const NormalEquations normal = any->adjustment_->adjustment().linearise();
     for (const std::size_t group_index : {any->adjustment_->fixture_prior(), any->adjustment_->expansion_prior()}) {
@@ -372,6 +376,7 @@ LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t s
     }
     measurement_ = of_station(whole, station, only);
     adjustment_ = std::make_unique<JointAdjustment>(planned_adjustment(measurement_, stochastic_));
+    // A station alone may have both senses where another one has not: the layout has no reversal then.
     for (int c = 0; c < 6 && adjustment_->has_reversal() && !layout.has_reversal_; ++c) {
         adjustment_->adjustment().hold(adjustment_->reversal_block(), c);
     }
@@ -401,6 +406,8 @@ LayoutVariances::Observer::Observer(const LayoutVariances& layout, std::size_t s
             if (const Eigen::Index column = normal.column(block, c); column >= 0) {
                 places_[static_cast<std::size_t>(column)] = {pose, first++};
             } else if (pose) {
+                // A held component of a pose keeps its place in the block of 6; in the border held parameters have
+                // none.
                 ++first;
             }
         }
@@ -426,6 +433,7 @@ void LayoutVariances::Observer::stand_at(const Eigen::Vector3d& position) {
     // The proportional part of the length noise goes with the distance.
     const std::vector<Visit>& visits = adjustment_->visits();
     for (std::size_t v = 0; v < visits.size(); ++v) {
+        // observed − (observed − predicted): the length that the ideal table shows from the new place.
         const Eigen::VectorXd predicted = observed_[v] - adjustment.residual(v);
         for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {
             measurement_.lengths[visits[v].observations[k]].length = predicted[static_cast<Eigen::Index>(k)];
@@ -438,6 +446,7 @@ void LayoutVariances::Observer::pose_information(const Eigen::Vector3d& position
     result.setZero(6 * static_cast<Eigen::Index>(measurement_.angles.size()), 6);
     const std::vector<Visit>& visits = adjustment_->visits();
     for (std::size_t v = 0; v < visits.size(); ++v) {
+        // E(home) is held: the visit tells of the border alone.
         if (visits[v].angle == measurement_.home) {
             continue;
         }
@@ -511,6 +520,7 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
         // whole.
         half = pose->scale.asDiagonal() * information.mixed.middleRows<6>(6 * i);
         pose->factor.matrixL().solveInPlace(half);
+        // N_b − Σ B_iᵀ D_i⁻¹ B_i, with D_i = L_i L_iᵀ as (L_i⁻¹ B_i)ᵀ(L_i⁻¹ B_i).
         reduced.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose(), -1.0);
         pose->factor.matrixU().solveInPlace(half);
         gain.middleRows<6>(6 * i) = pose->scale.asDiagonal() * half;
@@ -535,6 +545,7 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
     }
 
     Eigen::MatrixXd root = Eigen::MatrixXd::Identity(border_.size, border_.size);  // of the covariance of the border
+    // N = L Lᵀ, so that L⁻ᵀ is a root of N⁻¹.
     factor.matrixU().solveInPlace(root);
     root = (scale.asDiagonal() * root).eval();
     const AnglewiseMap map = reported_map(datum_, border_.size,

@@ -19,6 +19,13 @@
 
 namespace gumcert::engine {
 
+// A trial is the whole measurement once more: drawn data, exact kinematics, minimum, datum, derived quantities.
+// Data are kept as differences from the solution: residual there plus what was drawn. Deviations are fractions of a
+// micrometre, lengths are metres: a difference that is formed after the drawing would have lost nearly half of its
+// digits.
+// Sixteen trials go through each step together, one a lane of wide registers. Lanes never meet: no sum goes across
+// them, and one that has converged is left as it is. So a trial has the same bits wherever it stands.
+
 namespace {
 
 using Index = Eigen::Index;
@@ -35,6 +42,7 @@ void draw_visit(const TrialNetwork& network, const TrialNetwork::VisitPlan& visi
 void load(const Eigen::Ref<const Eigen::MatrixXd>& x, Index column, Index first, Index count, Lanes& to) {
     const double* from = x.data() + column * x.outerStride() + first;
     std::copy_n(from, count, to.at.begin());
+    // Spare lanes repeat an ordinary trial: nothing special can happen in them, and nothing of them is written.
     std::fill(to.at.begin() + count, to.at.end(), from[count - 1]);
 }
 
@@ -44,6 +52,7 @@ Lanes variance_factor(const Eigen::Ref<const Eigen::MatrixXd>& x, Index column, 
     if (column >= 0) {
         load(x, column, first, count, factor);
         for (double& lane : factor.at) {
+            // A normal deviation over √(χ²_ν/ν) is t with ν degrees of freedom.
             lane = 1.0 / std::sqrt(lane);
         }
     }
@@ -215,6 +224,8 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
     fixture_value_ = measurement.fixture.transpose().reshaped();
     columns_.fixture = size;
     if (extras_.fixture) {
+        // The model of the fixture has the stated covariance; the factor that was estimated for it goes on the
+        // deviations.
         fixture_deviation_ = std::sqrt(stochastic.fixture_factor);
         fixture_value_ = extras_.fixture->evaluate(gum::input_estimates(*extras_.fixture));
         if (fixture_value_.size() != 3 * measurement.fixture.rows()) {
@@ -264,6 +275,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
         const std::string full_name = std::string(name) + ", estimated variance";
         gum::InputGroup group = group_of(full_name.c_str(), source, "1", Eigen::VectorXd::Ones(1),
                                          Eigen::MatrixXd::Constant(1, 1, 2.0 / nu), gum::k_infinity);
+        // E(χ²_ν/ν) = 1 and Var(χ²_ν/ν) = 2/ν: gamma of shape ν/2 and scale 2/ν.
         group.evaluation = gum::Evaluation::type_a;
         group.distribution = "gamma";
         // The variance itself is known with ν degrees of freedom only: a factor χ²_ν/ν that all quantities of the
@@ -386,6 +398,9 @@ void RotaryTableTrials::write_derived(Index first, Index count, const TrialBatch
             if (!visit.is_determined) {
                 continue;
             }
+            // Where the table stood at this visit: error motion and its half of the reversal, plus what the residuals
+            // of the visit tell of its own deviation, plus the part of the deviation that was drawn and taken off the
+            // lengths.
             double position = reported[6 * visit.angle + axial];
             if (quantities_.has_reversal) {
                 position += visit.half_sense * (batch.delta[static_cast<std::size_t>(visit.reversal + axial)][lane] +

@@ -10,6 +10,14 @@
 
 namespace gumcert::engine {
 
+// A trial keeps the ten conditions of the datum with its exact motions, as the solution does (ADR 0006):
+// 1. World and set-up change by the map of the solution, to first order in what the poses of the trial deviate.
+// 2. The errors are formed anew with them, E' = W E (R T_old T_new⁻¹ R⁻¹).
+// 3. The same map says what these errors still have that the datum forbids; world and set-up change by that, from 2
+// again.
+// Each round brings down what is forbidden by the size of the motions themselves, which are small: a few of them reach
+// the last digits.
+
 TrialDatum::TrialDatum(const JointAdjustment& solved)
     : datum(solved.measurement().datum), home(static_cast<Eigen::Index>(solved.measurement().home)) {
     const RotaryTableMeasurement& measurement = solved.measurement();
@@ -40,6 +48,8 @@ using Index = Eigen::Index;
 /// C = A B of rotations given by their differences from the identity.
 GUMCERT_INLINE void multiply_rotations(const Lanes* a, const Lanes* b, Lanes* product) {
     for (int r = 0; r < 3; ++r) {
+        // Rotations are held as R − I. Angles are microradians: beside the 1 on the diagonal an element of 1e-6 would
+        // keep ten digits, of its own it keeps all, and (I + A)(I + B) − I = A + B + A B adds small numbers only.
         const Lanes* row = a + 3 * r;
         for (int c = 0; c < 3; ++c) {
             const Lanes* column = b + c;
@@ -73,6 +83,8 @@ void begin_datum(const TrialNetwork& network, const TrialDatum& datum, TrialBatc
     for (Lanes& change : batch.change) {
         fill(change, 0.0);
     }
+    // The map that is exact to first order at the solution serves for every step: it only has to bring the forbidden
+    // part down, which compose_errors() then measures with the exact motions.
     multiply_add(datum.change_map.data(), 10, 6 * network.angles, &batch.delta[static_cast<std::size_t>(network.poses)],
                  batch.change.data());
     for (int c = 0; c < 6; ++c) {
@@ -89,6 +101,7 @@ void change_datum(const TrialDatum& datum, TrialBatch& batch) {
     const auto add = [&](const Lanes& change, Lanes& to) {
 #pragma GCC ivdep
         for (int t = 0; t < k_lanes; ++t) {
+            // A trial that has converged is left as it is: its bits must not depend on how long its neighbours take.
             to[t] += active[t] != 0.0 ? change[t] : 0.0;
         }
     };
@@ -142,6 +155,8 @@ void compose_errors(const TrialNetwork& network, const TrialDatum& datum, TrialB
     const auto p = static_cast<std::size_t>(datum.cyclic[1]);
     const auto q = static_cast<std::size_t>(datum.cyclic[2]);
     for (Index i = 0; i < network.angles; ++i) {
+        // R(θ) X R(θ)ᵀ with a rotation about one coordinate: rows and columns across the axis turn, nothing is
+        // multiplied by 0 and 1.
         const double c = datum.cosine[static_cast<std::size_t>(i)];
         const double s = datum.sine[static_cast<std::size_t>(i)];
 #pragma GCC ivdep
@@ -201,6 +216,7 @@ void compose_errors(const TrialNetwork& network, const TrialDatum& datum, TrialB
 }  // namespace
 
 void transform_to_datum(const TrialNetwork& network, const TrialDatum& datum, TrialBatch& batch) {
+    // A billionth of what an error motion is known to.
     constexpr double k_negligible = 1e-16;  // [m] and [rad]
     begin_datum(network, datum, batch);
     change_datum(datum, batch);

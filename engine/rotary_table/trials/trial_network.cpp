@@ -13,6 +13,13 @@
 
 namespace gumcert::engine {
 
+// All that trials have in common, made once at the solution:
+// 1. A slot for each parameter, and the visits in an order in which those of one pose follow each other.
+// 2. Of each visit the weights V⁻¹ and −A; of each prior its weights. They are held (ADR 0015).
+// 3. N = Jᵀ V⁻¹ J, factored: each pose is eliminated alone, N_bb − Σ N_be N_ee⁻¹ N_eb, and what is left, the border, is
+// inverted. A trial then takes its steps N⁻¹ Jᵀ V⁻¹ v with products only.
+// 4. Where expansion or temperature is uncertain, the same reduced to the stretches of the fixture.
+
 namespace {
 
 using Index = Eigen::Index;
@@ -25,6 +32,7 @@ Eigen::MatrixXd weight_matrix(const Eigen::MatrixXd& cholesky) {
     const Eigen::MatrixXd half =
         cholesky.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(cholesky.rows(), cholesky.rows()));
     Eigen::MatrixXd weight = half.transpose() * half;
+    // Trials read it by rows, Eigen stores it by columns.
     weight.triangularView<Eigen::StrictlyUpper>() = weight.transpose();
     return weight;
 }
@@ -195,6 +203,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
             length.reflector = reflector;
             length.path_slot = paths + static_cast<Index>(observed.dead_path);
             lengths.push_back(length);
+            // ∂l/∂(1 + α ΔT) = s uᵀ E R T_s p
             by_stretch_.push_back(scale * difference.dot(turned) / length.distance);
         }
         visits.push_back(plan);
@@ -230,6 +239,7 @@ void TrialNetwork::take_priors(const JointAdjustment& solved, const NormalEquati
                 ? -1
                 : take(solved.temperature_prior(at), one(thermal.temperature[at]), {}));
     }
+    // A group that a trial does not know would still pull at the solution, and no trial would be at its minimum.
     if (visits.size() + priors.size() != normal.groups().size()) {
         throw std::logic_error("rotary table trials: the adjustment has observations that are not of the measurement");
     }
@@ -338,6 +348,8 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
         border_covariance = inverse_of(reduced.topLeftCorner(plain, plain));
     }
     const Eigen::MatrixXd across = reduced.bottomLeftCorner(border_size - plain, plain);
+    // The border without the stretches is eliminated from the equations of the stretches: N_ss − N_sb N_bb⁻¹ N_bs. N_bb
+    // is that of the border at known stretches.
     thermal.from_border = -(across * border_covariance);
     thermal.normal = reduced.bottomRightCorner(border_size - plain, border_size - plain);
     thermal.normal += thermal.from_border * across.transpose();
@@ -346,6 +358,7 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
     for (Index b = 0; b < plain; ++b) {
         const Index at = border[static_cast<std::size_t>(b)];
         free_slots.push_back(at);
+        // Slots of the reversal and the poses stand last: what is reported of the border is the reversal.
         if (at >= reversal) {
             reported.push_back({at, 1.0 / std::sqrt(border_covariance(b, b))});
         }
@@ -358,6 +371,7 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
         }
         Elimination& elimination = eliminated[next++];
         const RowMajorMatrix by_border = elimination.to_pose.leftCols(plain);
+        // W + F C Fᵀ: the variance of a pose with that of the border in it.
         const RowMajorMatrix spread = by_border * border_covariance;
         for (Index c = 0; c < n; ++c, ++column) {
             elimination.slots.push_back(slot[column]);
