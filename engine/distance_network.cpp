@@ -12,6 +12,8 @@ namespace gumcert::engine {
 
 namespace {
 
+constexpr double k_least_redundancy = 1e-6;  // what is less is nothing but rounding of 1 − leverage
+
 /// |P - Q| - l0. Blocks: P, Q, then l0 when there is one.
 class DistanceModel final : public ObservationModel {
 public:
@@ -155,8 +157,11 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
         NetworkReliability row;
         row.redundancy_number = 1.0 - leverage;
         row.residual = -group.residual[0] * distances[i].u;
-        row.test_value = -group.residual[0] / std::sqrt(row.redundancy_number);
-        row.minimal_detectable_bias = non_centrality * distances[i].u / std::sqrt(row.redundancy_number);
+        if (row.redundancy_number > k_least_redundancy) {
+            const double root = std::sqrt(row.redundancy_number);
+            row.test_value = -group.residual[0] / root;
+            row.minimal_detectable_bias = non_centrality * distances[i].u / root;
+        }
         solution.reliability.push_back(row);
     }
     return solution;

@@ -32,8 +32,10 @@ struct NetworkDistance {
 struct NetworkReliability {
     double residual = 0.0;  ///< adjusted minus observed distance, [m]
     double redundancy_number = 0.0;
-    double test_value = 0.0;               ///< normalised residual (Baarda), standard normal for a good distance
-    double minimal_detectable_bias = 0.0;  ///< for the non-centrality asked for, [m]
+    /// Normalised residual (Baarda), standard normal for a good distance; none where no other distance controls this one
+    std::optional<double> test_value;
+    std::optional<double>
+        minimal_detectable_bias;  ///< for the non-centrality asked for, [m]; none: no error would be found
 };
 
 struct NetworkSolution {

@@ -24,7 +24,7 @@ namespace gumcert::gum {
 
 namespace {
 
-// 64 bits of mantissa on x86-64. Differences of observations about a common centre are exact in it.
+// 64 bits of mantissa on x86-64. Differences of observations of similar size about a common centre are exact in it.
 using Real = long double;
 
 // An overflow is reported as our own failure, not as an exception of the library. In double throughout: elementary

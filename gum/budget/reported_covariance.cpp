@@ -20,7 +20,6 @@ namespace {
 
 constexpr double k_most_products = 2e10;  // of trials and pairs of results, so that points take seconds
 constexpr std::uint64_t k_most_together = 200'000;
-constexpr std::uint64_t k_fewest_together = 20'000;
 constexpr Eigen::Index k_rows = 1024;
 
 /// Whether a result that is reported by the law has a variance: an input of t with ν ≤ 2 has none.
@@ -51,8 +50,8 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
     }
     // A coefficient of M trials is known to 1/√M: to 0.2 % of 200 000, to 0.4 % of the 80 000 that 500 results get.
     const double pairs = static_cast<double>(n) * static_cast<double>(n);
-    const auto trials = static_cast<Eigen::Index>(
-        std::clamp(static_cast<std::uint64_t>(k_most_products / pairs), k_fewest_together, k_most_together));
+    const auto trials =
+        static_cast<Eigen::Index>(std::min(static_cast<std::uint64_t>(k_most_products / pairs), k_most_together));
     // Sums are taken about the values of the law of propagation: near enough to the means that Σ d² − (Σ d)²/M does not
     // cancel, and one pass does.
     Eigen::RowVectorXd centre(n);

@@ -231,7 +231,7 @@ public:
         if (m < 2 || m > 3) {
             return;
         }
-        // Twenty or so trials in a cell of the middle, and cells that shrink as trials grow in number.
+        // Cells shrink as trials grow in number, more slowly than the trials in each of them grow.
         const double millions = static_cast<double>(trials) * 1e-6;
         const double wanted = m == 2 ? 100.0 * std::pow(millions, 0.25) : 30.0 * std::pow(millions, 0.2);
         const int cells = static_cast<int>(std::clamp(wanted, 8.0, m == 2 ? 400.0 : 100.0));

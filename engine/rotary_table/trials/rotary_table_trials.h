@@ -88,7 +88,7 @@ public:
     [[nodiscard]] const std::vector<gum::OutputQuantity>& outputs() const override { return outputs_; }
     /// \throws gum::NoResultError  if the trial does not converge
     [[nodiscard]] Eigen::VectorXd evaluate(const Eigen::VectorXd& x) const override;
-    /// By central differences over one standard uncertainty of each input.
+    /// By central differences, a tenth of the standard uncertainty of each input to either side.
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
     /// A trial that does not converge even with its own normal equations gets NaN.
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override;

@@ -211,11 +211,12 @@ TEST(DistanceNetwork, BlankenbachWillert2009BlundersAreNamedOneAtATime) {
         position = solution.positions[0];
         std::size_t worst = 0;
         for (std::size_t i = 0; i < kept.size(); ++i) {
-            if (std::abs(solution.reliability[i].test_value) > std::abs(solution.reliability[worst].test_value)) {
+            if (std::abs(solution.reliability[i].test_value.value()) >
+                std::abs(solution.reliability[worst].test_value.value())) {
                 worst = i;
             }
         }
-        if (std::abs(solution.reliability[worst].test_value) < 3.29) {
+        if (std::abs(solution.reliability[worst].test_value.value()) < 3.29) {
             break;
         }
         removed.push_back(kept[worst].name);
@@ -227,6 +228,24 @@ TEST(DistanceNetwork, BlankenbachWillert2009BlundersAreNamedOneAtATime) {
     EXPECT_NEAR(position[0], -2.5077, 0.5e-4);
     EXPECT_NEAR(position[1], 24.3202, 0.5e-4);
     EXPECT_NEAR(position[2], 9.7753, 0.5e-4);
+}
+
+TEST(DistanceNetwork, ADistanceThatNoOtherControlsIsNotTested) {
+    const std::vector<Eigen::Vector3d> fixed{{1.0, 0.1, 0.0}, {0.0, 1.2, 0.1}, {0.2, 0.0, 0.9}, {-0.8, 0.3, 0.2}};
+    for (const std::size_t seen : {3U, 4U}) {
+        std::vector<NetworkPoint> points{{"P", {0.1, 0.1, 0.1}, false, {}, false}};
+        std::vector<NetworkDistance> distances;
+        for (std::size_t i = 0; i < seen; ++i) {
+            points.push_back({"R" + std::to_string(i), fixed[i], true, {}, false});
+            distances.push_back({0, i + 1, {}, fixed[i].norm() + 1e-6 * static_cast<double>(i), 1e-6});
+        }
+        for (const NetworkReliability& row :
+             adjust_distance_network(points, 0, distances, SolverOptions{}).reliability) {
+            EXPECT_EQ(row.test_value.has_value(), seen == 4);
+            EXPECT_EQ(row.minimal_detectable_bias.has_value(), seen == 4);
+            EXPECT_TRUE(!row.test_value || std::isfinite(*row.test_value));
+        }
+    }
 }
 
 TEST(DistanceNetwork, PointSeenOnAConeWithAnAdditiveConstantIsRefused) {

@@ -119,9 +119,8 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
         summary.u_x = shown(standard_uncertainties(fit.x_uncertainty, fit.regressor_units.front()), printed_u);
     } else {
         for (std::size_t q = 0; q < fit.regressors.size(); ++q) {
-            summary.regressors.push_back({.name = fit.regressors[q],
-                                          .unit = fit.regressor_units[q].text(),
-                                          .values = shown_series(column(q))});
+            summary.regressors.push_back(
+                {.name = fit.regressors[q], .unit = fit.regressor_units[q].text(), .values = shown_series(column(q))});
         }
     }
     for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
