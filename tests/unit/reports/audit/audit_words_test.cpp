@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "audit/rules/registry.h"
 #include "reports/forms/asset_files.h"
@@ -57,6 +58,41 @@ TEST_F(AuditWordsIn, HaveATitleOfTheirOwnForEveryRule) {
             EXPECT_TRUE(is_new) << rule.id << " has the title of " << other->second << " in " << language;
         }
         EXPECT_GE(rule_of_title.size(), 139U);
+    }
+}
+
+/// Asks for what a rule advises or asks in each language; two rules say the same only where they do in English.
+void expect_worded(const AuditWords& words, std::string_view audit::Rule::*said) {
+    std::map<std::string, std::string> english_of;
+    for (const audit::Rule& rule : audit::all_rules()) {
+        const std::string english(rule.*said);
+        const AuditSentence worded = words.sentence(english);
+        EXPECT_FALSE(english.empty()) << rule.id;
+        EXPECT_FALSE(worded.english) << rule.id << " " << words.language() << ": " << worded.text;
+        EXPECT_FALSE(worded.text.empty()) << rule.id << " " << words.language();
+        EXPECT_EQ(english_of.emplace(worded.text, english).first->second, english)
+            << rule.id << " " << words.language();
+    }
+    EXPECT_GE(english_of.size(), 136U);
+}
+
+TEST_F(AuditWordsIn, WordWhatEveryRuleAdvisesAndAsks) {
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        const AuditWords words = in(language);
+        expect_worded(words, &audit::Rule::correction);
+        expect_worded(words, &audit::Rule::question);
+    }
+}
+
+TEST_F(AuditWordsIn, WordWhatAFindingSaysInPlaceOfItsRule) {
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        const AuditWords words = in(language);
+        for (const char* own : {"Call the row a resolution, and add the repeatability from readings, with its ν.",
+                                "From how many readings does the repeatability come?",
+                                "Which exponent does the data sheet of the machine state, and in which unit is L?",
+                                "Is the age of the calibration meant in days, months or years?"}) {
+            EXPECT_FALSE(words.sentence(own).english) << language << ": " << own;
+        }
     }
 }
 
