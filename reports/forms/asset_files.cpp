@@ -31,6 +31,10 @@ std::string read_asset(const std::filesystem::path& file) {
 }
 
 nlohmann::json read_json_asset(const std::filesystem::path& file) {
+    return json_of_asset(read_asset(file), file);
+}
+
+nlohmann::json json_of_asset(const std::string& text, const std::filesystem::path& file) {
     const auto refuse = [](std::string where, std::string what) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
                                                 .where = std::move(where),
@@ -38,8 +42,8 @@ nlohmann::json read_json_asset(const std::filesystem::path& file) {
                                                 .rule = "wording files are JSON",
                                                 .action = "take the templates of this release"});
     };
-    std::optional<nlohmann::json> read = gumcert::json::parse(
-        read_asset(file), {.byte_order_mark = true}, [&](const gumcert::json::ParsingProblem& problem) {
+    std::optional<nlohmann::json> read =
+        gumcert::json::parse(text, {.byte_order_mark = true}, [&](const gumcert::json::ParsingProblem& problem) {
             refuse(file.string() + " (" + text::line_and_column(problem.place) + ")", problem.what);
         });
     if (!read || !read->is_object()) {

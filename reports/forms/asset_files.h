@@ -19,6 +19,8 @@ namespace gumcert::reports {
 /// The object of a JSON file of the product, read strictly.
 /// \throws gum::StorageError if it cannot be read, or is none
 [[nodiscard]] nlohmann::json read_json_asset(const std::filesystem::path& file);
+/// The same of its text, for which the file is named in messages.
+[[nodiscard]] nlohmann::json json_of_asset(const std::string& text, const std::filesystem::path& file);
 
 /// Languages that a document is printed in, the binding one first: those that the assets ask for, else the first two of
 /// the certificate data, else English.

@@ -98,7 +98,7 @@ std::shared_ptr<const ProgramSentences> read_sentences(const std::filesystem::pa
     std::string text = read_asset(file);
     const std::lock_guard lock(one_at_a_time);
     if (!made || text != made_of) {
-        made = std::make_shared<const ProgramSentences>(read_json_asset(file));
+        made = std::make_shared<const ProgramSentences>(json_of_asset(text, file));
         made_of = std::move(text);
     }
     return made;
