@@ -16,15 +16,11 @@
 namespace gumcert::audit {
 namespace {
 
-double contribution(const AuditedRow& row) {
-    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
-}
-
 /// Σ (c u)² + 2 Σ c_i c_j u_i u_j r_ij.
 double combined_variance(const AuditedBudget& budget) {
     double variance = 0.0;
     for (const AuditedRow& row : budget.rows) {
-        const double part = contribution(row);
+        const double part = contribution_of(row);
         variance += part * part;
     }
     for (const RowCorrelation& pair : budget.correlations) {
@@ -39,7 +35,7 @@ double combined_variance(const AuditedBudget& budget) {
 double effective_degrees_of_freedom(const AuditedBudget& budget, double u_c) {
     double denominator = 0.0;
     for (const AuditedRow& row : budget.rows) {
-        const double part = contribution(row) / u_c;
+        const double part = contribution_of(row) / u_c;
         if (std::isfinite(row.used_nu) && row.used_nu > 0.0) {
             denominator += part * part * part * part / row.used_nu;
         }
@@ -119,7 +115,7 @@ double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& cover
     if (coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
         std::vector<gum::ConvolutionTerm> terms;
         for (const AuditedRow& row : budget.rows) {
-            if (contribution(row) > 0.0) {
+            if (contribution_of(row) > 0.0) {
                 terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
             }
         }
@@ -153,6 +149,10 @@ double score_of(const ComparedReference& reference, double value, double U_diffe
 }
 
 }  // namespace
+
+double contribution_of(const AuditedRow& row) {
+    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
+}
 
 BudgetOutcome evaluate(const AuditedBudget& budget) {
     return evaluate(budget, budget.coverage);

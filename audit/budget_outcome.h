@@ -21,6 +21,9 @@ struct BudgetOutcome {
     std::optional<double> en;  ///< the largest by its amount; none without value or reference
 };
 
+/// |c| u of a row, in the unit of the result; 0 of one that is not in the sum.
+[[nodiscard]] double contribution_of(const AuditedRow& row);
+
 /// Evaluates a budget.
 ///
 /// u_c² = Σ (c_i u_i)² + 2 Σ c_i c_j u_i u_j r_ij                               (JCGM 100:2008, eqs. 10 and 16)

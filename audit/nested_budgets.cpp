@@ -9,10 +9,6 @@
 namespace gumcert::audit {
 namespace {
 
-double contribution_in_sum(const AuditedRow& row) {
-    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
-}
-
 bool are_all_one(const RowFactors& factors) {
     return std::all_of(factors.begin(), factors.end(), [](const std::vector<double>& of_budget) {
         return std::all_of(of_budget.begin(), of_budget.end(), [](double factor) { return factor == 1.0; });
@@ -46,8 +42,8 @@ std::optional<RowFactors> row_factors(std::span<const AuditedBudget> claimed,
         }
         std::vector<double>& of_budget = factors.emplace_back();
         for (std::size_t row = 0; row < claimed[i].rows.size(); ++row) {
-            const double before = contribution_in_sum(claimed[i].rows[row]);
-            const double after = contribution_in_sum(corrected[i].rows[row]);
+            const double before = contribution_of(claimed[i].rows[row]);
+            const double after = contribution_of(corrected[i].rows[row]);
             if (before == 0.0 && after > 0.0) {
                 return std::nullopt;
             }

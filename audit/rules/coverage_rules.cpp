@@ -384,17 +384,14 @@ const Correction k_by_convolution = [](AuditedBudget& budget) {
 void rectangular_dominance(const AuditSubject& subject, FindingCollector& findings) {
     constexpr double k_rest = 0.3, k_moved = 0.02;
     for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
-        const auto part = [](const AuditedRow& row) {
-            return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
-        };
-        const auto dominant =
-            std::max_element(budget.rows.begin(), budget.rows.end(),
-                             [&part](const AuditedRow& a, const AuditedRow& c) { return part(a) < part(c); });
+        const auto dominant = std::max_element(
+            budget.rows.begin(), budget.rows.end(),
+            [](const AuditedRow& a, const AuditedRow& c) { return contribution_of(a) < contribution_of(c); });
         if (dominant == budget.rows.end() || dominant->shape != Shape::rectangular || !budget.correlations.empty() ||
             budget.coverage.kind == CoverageRule::Kind::convolution || budget.u_c_over_rows != 1.0) {
             return;
         }
-        const double largest = part(*dominant);
+        const double largest = contribution_of(*dominant);
         const double rest = std::sqrt(std::max(0.0, outcome.u_c * outcome.u_c - largest * largest));
         if (rest > k_rest * largest) {
             return;

@@ -32,10 +32,6 @@ std::optional<BudgetOutcome> outcome_of(const AuditedBudget& budget) {
     }
 }
 
-double contribution_of(const AuditedRow& row) {
-    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
-}
-
 std::optional<gum::Unit> unit_in(const std::string& text) {
     if (text.empty()) {
         return std::nullopt;

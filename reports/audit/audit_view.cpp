@@ -166,10 +166,6 @@ std::string unit_text(const std::string& unit) {
     return printable(gum::unit_for_people(unit));
 }
 
-double contribution_of(const AuditedRow& row) {
-    return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
-}
-
 AuditedRowView row_view(const AuditedRow& row, double sum_of_squares) {
     const double part = contribution_of(row);
     AuditedRowView view{.quantity = printable(row.quantity),

@@ -85,6 +85,14 @@ TEST(BudgetOutcome, DecidesAndScores) {
     EXPECT_NEAR(*evaluate(budget).en, -70.0 / std::hypot(evaluate(budget).U, 40.0), 1e-12);
 }
 
+TEST(ContributionOf, IsNothingOfARowOutsideOfTheSum) {
+    AuditedRow one = test::row("a", 0.3);
+    one.used_sensitivity = -2.0;
+    EXPECT_DOUBLE_EQ(contribution_of(one), 0.6);
+    one.in_sum = false;
+    EXPECT_EQ(contribution_of(one), 0.0);
+}
+
 TEST(BudgetOutcome, ScoresALaboratoryAgainstTheReferenceWhoseBudgetItIs) {
     AuditedBudget budget = test::budget_of({test::row("a", 0.3)});
     budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0};
