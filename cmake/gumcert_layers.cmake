@@ -216,14 +216,13 @@ endforeach()
 
 set_property(GLOBAL PROPERTY GUMCERT_LAYERS "")
 
-# In a release, and for fuzzing, files are compiled as one: half of the time goes into shared headers and templates. Other
-# builds compile each file by itself, so that none leans on what its neighbours include.
+# With GUMCERT_FILES_AS_ONE the files of a target are compiled as one.
 #
 # files: of one unit; 0: all. words: whether the code handles texts and computes little; it is compiled with less optimisation, in
 # two thirds of the time. No digit depends on it: without the flags that gumcert_compiler.cmake refuses, arithmetic is
 # the same at every level.
 function(gumcert_compile_as_one target files words)
-    if(CMAKE_BUILD_TYPE STREQUAL "Release" OR GUMCERT_FUZZ)
+    if(GUMCERT_FILES_AS_ONE)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
         if(words)
             target_compile_options(${target} PRIVATE -O1)
