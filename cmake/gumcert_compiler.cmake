@@ -14,6 +14,8 @@ target_compile_options(gumcert_compile_options INTERFACE
 # g++ 12 takes what a sanitizer adds for reads of what was never set.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     target_compile_options(gumcert_compile_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    # With a sanitizer Eigen allocates in its own way, and Ceres, which was compiled without, frees what it has not allocated.
+    target_compile_definitions(gumcert_compile_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 # The compiler looks less often for memory to use again: a tenth of its time, for up to half as much memory again. The code
 # that it makes is the same.

@@ -17,14 +17,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a process may write to in its memory. Reserved and never touched memory counts here, therefore it is wide.
-void wall_in(std::uint64_t memory) {
+/// What a process may write to in its memory. Reserved and never touched memory counts here, therefore it is wide. A
+/// sanitizer reserves terabytes for its notes: no wall there.
+void wall_in([[maybe_unused]] std::uint64_t memory) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     constexpr std::uint64_t k_for_threads = std::uint64_t{256} << 20U;
     rlimit wall{};
     if (::getrlimit(RLIMIT_DATA, &wall) == 0) {
         wall.rlim_cur = std::min<rlim_t>(wall.rlim_cur, 2 * memory + k_for_threads);
         (void)::setrlimit(RLIMIT_DATA, &wall);
     }
+#endif
 }
 
 void watch(const Ceilings& ceilings, Clock::time_point begin, const std::function<void(Ceiling)>& end) {
