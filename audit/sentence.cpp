@@ -44,6 +44,10 @@ Sentence say_count(std::size_t count, Pattern<1> one, Pattern<1> several) {
     return say(count == 1 ? one : several, std::to_string(count));
 }
 
+Sentence say_number(std::string shown) {
+    return say("{number:number}", std::move(shown));
+}
+
 Sentence equals(Sentence symbol, Sentence shown) {
     return say("{symbol} = {value:number}", std::move(symbol), std::move(shown));
 }

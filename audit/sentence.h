@@ -100,6 +100,8 @@ template <typename... Arguments>
 /// One of two sentences with a count, as languages with one plural have them.
 [[nodiscard]] Sentence say_count(std::size_t count, Pattern<1> one, Pattern<1> several);
 
+/// A number that stands alone.
+[[nodiscard]] Sentence say_number(std::string shown);
 /// "u = 0.4 µm".
 /// \param symbol  or a name in a sentence
 [[nodiscard]] Sentence equals(Sentence symbol, Sentence shown);

@@ -202,8 +202,8 @@ void score_does_not_follow(const AuditSubject& subject, FindingCollector& findin
         AuditFinding finding = finding_of(subject, i, what);
         finding.evidence = {equals(say("difference"), in_words(difference, budget.unit)),
                             equals("U", in_words(*U, budget.unit)), equals("U_ref", in_words(U_ref, budget.unit))};
-        finding.expected = short_number(right);
-        finding.actual = short_number(stated);
+        finding.expected = say_number(short_number(right));
+        finding.actual = say_number(short_number(stated));
         findings.add(std::move(finding));
     }
 }
@@ -223,8 +223,8 @@ void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
                     score,
                     say("E_n is stated as {en:number}, and follows as {right:number} from the expanded uncertainties",
                         short_number(*score.en), short_number(right)));
-                finding.expected = short_number(right);
-                finding.actual = short_number(*score.en);
+                finding.expected = say_number(short_number(right));
+                finding.actual = say_number(short_number(*score.en));
                 findings.add(std::move(finding));
             }
         }

@@ -126,7 +126,7 @@ void ratio_too_small(const AuditSubject& subject, FindingCollector& findings) {
                                               "of the rule, and no alternative is agreed on",
                                               text::significant(ratio, 3), text::significant(*least, 3)));
         finding.expected = say("at least {least:number}", text::significant(*least, 3));
-        finding.actual = text::significant(ratio, 3);
+        finding.actual = say_number(text::significant(ratio, 3));
         findings.add(std::move(finding));
     }
 }

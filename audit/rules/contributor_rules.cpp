@@ -197,7 +197,7 @@ void drift_of_few_calibrations(const AuditSubject& subject, FindingCollector& fi
                                           say_count(*count, "the drift is estimated from {count:number} calibration",
                                                     "the drift is estimated from {count:number} calibrations"));
         finding.expected = say("3 calibrations at least");
-        finding.actual = std::to_string(*count);
+        finding.actual = say_number(std::to_string(*count));
         findings.add(std::move(finding));
     });
 }

@@ -72,8 +72,8 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
         if (is_about(std::abs(row.contribution->value), c * c * row.used_u, 0.01)) {
             finding.evidence.push_back(say("it is c² u: the coefficient was multiplied twice"));
         }
-        finding.expected = in_words(std::abs(c) * row.used_u, at.of.unit);
-        finding.actual = claimed_in_words(*row.contribution, at.of.unit);
+        finding.expected = say_number(in_words(std::abs(c) * row.used_u, at.of.unit));
+        finding.actual = say_number(claimed_in_words(*row.contribution, at.of.unit));
         finding.correct = set_sensitivity(at.row, c);
         findings.add(std::move(finding));
     });
@@ -95,7 +95,7 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
                                claimed_in_words(*budget.claims.u_c, budget.unit)));
             finding.evidence = {say("the rows allow {u_c}", range_in_words(check.u_c, budget.unit))};
             finding.expected = range_in_words(check.u_c, budget.unit);
-            finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+            finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
             finding.kind = "u_c";
             // ν_eff of the sum that is claimed goes with it.
             finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = corrected.k_over_rows = 1.0; };
@@ -109,7 +109,7 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
                                claimed_in_words(*budget.claims.k, ""), claimed_in_words(*budget.claims.nu_eff, "")));
             finding.evidence = {say("the rows allow ν_eff = {nu_eff}", range_in_words(check.nu_eff, ""))};
             finding.expected = range_in_words(check.nu_eff, "");
-            finding.actual = claimed_in_words(*budget.claims.nu_eff, "");
+            finding.actual = say_number(claimed_in_words(*budget.claims.nu_eff, ""));
             finding.kind = "nu_eff";
             finding.correct = [](AuditedBudget& corrected) { corrected.k_over_rows = 1.0; };
             findings.add(std::move(finding));
@@ -128,7 +128,7 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
                     say("claimed u_c = {u_c:number}", claimed_in_words(*budget.claims.u_c, budget.unit)));
             }
             finding.expected = range_in_words(check.U, budget.unit);
-            finding.actual = claimed_in_words(*budget.claims.U, budget.unit);
+            finding.actual = say_number(claimed_in_words(*budget.claims.U, budget.unit));
             finding.kind = "U";
             finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
             findings.add(std::move(finding));
@@ -150,7 +150,7 @@ void linear_sum(const AuditSubject& subject, FindingCollector& findings) {
                 claimed_in_words(*budget.claims.u_c, budget.unit)));
         finding.evidence = {say("the root of the sum of squares is {u_c}", range_in_words(check.u_c, budget.unit))};
         finding.expected = range_in_words(check.u_c, budget.unit);
-        finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+        finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
         finding.correct = k_trust_rows;
         findings.add(std::move(finding));
     }
@@ -461,7 +461,7 @@ void wider_than_possible(const AuditSubject& subject, FindingCollector& findings
         finding.evidence = {equals("k", in_words(outcome.k)),
                             say("sum of the half-widths = {sum:number}", in_words(sum, budget.unit))};
         finding.expected = say("U ≤ {sum:number}", in_words(sum, budget.unit));
-        finding.actual = in_words(outcome.U, budget.unit);
+        finding.actual = say_number(in_words(outcome.U, budget.unit));
         finding.correct = k_by_convolution;
         findings.add(std::move(finding));
     });

@@ -74,8 +74,8 @@ void recorded_range_larger(const AuditSubject& subject, FindingCollector& findin
                                   : say("the recorded range is ±{recorded:number} about its middle, and the budget has "
                                         "±{budgeted:number} (√3·u)",
                                         in_words(*recorded, at.is.unit), in_words(budgeted, at.is.unit)));
-            finding.expected = in_words(*recorded, at.is.unit);
-            finding.actual = in_words(budgeted, at.is.unit);
+            finding.expected = say_number(in_words(*recorded, at.is.unit));
+            finding.actual = say_number(in_words(budgeted, at.is.unit));
             finding.correct = scale_u(at.row, *recorded / budgeted);
             findings.add(std::move(finding));
         });

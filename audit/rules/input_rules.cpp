@@ -79,8 +79,8 @@ void add_other_u(const RowAt& at, FindingCollector& findings, Sentence what, std
                  double expected) {
     AuditFinding finding = finding_at(at, "u", std::move(what));
     finding.evidence = std::move(evidence);
-    finding.expected = in_words(expected, at.is.unit);
-    finding.actual = in_words(at.is.used_u, at.is.unit);
+    finding.expected = say_number(in_words(expected, at.is.unit));
+    finding.actual = say_number(in_words(at.is.used_u, at.is.unit));
     finding.correct = set_u(at.row, expected);
     findings.add(std::move(finding));
 }
@@ -300,7 +300,7 @@ void specification_beside_certificate(const AuditSubject& subject, FindingCollec
                             equals("U", in_words(*row.certificate_U, row.unit)),
                             row.certificate_k ? equals("k", in_words(k)) : say("k = 2 taken, because none is stated")};
         finding.expected = say("{u:number}, with the corrections of the certificate applied", in_words(u, row.unit));
-        finding.actual = in_words(row.used_u, row.unit);
+        finding.actual = say_number(in_words(row.used_u, row.unit));
         finding.correct = set_u(at.row, u);
         if (u < row.used_u) {
             finding.at_most = FindingSeverity::minor;
@@ -408,8 +408,8 @@ void wrong_base(const AuditSubject& subject, FindingCollector& findings) {
         finding.evidence = {say("{share:number} %", text::significant(100.0 * r, 4)),
                             equals(say("reading"), in_words(reading, row.unit)),
                             equals(say("full scale"), in_words(full, row.unit))};
-        finding.expected = in_words(r * right, row.unit);
-        finding.actual = in_words(number, row.unit);
+        finding.expected = say_number(in_words(r * right, row.unit));
+        finding.actual = say_number(in_words(number, row.unit));
         finding.correct = scale_u(at.row, right / wrong);
         findings.add(std::move(finding));
     });

@@ -387,8 +387,8 @@ void value_beside_mean(const AuditSubject& subject, FindingCollector& findings) 
             equals(say("value"), in_words(*budget.value, budget.unit)),
             say("half the sum of second derivatives times covariances = {shift:number}", in_words(shift, budget.unit)),
             say("half a unit of the last digit = {delta:number}", in_words(delta, budget.unit))};
-        finding.expected = in_words(*budget.value + shift, budget.unit);
-        finding.actual = in_words(*budget.value, budget.unit);
+        finding.expected = say_number(in_words(*budget.value + shift, budget.unit));
+        finding.actual = say_number(in_words(*budget.value, budget.unit));
         finding.correct = [shift](AuditedBudget& corrected) {
             if (corrected.value) {
                 *corrected.value += shift;
@@ -723,7 +723,7 @@ void implausible_length_part(const AuditSubject& subject, FindingCollector& find
                             say("known specifications: 5E-7 to 1E-5 of the length")};
         finding.expected =
             factor > 0.0 ? say("{factor:number}, if one power of ten is wrong", in_words(stated * factor)) : "";
-        finding.actual = in_words(stated);
+        finding.actual = say_number(in_words(stated));
         finding.question = "Which exponent does the data sheet of the machine state, and in which unit is L?";
         if (factor > 0.0 && at.is.origin_value && *at.is.origin_value > *at.is.limit_constant) {
             const double growing = *at.is.origin_value - *at.is.limit_constant;
@@ -785,7 +785,7 @@ void implausible_constant(const AuditSubject& subject, FindingCollector& finding
         }
         finding.expected = say("{low:number} to {high:number}", in_words(unit->from_si(range->low)),
                                in_words(unit->from_si(range->high), at.is.unit));
-        finding.actual = in_words(at.is.estimate->value, at.is.unit);
+        finding.actual = say_number(in_words(at.is.estimate->value, at.is.unit));
         findings.add(std::move(finding));
     });
 }

@@ -70,7 +70,7 @@ void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
         }
         AuditFinding finding =
             finding_of(subject, i, say("U is stated as {U:number}, with more than two significant digits", U->text));
-        finding.actual = U->text;
+        finding.actual = say_number(U->text);
         findings.add(std::move(finding), milder_in_a_budget(subject, FindingSeverity::major));
     }
 }
@@ -118,8 +118,8 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
                                           say("U follows from rounded standard uncertainties: {rounded:number}, and "
                                               "{unrounded:number} from the numbers that they were rounded from",
                                               rounded->printed_U, outcome->printed_U));
-        finding.expected = outcome->printed_U;
-        finding.actual = rounded->printed_U;
+        finding.expected = say_number(outcome->printed_U);
+        finding.actual = say_number(rounded->printed_U);
         finding.correct = unrounded;
         findings.add(std::move(finding));
     }

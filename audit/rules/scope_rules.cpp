@@ -43,7 +43,7 @@ void below_capability(const AuditSubject& subject, FindingCollector& findings) {
         finding.evidence = {equals("U", in_words(*U, budget.unit)),
                             equals("CMC", in_words(*budget.capability, budget.unit))};
         finding.expected = say("at least {least:number}", in_words(*budget.capability, budget.unit));
-        finding.actual = in_words(*U, budget.unit);
+        finding.actual = say_number(in_words(*U, budget.unit));
         if (!budget.floor_applied) {
             finding.correct = [](AuditedBudget& corrected) { corrected.floor_applied = true; };
         }

@@ -71,7 +71,7 @@ void smaller_than_the_standard(const AuditSubject& subject, FindingCollector& fi
                                 in_words(*at.is.origin_value, at.is.unit), in_words(*at.is.certificate_k)),
                             equals("c", in_words(at.is.used_sensitivity))};
         finding.expected = say("u_c of at least {own:number}", in_words(own, at.of.unit));
-        finding.actual = in_words(*u_c, at.of.unit);
+        finding.actual = say_number(in_words(*u_c, at.of.unit));
         findings.add(std::move(finding));
     });
 }

@@ -356,8 +356,8 @@ void deviation_in_place_of_range(const AuditSubject& subject, FindingCollector& 
                            std::to_string(readings.size())));
         finding.evidence = {say("largest − smallest = {range:number}", in_words(range, at.is.unit)),
                             equals("s", in_words(s, at.is.unit))};
-        finding.expected = in_words(range, at.is.unit);
-        finding.actual = in_words(at.is.stated->value, at.is.unit);
+        finding.expected = say_number(in_words(range, at.is.unit));
+        finding.actual = say_number(in_words(at.is.stated->value, at.is.unit));
         finding.correct = scale_u(at.row, range / s);
         findings.add(std::move(finding));
     });

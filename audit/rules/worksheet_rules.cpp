@@ -201,11 +201,11 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
                       in_words(divisor), at.is.shape_text)
                 : say("the divisor {divisor:number} is not that of the distribution \"{distribution}\": it is {known}",
                       in_words(divisor), at.is.shape_text, known));
-        finding.actual = in_words(divisor);
+        finding.actual = say_number(in_words(divisor));
         finding.evidence = {equals(say("divisor"), text::shortest(divisor)),
                             say("distribution: {distribution}", at.is.shape_text)};
         if (expected) {
-            finding.expected = text::significant(*expected, 6);
+            finding.expected = say_number(text::significant(*expected, 6));
             finding.correct = scale_u(at.row, divisor / *expected);
         } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
             finding.expected = say("k = {k:number} of the certificate", in_words(*at.is.certificate_k));
@@ -616,7 +616,7 @@ void uncertainty_not_positive(const AuditSubject& subject, FindingCollector& fin
                              in_words(U.number))
                        : say("an expanded uncertainty of {U:number}", in_words(U.number)));
             finding.expected = "U > 0";
-            finding.actual = in_words(U.number);
+            finding.actual = say_number(in_words(U.number));
             findings.add(std::move(finding));
         });
 }

@@ -1,7 +1,7 @@
 """What an audit says, in each language of its page: over the planted errors, the sound budgets and the examples.
 
-On a page in German, Spanish or Chinese no finding and no evidence is English, and every sentence has the numbers of the English one in
-the JSON of the same audit.
+On a page in German, Spanish or Chinese nothing of a finding is English, and every sentence has the numbers of the English one in the
+JSON of the same audit, those that stand alone with the decimal sign of the language.
 """
 
 import argparse
@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LANGUAGES = ("de", "es", "zh-Hant")
+WORDS = {one: json.loads((ROOT / f"templates/wording/{one}.json").read_text(encoding="utf-8")) for one in LANGUAGES}
 
 
 def numbers(text: str) -> list[str]:
@@ -50,11 +51,16 @@ class Audits:
         with tempfile.TemporaryDirectory() as folder:
             findings = json.loads(self.made(file, "json", "en", folder))["findings"]
             for language in LANGUAGES:
-                found += differences(self.made(file, "html", language, folder), findings, f"{file.name}, {language}")
+                page = self.made(file, "html", language, folder)
+                found += differences(page, findings, WORDS[language], f"{file.name}, {language}")
         return found
 
 
-def differences(page: str, findings: list[dict], name: str) -> list[str]:
+def beside(label: str, detail: str) -> list[tuple[bool, str]]:
+    return texts(rf'<dt>{re.escape(label)}</dt><dd( lang="en")?>(.*?)</dd>', detail)
+
+
+def differences(page: str, findings: list[dict], words: dict, name: str) -> list[str]:
     details = re.findall(r'<section class="finding".*?</section>', page, re.DOTALL)
     if len(details) != len(findings):
         return [f"{name}: {len(details)} findings on the page, {len(findings)} in JSON"]
@@ -63,14 +69,20 @@ def differences(page: str, findings: list[dict], name: str) -> list[str]:
         said = texts(r'<p class="what"( lang="en")?>(.*?)</p>', detail)
         listed = re.search(r"</dt><dd><ul>(.*?)</ul>", detail, re.DOTALL)
         evidence = texts(r'<li( lang="en")?>(.*?)</li>', listed[1] if listed else "")
-        for (is_english, text), english in zip(said + evidence, [finding["what"], *finding["evidence"]]):
+        compared = beside(words["audit"]["expected"], detail) + beside(words["audit"]["actual"], detail)
+        stated = [finding["expected"] or "", finding["actual"] or ""] if compared else []
+        shown, in_english = said + evidence + compared, [finding["what"], *finding["evidence"], *stated]
+        if len(shown) != len(in_english):
+            problems.append(f"{name}, {finding['id']}: {len(in_english)} sentences in JSON, {len(shown)} on the page")
+        for (is_english, text), english in zip(shown, in_english):
             where = f"{name}, {finding['id']}: {text!r}"
             if is_english or (text == english and has_words(english)):
                 problems.append(f"{where} is English")
             if numbers(text) != numbers(english):
                 problems.append(f"{where} has other numbers than {english!r}")
-        if len(said) != 1 or len(evidence) != len(finding["evidence"]):
-            problems.append(f"{name}, {finding['id']}: a sentence is missing")
+            sign = words["document"]["decimal_sign"]
+            if re.match(r"-?\d+[.]\d+( |$)", english) and sign not in text:
+                problems.append(f"{where} has not the decimal sign of the language")
     return problems
 
 

@@ -56,6 +56,8 @@ TEST(Sentence, lists_sentences) {
 TEST(Sentence, says_an_equation) {
     EXPECT_EQ(equals("u", "0.4 µm").english(), "u = 0.4 µm");
     EXPECT_EQ(equals(say("estimate"), "3").english(), "estimate = 3");
+    EXPECT_EQ(say_number("0.4 µm").english(), "0.4 µm");
+    EXPECT_NE(say_number("0.4 µm").pattern(), "") << "its decimal sign is that of a language";
 }
 
 TEST(PatternPieces, are_literals_and_places) {
