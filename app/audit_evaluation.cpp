@@ -34,7 +34,7 @@ std::vector<Finding> critical_findings(const audit::AuditReport& report, std::sp
                             .clause = std::move(clause),
                             .severity = FindingSeverity::critical,
                             .where = found.where,
-                            .what = found.what,
+                            .what = found.what.english(),
                             .action = found.correction});
     }
     return critical;

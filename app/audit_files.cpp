@@ -70,11 +70,12 @@ std::vector<std::string> places_of(const std::vector<gum::Diagnostic>& problems)
 void hold_against_job(const reports::EvaluationRecord& record, unsigned threads, const fs::path& templates,
                       const gum::Progress& progress, audit::AuditSubject& subject) {
     if (const std::optional<gum::Diagnostic> why = not_recomputable(record, subject.name)) {
-        subject.not_read.push_back(subject.name + ": was not held against its own job: " + why->what);
+        subject.not_read.push_back(
+            audit::say("{record}: was not held against its own job: {reason:sentence}", subject.name, why->what));
         if (record.rotary && record.rotary->fixture_budget && !record.rotary->fixture_budget->largest.empty()) {
-            subject.not_read.push_back(subject.name +
-                                       ": the budget of the fixture was not looked at, because the record " +
-                                       "was not evaluated again");
+            subject.not_read.push_back(audit::say(
+                "{record}: the budget of the fixture was not looked at, because the record was not evaluated again",
+                subject.name));
         }
         return;
     }

@@ -137,11 +137,22 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
         FindingCollector collector(rule);
         rule.examine(corrected, collector);
         for (AuditFinding& finding : collector.take()) {
-            finding.what += "; it is seen when the other findings are corrected";
+            finding.what = say("{finding}; it is seen when the other findings are corrected", std::move(finding.what));
             findings.push_back(std::move(finding));
             policies.push_back(rule.policy);
         }
     }
+}
+
+/// The same as gum::message().
+Sentence message_in_words(const gum::Diagnostic& diagnostic) {
+    Sentence said = diagnostic.where;
+    for (const std::string* part : {&diagnostic.what, &diagnostic.rule, &diagnostic.action}) {
+        if (!part->empty()) {
+            said = said.empty() ? Sentence(*part) : say("{said} — {part:sentence}", std::move(said), *part);
+        }
+    }
+    return said;
 }
 
 }  // namespace
@@ -160,9 +171,10 @@ void accept_findings(AuditReport& report, std::span<const certificate::Waiver> w
         const bool fits = std::any_of(
             report.findings.begin(), report.findings.end(),
             [&waiver](const AuditFinding& finding) { return waiver_of(finding, std::span(&waiver, 1)) != nullptr; });
-        const std::string sentence = "the waiver of " + waiver.finding +
-                                     (waiver.where.empty() ? "" : " at " + waiver.where) + " fits no finding";
-        std::vector<std::string>& said = report.subject.not_read;
+        const Sentence sentence =
+            waiver.where.empty() ? say("the waiver of {rule} fits no finding", waiver.finding)
+                                 : say("the waiver of {rule} at {where} fits no finding", waiver.finding, waiver.where);
+        std::vector<Sentence>& said = report.subject.not_read;
         if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
             said.push_back(sentence);
         }
@@ -189,7 +201,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (rule.examine_gates != nullptr) {
             rule.examine_gates(subject, collector);
         }
-        std::string because = why_not_applicable(rule, subject);
+        Sentence because = why_not_applicable(rule, subject);
         if (!because.empty()) {
             report.not_checked.push_back({.rule = std::string(rule.id), .because = std::move(because)});
         } else {
@@ -204,10 +216,10 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             report.findings.push_back(std::move(finding));
             policies.push_back(rule.policy);
         }
-        for (const std::string& reason : collector.unchecked()) {
+        for (const Sentence& reason : collector.unchecked()) {
             report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
         }
-        for (const std::string& sentence : collector.notes()) {
+        for (const Sentence& sentence : collector.notes()) {
             report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
         }
     }
@@ -225,7 +237,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             result.audited = evaluated;
             result.allowed = outcome_intervals(budget);
         } catch (const gum::DiagnosedError& error) {
-            subject.not_read.push_back(gum::message(error.diagnostics().front()));
+            subject.not_read.push_back(message_in_words(error.diagnostics().front()));
             continue;
         }
         put_effects(budget, i, report.findings, nested, result);

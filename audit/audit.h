@@ -8,6 +8,7 @@
 #include "audit/budget_outcome.h"
 #include "audit/finding.h"
 #include "audit/rule.h"
+#include "audit/sentence.h"
 #include "audit/subject.h"
 
 namespace gumcert::audit {
@@ -15,13 +16,13 @@ namespace gumcert::audit {
 /// A rule that was not applied, and why: silence is no finding.
 struct RuleNotChecked {
     std::string rule;
-    std::string because;
+    Sentence because;
 };
 
 /// What a rule answers although it finds nothing.
 struct RuleNote {
     std::string rule;
-    std::string what;
+    Sentence what;
 };
 
 /// One result before and after the audit.

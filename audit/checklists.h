@@ -7,20 +7,22 @@
 #include <vector>
 
 #include "audit/audited_budget.h"
+#include "audit/sentence.h"
+
 #include "audit/word_line.h"
 
 namespace gumcert::audit {
 
 /// A contribution that a budget of a method has to name, with a number or with the reason why it is left out.
 struct RequiredContributor {
-    std::string_view name;                ///< for people: "thermal expansion of the gauge block"
+    Sentence name;                        ///< for people: "thermal expansion of the gauge block"
     std::vector<Contributor> by;          ///< a row of one of these is it
     std::vector<std::string_view> words;  ///< or a row with one of these words (audit/word_line.h)
 };
 
 struct MethodChecklist {
     std::string_view method;  ///< id, AuditedBudget::method
-    std::string_view title;   ///< for people
+    Sentence title;           ///< for people
     /// Documents that the list follows, with their titles; which clause of them asks for what was not verified.
     std::string_view source;
     std::vector<std::string_view> words;        ///< by which the name of a budget tells its method

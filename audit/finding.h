@@ -9,6 +9,7 @@
 
 #include "audit/audited_budget.h"
 #include "audit/budget_outcome.h"
+#include "audit/sentence.h"
 #include "certificate/certified_results.h"
 
 namespace gumcert::audit {
@@ -45,15 +46,15 @@ struct AuditFinding {
     FindingSeverity severity = FindingSeverity::information;
     /// The gravest that its effect may make it: what errs on the safe side is no grave matter, however much it changes.
     FindingSeverity at_most = FindingSeverity::critical;
-    std::string where;                  ///< row and column, "Budget!D5", or a JSON pointer
-    std::string what;                   ///< in a sentence, with the numbers
-    std::vector<std::string> evidence;  ///< the values used: "u = 0.4 µm (row 3)"
-    std::string expected, actual;       ///< "" where a comparison of two texts says nothing
-    std::string correction;             ///< what to do
-    std::string question;               ///< to the laboratory
-    std::vector<std::size_t> budgets;   ///< results that it touches; empty: none by numbers
-    std::string kind;                   ///< findings of one rule with the same kind are one finding; "" it stands alone
-    Correction correct;                 ///< of the first of `budgets`; empty: not known, or a document
+    std::string where;                 ///< row and column, "Budget!D5", or a JSON pointer
+    Sentence what;                     ///< with the numbers
+    std::vector<Sentence> evidence;    ///< the values used: "u = 0.4 µm (row 3)"
+    Sentence expected, actual;         ///< "" where a comparison of two texts says nothing
+    std::string correction;            ///< what to do
+    std::string question;              ///< to the laboratory
+    std::vector<std::size_t> budgets;  ///< results that it touches; empty: none by numbers
+    std::string kind;                  ///< findings of one rule with the same kind are one finding; "" it stands alone
+    Correction correct;                ///< of the first of `budgets`; empty: not known, or a document
     std::map<std::size_t, Correction> correct_others;  ///< of the other `budgets`
     std::vector<std::string> other_places;             ///< where else the same was found
     bool of_gate = false;               ///< taken over from the gates of a certificate, which have it already

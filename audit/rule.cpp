@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "text/lists.h"
-
 namespace gumcert::audit {
 namespace {
 
@@ -45,34 +43,34 @@ bool has(const AuditSubject& subject, Need need) {
     return false;
 }
 
-std::string_view missing(Need need) {
+Sentence missing(Need need) {
     switch (need) {
         case Need::rows:
-            return "no rows of an uncertainty budget were found";
+            return say("no rows of an uncertainty budget were found");
         case Need::results:
-            return "no results were found";
+            return say("no results were found");
         case Need::claims:
-            return "no u_c and no U are claimed";
+            return say("no u_c and no U are claimed");
         case Need::readings:
-            return "no readings are stated";
+            return say("no readings are stated");
         case Need::certificate:
-            return "no certificate data are stated";
+            return say("no certificate data are stated");
         case Need::gates:
-            return "no certificate data are stated that passed the gates of this program";
+            return say("no certificate data are stated that passed the gates of this program");
         case Need::capability:
-            return "no capability (CMC) is stated";
+            return say("no capability (CMC) is stated");
         case Need::limits:
-            return "no limits of a specification are stated";
+            return say("no limits of a specification are stated");
         case Need::comparison:
-            return "no reference value or comparison is stated";
+            return say("no reference value or comparison is stated");
         case Need::model:
-            return "no equation of the measurement is stated";
+            return say("no equation of the measurement is stated");
         case Need::workbook:
-            return "the file has no formulas";
+            return say("the file has no formulas");
         case Need::recomputed:
-            return "the file is no record whose job can be evaluated again";
+            return say("the file is no record whose job can be evaluated again");
     }
-    return "";
+    return {};
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ void FindingCollector::add(AuditFinding finding, FindingSeverity severity) {
     if (finding.question.empty()) {
         finding.question = rule_.question;
     }
-    const std::string text = finding.where + '\0' + finding.what;
+    const std::string text = finding.where + '\0' + finding.what.english();
     const auto of_kind = finding.kind.empty() ? by_kind_.end() : by_kind_.find(finding.kind);
     const auto of_text = by_place_and_text_.find(text);
     const std::size_t none = findings_.size();
@@ -119,7 +117,8 @@ std::vector<AuditFinding> FindingCollector::take() {
     constexpr std::size_t k_most_places = 4;
     for (AuditFinding& finding : findings_) {
         if (!finding.other_places.empty()) {
-            finding.evidence.push_back("the same at " + text::listed(finding.other_places, k_most_places));
+            finding.evidence.push_back(
+                say("the same at {places}", listed(sentences_of(finding.other_places), k_most_places)));
         }
     }
     by_kind_.clear();
@@ -127,13 +126,13 @@ std::vector<AuditFinding> FindingCollector::take() {
     return std::exchange(findings_, {});
 }
 
-std::string why_not_applicable(const Rule& rule, const AuditSubject& subject) {
+Sentence why_not_applicable(const Rule& rule, const AuditSubject& subject) {
     for (const Need need : rule.needs) {
         if (!has(subject, need)) {
-            return std::string(missing(need));
+            return missing(need);
         }
     }
-    return "";
+    return {};
 }
 
 }  // namespace gumcert::audit

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "audit/finding.h"
+#include "audit/sentence.h"
 #include "audit/subject.h"
 
 namespace gumcert::audit {
@@ -78,22 +79,22 @@ public:
     /// \param severity  in place of that of the rule, where the case decides it
     void add(AuditFinding finding, FindingSeverity severity);
     /// What the rule answers although it finds nothing: a bound that it proved.
-    void note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+    void note(Sentence sentence) { notes_.push_back(std::move(sentence)); }
     /// What of the subject it could not look at, and why.
-    void leave_unchecked(std::string because) { unchecked_.push_back(std::move(because)); }
+    void leave_unchecked(Sentence because) { unchecked_.push_back(std::move(because)); }
     [[nodiscard]] std::string_view rule() const { return rule_.id; }
     [[nodiscard]] std::vector<AuditFinding> take();
-    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-    [[nodiscard]] const std::vector<std::string>& unchecked() const { return unchecked_; }
+    [[nodiscard]] const std::vector<Sentence>& notes() const { return notes_; }
+    [[nodiscard]] const std::vector<Sentence>& unchecked() const { return unchecked_; }
 
 private:
     const Rule& rule_;
     std::vector<AuditFinding> findings_;
     std::unordered_map<std::string, std::size_t> by_kind_, by_place_and_text_;  ///< the first of each
-    std::vector<std::string> notes_, unchecked_;
+    std::vector<Sentence> notes_, unchecked_;
 };
 
 /// "the table names no distributions" … why a rule cannot be applied to a subject; "" where it can.
-[[nodiscard]] std::string why_not_applicable(const Rule& rule, const AuditSubject& subject);
+[[nodiscard]] Sentence why_not_applicable(const Rule& rule, const AuditSubject& subject);
 
 }  // namespace gumcert::audit

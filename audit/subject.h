@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "audit/audited_budget.h"
+#include "audit/sentence.h"
 #include "certificate/certified_results.h"
 
 namespace gumcert::audit {
@@ -60,7 +61,7 @@ struct AuditSubject {
     std::shared_ptr<const AuditedWorkbook> workbook;  ///< audit/audited_workbook.h; none where no formulas are known
     /// Of a record that was evaluated again: where it says something else than its own job gives, as sentences.
     std::optional<std::vector<std::string>> disagreements;
-    std::vector<std::string> not_read;              ///< what could not be understood, in sentences
+    std::vector<Sentence> not_read;                 ///< what could not be understood, in sentences
     std::vector<certificate::Waiver> waivers = {};  ///< that have effect (certificate/waiver.h)
 };
 

@@ -197,6 +197,11 @@ Text Wording::sentence(const std::string& english, const Text& otherwise) const 
     return Text(std::move(all));
 }
 
+std::optional<std::string> Wording::pattern(std::string_view english) const {
+    const json* text = find(*texts_.front(), {k_patterns_key, std::string(english), language()});
+    return text == nullptr ? std::nullopt : std::optional(text->get<std::string>());
+}
+
 Text Wording::message(const gum::Diagnostic& diagnostic) const {
     Text text;
     for (const std::string* part : {&diagnostic.where, &diagnostic.what, &diagnostic.rule, &diagnostic.action}) {

@@ -9,7 +9,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@ namespace gumcert::reports {
 class Wording {
 public:
     static constexpr const char* k_sentences_key = "sentences_of_the_program";
+    static constexpr const char* k_patterns_key = "patterns_of_the_audit";
 
     using Values = std::vector<std::pair<std::string, Text>>;
 
@@ -55,6 +58,10 @@ public:
     [[nodiscard]] Text sentence(const std::string& english) const;
     /// \param otherwise  stands in place of English in the other languages where the catalogue does not know it
     [[nodiscard]] Text sentence(const std::string& english, const Text& otherwise) const;
+
+    /// The translation of an English pattern of the audit into the binding language: of the object that stands under
+    /// k_patterns_key in the first wording, `{"U = {U:number} …": {"de": "…", …}}`.
+    [[nodiscard]] std::optional<std::string> pattern(std::string_view english) const;
 
     /// A message as gum::message() makes it, its parts in each language of the document.
     [[nodiscard]] Text message(const gum::Diagnostic& diagnostic) const;

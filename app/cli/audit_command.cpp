@@ -114,7 +114,7 @@ std::string rendered(const reports::AuditView& view, const std::string& form, co
     if (form == "pdf") {
         return reports::audit_as_pdf(view, assets);
     }
-    return reports::audit_as_text(view, reports::read_wording(assets), options.verbose);
+    return reports::audit_as_text(view, reports::read_audit_wording(assets), options.verbose);
 }
 
 /// Why a file was refused, as it is told on the terminal.

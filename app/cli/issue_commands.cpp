@@ -200,7 +200,7 @@ void report_audit(const app::Evaluation& evaluation, const CommonOptions& common
         }
         print_message({.code = "GC-AUDIT-0020",
                        .where = "audit " + finding.rule + ", " + finding.where,
-                       .what = finding.what,
+                       .what = finding.what.english(),
                        .rule = "a critical finding: an assessor would not accept this result",
                        .action = finding.correction,
                        .severity = gum::Severity::warning},

@@ -11,7 +11,6 @@
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
-#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -28,7 +27,8 @@ std::string at_least_in_words(double certain, const std::string& unit) {
 /// The bound of one result, or why there is none.
 struct BoundOfResult {
     std::size_t budget = 0;
-    gum::OutputBound bound;
+    std::optional<gum::TangentBound> bound;
+    Sentence why_not;
     double k = 0.0, U = 0.0, delta = 0.0;  ///< delta: half a unit of the last digit of U
 };
 
@@ -38,7 +38,7 @@ BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
     result.budget = position;
     const std::optional<BudgetOutcome> outcome = outcome_or_none(budget);
     if (budget.equation.empty() || !outcome || !(outcome->U > 0.0)) {
-        result.bound.why_not = budget.equation.empty() ? "no equation is stated" : "the rows give no u_c";
+        result.why_not = budget.equation.empty() ? say("no equation is stated") : say("the rows give no u_c");
         return result;
     }
     result.k = outcome->k;
@@ -46,22 +46,24 @@ BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
     result.delta = 0.5 * std::pow(10.0, std::floor(std::log10(outcome->U)) - budget.digits + 1);
     const std::optional<BudgetModel> model = BudgetModel::of(budget);
     if (!model) {
-        result.bound.why_not = "the equation is implicit, cannot be read, or has no quantity that a row stands for";
+        result.why_not = say("the equation is implicit, cannot be read, or has no quantity that a row stands for");
         return result;
     }
     if (!model->can_be_evaluated()) {
-        result.bound.why_not = model->without_row().empty()
-                                   ? "an estimate is missing, or the units do not balance"
-                                   : "no row, or more than one, stands for " + text::listed(model->without_row(), 4);
+        result.why_not = model->without_row().empty() ? say("an estimate is missing, or the units do not balance")
+                                                      : say("no row, or more than one, stands for {quantities}",
+                                                            listed(sentences_of(model->without_row()), 4));
         return result;
     }
-    result.bound = model->tangent_bound(model->estimates(budget), model->reach(budget, outcome->k));
+    gum::OutputBound bound = model->tangent_bound(model->estimates(budget), model->reach(budget, outcome->k));
+    result.bound = bound.bound;
+    result.why_not = std::move(bound.why_not);
     return result;
 }
 
-std::string region_in_words(const BoundOfResult& result) {
-    return "within the region of all inputs at once (limits of bounded ones, else ±k u with k = " + in_words(result.k) +
-           ")";
+Sentence region_in_words(const BoundOfResult& result) {
+    return say("within the region of all inputs at once (limits of bounded ones, else ±k u with k = {k:number})",
+               in_words(result.k));
 }
 
 bool is_validated(const AuditedBudget& budget) {
@@ -73,17 +75,20 @@ bool is_validated(const AuditedBudget& budget) {
 
 void add_bound(const AuditSubject& subject, const BoundOfResult& result, FindingCollector& findings) {
     const AuditedBudget& budget = subject.budgets[result.budget];
-    const gum::TangentBound& bound = *result.bound.bound;
+    const gum::TangentBound& bound = *result.bound;
     const bool certain = bound.certain > result.delta;
     AuditFinding finding = finding_of(
         subject, result.budget,
-        certain ? "the equation leaves its tangent by " + at_least_in_words(bound.certain, budget.unit) +
-                      " at least, " + region_in_words(result) + ": more than half a unit of the last digit of U"
-                : "it is not proved that the law of propagation keeps the last digit of U: " + region_in_words(result) +
-                      " what the tangent leaves out is bounded by " + at_most_in_words(bound.largest(), budget.unit));
-    finding.evidence = {"f − tangent from " + in_words(bound.low) + " to " + in_words(bound.high, budget.unit),
-                        "U = " + in_words(result.U, budget.unit),
-                        "half a unit of the last digit = " + in_words(result.delta, budget.unit)};
+        certain ? say("the equation leaves its tangent by {certain:number} at least, {region}: more than half "
+                      "a unit of the last digit of U",
+                      at_least_in_words(bound.certain, budget.unit), region_in_words(result))
+                : say("it is not proved that the law of propagation keeps the last digit of U: {region} "
+                      "what the tangent leaves out is bounded by {bound:number}",
+                      region_in_words(result), at_most_in_words(bound.largest(), budget.unit)));
+    finding.evidence = {
+        say("f − tangent from {low:number} to {high:number}", in_words(bound.low), in_words(bound.high, budget.unit)),
+        equals("U", in_words(result.U, budget.unit)),
+        say("half a unit of the last digit = {delta:number}", in_words(result.delta, budget.unit))};
     finding.kind = certain ? "certain" : "possible";
     findings.add(std::move(finding),
                  certain && !is_validated(budget) ? FindingSeverity::major : FindingSeverity::information);
@@ -91,18 +96,18 @@ void add_bound(const AuditSubject& subject, const BoundOfResult& result, Finding
 
 /// S19
 void certified_bound(const AuditSubject& subject, FindingCollector& findings) {
-    std::map<std::string, std::vector<std::string>> reasons;
+    std::map<Sentence, std::vector<std::string>> reasons;
     std::optional<BoundOfResult> worst;
     std::size_t bounded = 0;
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         BoundOfResult result = bound_of(subject, b);
-        if (!result.bound.bound) {
-            reasons[result.bound.why_not].push_back(subject.budgets[b].name);
-        } else if (result.bound.bound->largest() > result.delta) {
+        if (!result.bound) {
+            reasons[result.why_not].push_back(subject.budgets[b].name);
+        } else if (result.bound->largest() > result.delta) {
             add_bound(subject, result, findings);
         } else {
             ++bounded;
-            const auto share = [](const BoundOfResult& one) { return one.bound.bound->largest() / one.delta; };
+            const auto share = [](const BoundOfResult& one) { return one.bound->largest() / one.delta; };
             if (!worst || share(result) > share(*worst)) {
                 worst = std::move(result);
             }
@@ -110,13 +115,17 @@ void certified_bound(const AuditSubject& subject, FindingCollector& findings) {
     }
     if (worst) {
         const AuditedBudget& budget = subject.budgets[worst->budget];
-        findings.note(budget.name + ": " + region_in_words(*worst) + " what the tangent leaves out is bounded by " +
-                      at_most_in_words(worst->bound.bound->largest(), budget.unit) +
-                      "; half a unit of the last digit of U is " + in_words(worst->delta, budget.unit) +
-                      (bounded > 1 ? "; the worst of " + std::to_string(bounded) + " results" : ""));
+        Sentence note =
+            say("{budget}: {region} what the tangent leaves out is bounded by {bound:number}; half a unit of the last "
+                "digit of U is {delta:number}",
+                budget.name, region_in_words(*worst), at_most_in_words(worst->bound->largest(), budget.unit),
+                in_words(worst->delta, budget.unit));
+        findings.note(bounded > 1
+                          ? say("{note}; the worst of {count:number} results", std::move(note), std::to_string(bounded))
+                          : std::move(note));
     }
     for (const auto& [reason, names] : reasons) {
-        findings.leave_unchecked(text::listed(names, 4) + ": " + reason);
+        findings.leave_unchecked(say("{names}: {reason:sentence}", listed(sentences_of(names), 4), reason));
     }
 }
 

@@ -15,7 +15,7 @@
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
-#include "text/lists.h"
+
 #include "text/numbers.h"
 
 namespace gumcert::audit {
@@ -39,15 +39,16 @@ std::span<const AuditedScore> scores_of(const AuditSubject& subject) {
     return subject.comparison ? std::span<const AuditedScore>(subject.comparison->scores)
                               : std::span<const AuditedScore>();
 }
-AuditFinding finding_of_score(const AuditedScore& score, std::string what) {
+AuditFinding finding_of_score(const AuditedScore& score, Sentence what) {
     AuditFinding finding;
     finding.where = score.name.empty() ? "comparison" : score.name;
     finding.what = std::move(what);
     // Scores with one fault are one finding: the words before the first number tell which.
-    finding.kind = "score/" + finding.what.substr(0, finding.what.find_first_of("0123456789"));
+    const std::string& said = finding.what.english();
+    finding.kind = "score/" + said.substr(0, said.find_first_of("0123456789"));
     return finding;
 }
-AuditFinding finding_of_comparison(std::string what) {
+AuditFinding finding_of_comparison(Sentence what) {
     AuditFinding finding;
     finding.where = "comparison";
     finding.what = std::move(what);
@@ -115,17 +116,17 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
     }
     if (p_low && *p_low < k_low_tail) {
         AuditFinding finding = finding_of_comparison(
-            "the differences are too small for the stated uncertainties: p_low = " + short_number(*p_low) +
-            ", threshold 0.025");
-        finding.evidence = {"p_low = " + short_number(*p_low)};
+            say("the differences are too small for the stated uncertainties: p_low = {p_low:number}, threshold 0.025",
+                short_number(*p_low)));
+        finding.evidence = {equals("p_low", short_number(*p_low))};
         findings.add(std::move(finding));
     }
     const std::optional<double> spread = robust_deviation(scores);
     for (const AuditedScore& score : scores) {
         if (spread && *spread > 0.0 && score.u > k_wide_against_spread * *spread) {
-            AuditFinding finding = finding_of_score(score, "u = " + in_words(score.u) + " is larger than 1.5 s* = " +
-                                                               in_words(k_wide_against_spread * *spread) +
-                                                               " of all laboratories (threshold 1.5)");
+            AuditFinding finding = finding_of_score(
+                score, say("u = {u:number} is larger than 1.5 s* = {limit:number} of all laboratories (threshold 1.5)",
+                           in_words(score.u), in_words(k_wide_against_spread * *spread)));
             findings.add(std::move(finding));
         }
     }
@@ -135,8 +136,9 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
         if (budget.reference && budget.capability && U && *U > k_wide_against_capability * *budget.capability) {
             AuditFinding finding =
                 finding_of(subject, i,
-                           "U = " + in_words(*U, budget.unit) + " in a comparison is more than twice the capability " +
-                               in_words(*budget.capability, budget.unit) + " (threshold 2), and no reason is stated");
+                           say("U = {U:number} in a comparison is more than twice the capability {capability:number} "
+                               "(threshold 2), and no reason is stated",
+                               in_words(*U, budget.unit), in_words(*budget.capability, budget.unit)));
             findings.add(std::move(finding));
         }
     }
@@ -158,12 +160,11 @@ void passes_by_inflation_only(const AuditSubject& subject, std::span<const Audit
         }
         said[budget] = true;
         AuditFinding finding = finding_of(subject, budget,
-                                          "|E_n| = " + short_number(std::abs(claimed)) +
-                                              " passes only because U is inflated: with all findings "
-                                              "corrected it is " +
-                                              short_number(std::abs(audited)) + " (threshold 1)");
-        finding.expected = "|E_n| = " + short_number(std::abs(audited));
-        finding.actual = "|E_n| = " + short_number(std::abs(claimed));
+                                          say("|E_n| = {claimed:number} passes only because U is inflated: with all "
+                                              "findings corrected it is {audited:number} (threshold 1)",
+                                              short_number(std::abs(claimed)), short_number(std::abs(audited))));
+        finding.expected = equals("|E_n|", short_number(std::abs(audited)));
+        finding.actual = equals("|E_n|", short_number(std::abs(claimed)));
         findings.add(std::move(finding), FindingSeverity::critical);
     }
 }
@@ -190,18 +191,19 @@ void score_does_not_follow(const AuditSubject& subject, FindingCollector& findin
             continue;
         }
         const auto is_stated = [&](double other) { return std::abs(std::abs(stated) - std::abs(other)) <= digits; };
-        const std::string of_what = U_ref > 0.0 && is_stated(difference / U_ref)
-                                        ? " That is the difference over U_ref alone."
-                                    : is_stated(difference / *U) ? " That is the difference over U alone."
-                                    : is_stated(2.0 * right)     ? " That is the score of u in place of U."
-                                                                 : "";
-        AuditFinding finding = finding_of(subject, i,
-                                          "E_n is stated as " + short_number(stated) + ", and follows as " +
-                                              short_number(right) + " from both expanded uncertainties." + of_what);
-        finding.evidence = {"difference = " + in_words(difference, budget.unit), "U = " + in_words(*U, budget.unit),
-                            "U_ref = " + in_words(U_ref, budget.unit)};
-        finding.expected = short_number(right);
-        finding.actual = short_number(stated);
+        const Sentence both =
+            say("E_n is stated as {stated:number}, and follows as {right:number} from both expanded uncertainties.",
+                short_number(stated), short_number(right));
+        const Sentence what = U_ref > 0.0 && is_stated(difference / U_ref)
+                                  ? say("{stated} That is the difference over U_ref alone.", both)
+                              : is_stated(difference / *U) ? say("{stated} That is the difference over U alone.", both)
+                              : is_stated(2.0 * right)     ? say("{stated} That is the score of u in place of U.", both)
+                                                           : both;
+        AuditFinding finding = finding_of(subject, i, what);
+        finding.evidence = {equals(say("difference"), in_words(difference, budget.unit)),
+                            equals("U", in_words(*U, budget.unit)), equals("U_ref", in_words(U_ref, budget.unit))};
+        finding.expected = say_number(short_number(right));
+        finding.actual = say_number(short_number(stated));
         findings.add(std::move(finding));
     }
 }
@@ -217,26 +219,31 @@ void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
             const double right = difference / std::sqrt(squares);
             if (!score.correlation_known &&
                 std::abs(std::abs(*score.en) - std::abs(right)) > k_printed * (1.0 + std::abs(right))) {
-                AuditFinding finding =
-                    finding_of_score(score, "E_n is stated as " + short_number(*score.en) + ", and follows as " +
-                                                short_number(right) + " from the expanded uncertainties");
-                finding.expected = short_number(right);
-                finding.actual = short_number(*score.en);
+                AuditFinding finding = finding_of_score(
+                    score,
+                    say("E_n is stated as {en:number}, and follows as {right:number} from the expanded uncertainties",
+                        short_number(*score.en), short_number(right)));
+                finding.expected = say_number(short_number(right));
+                finding.actual = say_number(short_number(*score.en));
                 findings.add(std::move(finding));
             }
         }
         if (score.k && score.reference_k && !is_about(*score.k, *score.reference_k, gum::k_same_coverage_factor)) {
-            findings.add(finding_of_score(score, "k = " + short_number(*score.k) +
-                                                     " and k = " + short_number(*score.reference_k) +
-                                                     " meet in one E_n (they differ by more than 2.5 %)"),
-                         FindingSeverity::major);
+            findings.add(
+                finding_of_score(
+                    score, say("k = {k:number} and k = {other:number} meet in one E_n (they differ by more than 2.5 %)",
+                               short_number(*score.k), short_number(*score.reference_k))),
+                FindingSeverity::major);
         }
-        for (const auto& [U, u, k, side] :
-             {std::tuple(score.U, score.u, score.k, "of the laboratory"),
-              std::tuple(score.reference_U, score.reference_u, score.reference_k, "of the reference")}) {
+        for (const auto& [U, u, k, of_laboratory] :
+             {std::tuple(score.U, score.u, score.k, true),
+              std::tuple(score.reference_U, score.reference_u, score.reference_k, false)}) {
             if (k && U > 0.0 && u > 0.0 && !is_about(U, *k * u, 0.05)) {
-                findings.add(
-                    finding_of_score(score, "U = " + in_words(U) + " " + side + " is not k·u = " + in_words(*k * u)));
+                findings.add(finding_of_score(
+                    score, of_laboratory ? say("U = {U:number} of the laboratory is not k·u = {k_u:number}",
+                                               in_words(U), in_words(*k * u))
+                                         : say("U = {U:number} of the reference is not k·u = {k_u:number}", in_words(U),
+                                               in_words(*k * u))));
             }
         }
     }
@@ -249,13 +256,13 @@ void correlation_ignored(const AuditSubject& subject, FindingCollector& findings
         const bool open = std::any_of(comparison.scores.begin(), comparison.scores.end(),
                                       [](const AuditedScore& score) { return !score.correlation_known; });
         if (open && !comparison.shared_sources.empty()) {
-            findings.add(finding_of_comparison("both sides name the same source, and no correlation is stated: " +
-                                               text::listed(comparison.shared_sources, 4)));
+            findings.add(
+                finding_of_comparison(say("both sides name the same source, and no correlation is stated: {sources}",
+                                          listed(sentences_of(comparison.shared_sources), 4))));
         }
         if (open && comparison.assigned_value_contains_participant) {
-            findings.add(
-                finding_of_comparison("the laboratory's own result is part of the assigned value, and no correlation "
-                                      "is stated"));
+            findings.add(finding_of_comparison(
+                say("the laboratory's own result is part of the assigned value, and no correlation is stated")));
         }
     }
     for_each_row(subject, [&findings](const RowAt& at) {
@@ -265,9 +272,10 @@ void correlation_ignored(const AuditSubject& subject, FindingCollector& findings
         const std::u32string name = certificate::letters_of(at.of.reference->name);
         constexpr std::size_t k_least = 4;  // letters: shorter names stand in other words
         if (name.size() >= k_least && certificate::letters_of(words_of_row(at.is)).find(name) != std::u32string::npos) {
-            findings.add(finding_at(at, "",
-                                    "the row rests on " + at.of.reference->name +
-                                        ", with which the result is compared, and the correlation is 0"));
+            findings.add(finding_at(
+                at, "",
+                say("the row rests on {reference}, with which the result is compared, and the correlation is 0",
+                    at.of.reference->name)));
         }
     });
 }
@@ -279,9 +287,9 @@ void z_with_uncertain_assigned_value(const AuditSubject& subject, FindingCollect
             continue;
         }
         AuditFinding finding = finding_of_score(
-            score, "z is used, and u(X) = " + in_words(score.reference_u) +
-                       " is more than 0.3 σ_pt = " + in_words(k_assigned_value_share * *score.sigma_pt));
-        finding.expected = "z′ = (x − X)/√(σ_pt² + u²(X))";
+            score, say("z is used, and u(X) = {u:number} is more than 0.3 σ_pt = {limit:number}",
+                       in_words(score.reference_u), in_words(k_assigned_value_share * *score.sigma_pt)));
+        finding.expected = say("z′ = (x − X)/√(σ_pt² + u²(X))");
         findings.add(std::move(finding));
     }
 }
@@ -290,19 +298,21 @@ void z_with_uncertain_assigned_value(const AuditSubject& subject, FindingCollect
 void reference_not_better(const AuditSubject& subject, FindingCollector& findings) {
     for (const AuditedScore& score : scores_of(subject)) {
         if (score.U > 0.0 && score.reference_U >= score.U) {
-            findings.add(finding_of_score(score, "U of the reference, " + in_words(score.reference_U) +
-                                                     ", is not smaller than that of the laboratory, " +
-                                                     in_words(score.U)));
+            findings.add(finding_of_score(
+                score,
+                say("U of the reference, {reference:number}, is not smaller than that of the laboratory, {U:number}",
+                    in_words(score.reference_U), in_words(score.U))));
         }
     }
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         const std::optional<double> U = stated_U(budget);
         if (budget.reference && U && budget.reference->expanded_uncertainty >= *U) {
-            findings.add(finding_of(subject, i,
-                                    "U of the reference, " +
-                                        in_words(budget.reference->expanded_uncertainty, budget.unit) +
-                                        ", is not smaller than that of the result, " + in_words(*U, budget.unit)));
+            findings.add(finding_of(
+                subject, i,
+                say("U of the reference, {reference:number}, is not smaller than that of the result, "
+                    "{U:number}",
+                    in_words(budget.reference->expanded_uncertainty, budget.unit), in_words(*U, budget.unit))));
         }
     }
 }
@@ -318,20 +328,25 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
         if (!en || std::abs(*en) <= 1.0) {
             continue;
         }
-        const std::string above = "|E_n| = " + short_number(std::abs(*en)) + " is above 1";
+        const std::string shown = short_number(std::abs(*en));
         if (others_act) {
             // An organiser has the signal of a laboratory to report; what that laboratory does is on record there.
-            findings.add(finding_of_score(score, above + ": a signal for this laboratory, which acts on it"),
-                         FindingSeverity::information);
+            findings.add(
+                finding_of_score(
+                    score,
+                    say("|E_n| = {en:number} is above 1: a signal for this laboratory, which acts on it", shown)),
+                FindingSeverity::information);
         } else {
-            findings.add(finding_of_score(score, above + ", and no action is on record"));
+            findings.add(
+                finding_of_score(score, say("|E_n| = {en:number} is above 1, and no action is on record", shown)));
         }
     }
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const std::optional<double> en = en_of(subject.budgets[i]);
         if (en && std::abs(*en) > 1.0) {
             findings.add(finding_of(
-                subject, i, "|E_n| = " + short_number(std::abs(*en)) + " is above 1, and no action is on record"));
+                subject, i,
+                say("|E_n| = {en:number} is above 1, and no action is on record", short_number(std::abs(*en)))));
         }
     }
 }
@@ -339,9 +354,8 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
 /// N07
 void instability_not_in_reference(const AuditSubject& subject, FindingCollector& findings) {
     if (subject.comparison && !subject.comparison->scores.empty() && !subject.comparison->instability_in_reference) {
-        findings.add(
-            finding_of_comparison("the uncertainty of the reference value has no contribution of the stability of the "
-                                  "artefact"));
+        findings.add(finding_of_comparison(
+            say("the uncertainty of the reference value has no contribution of the stability of the artefact")));
     }
 }
 
@@ -350,15 +364,15 @@ void reference_without_uncertainty(const AuditSubject& subject, FindingCollector
     for (const AuditedScore& score : scores_of(subject)) {
         if (!(score.reference_U > 0.0) && !(score.reference_u > 0.0)) {
             findings.add(finding_of_score(
-                score, "the reference value " + in_words(score.reference_value) + " has no uncertainty"));
+                score, say("the reference value {value:number} has no uncertainty", in_words(score.reference_value))));
         }
     }
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const std::optional<ComparedReference>& reference = subject.budgets[i].reference;
         if (reference && !(reference->expanded_uncertainty > 0.0)) {
-            findings.add(finding_of(
-                subject, i,
-                "the reference value " + in_words(reference->value, subject.budgets[i].unit) + " has no uncertainty"));
+            findings.add(finding_of(subject, i,
+                                    say("the reference value {value:number} has no uncertainty",
+                                        in_words(reference->value, subject.budgets[i].unit))));
         }
     }
 }
@@ -372,11 +386,11 @@ void inconsistent_set(const AuditSubject& subject, FindingCollector& findings) {
         p_high = gum::chi_square_upper_tail(*chi_square, static_cast<double>(scores.size()));
     }
     if (p_high && *p_high < k_inconsistent) {
-        AuditFinding finding = finding_of_comparison(
-            "the results contradict each other more than their uncertainties allow: "
-            "p_high = " +
-            short_number(*p_high) + ", threshold 0.05");
-        finding.evidence = {"p_high = " + short_number(*p_high)};
+        AuditFinding finding =
+            finding_of_comparison(say("the results contradict each other more than their uncertainties allow: p_high = "
+                                      "{p_high:number}, threshold 0.05",
+                                      short_number(*p_high)));
+        finding.evidence = {equals("p_high", short_number(*p_high))};
         findings.add(std::move(finding));
     }
 }
@@ -397,9 +411,9 @@ void counted_one_by_one(const AuditSubject& subject, FindingCollector& findings)
         comparison.p_high) {
         return;
     }
-    findings.add(
-        finding_of_comparison(std::to_string(scores.size()) +
-                              " scores share a source, and are presented one by one without their covariance"));
+    findings.add(finding_of_comparison(
+        say("{count:number} scores share a source, and are presented one by one without their covariance",
+            std::to_string(scores.size()))));
 }
 
 }  // namespace

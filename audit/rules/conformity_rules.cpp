@@ -8,7 +8,7 @@
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
 #include "certificate/stated_text.h"
-#include "text/lists.h"
+
 #include "text/numbers.h"
 
 namespace gumcert::audit {
@@ -32,8 +32,8 @@ void verdict_without_rule(const AuditSubject& subject, FindingCollector& finding
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         if (!budget.claims.verdict.empty() && !budget.rule) {
-            findings.add(finding_of(subject, i,
-                                    "the verdict \"" + budget.claims.verdict + "\" is stated without a decision rule"));
+            findings.add(finding_of(
+                subject, i, say("the verdict \"{verdict}\" is stated without a decision rule", budget.claims.verdict)));
         }
     }
 }
@@ -43,8 +43,8 @@ void verdict_without_limits(const AuditSubject& subject, FindingCollector& findi
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         if (!budget.claims.verdict.empty() && !has_limits_stated(budget)) {
-            findings.add(
-                finding_of(subject, i, "the verdict \"" + budget.claims.verdict + "\" is stated without limits"));
+            findings.add(finding_of(subject, i,
+                                    say("the verdict \"{verdict}\" is stated without limits", budget.claims.verdict)));
         }
     }
 }
@@ -67,6 +67,15 @@ std::optional<BudgetOutcome> outcome_of_claims(const AuditedBudget& budget) {
     return outcome_or_none(printed);
 }
 
+/// A verdict that a rule gives; one that is stated stays as it stands there.
+Sentence decided_in_words(const std::string& verdict) {
+    return verdict == "pass"               ? say("pass")
+           : verdict == "fail"             ? say("fail")
+           : verdict == "conditional_pass" ? say("conditional_pass")
+           : verdict == "conditional_fail" ? say("conditional_fail")
+                                           : Sentence(verdict);
+}
+
 /// D04
 void verdict_does_not_follow(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
@@ -79,20 +88,20 @@ void verdict_does_not_follow(const AuditSubject& subject, FindingCollector& find
                                   decided = says_conforming(printed->verdict);
         if (claimed && claimed != decided) {
             AuditFinding finding = finding_of(subject, i,
-                                              "the verdict \"" + budget.claims.verdict +
-                                                  "\" does not follow from the rule, which gives \"" +
-                                                  printed->verdict + "\" for the stated value and U");
-            finding.expected = printed->verdict;
+                                              say("the verdict \"{verdict}\" does not follow from the rule, which "
+                                                  "gives \"{decided}\" for the stated value and U",
+                                                  budget.claims.verdict, decided_in_words(printed->verdict)));
+            finding.expected = decided_in_words(printed->verdict);
             finding.actual = budget.claims.verdict;
             finding.kind = "claimed";
             findings.add(std::move(finding));
         } else if (printed->verdict != unrounded->verdict && !unrounded->verdict.empty()) {
-            AuditFinding finding =
-                finding_of(subject, i,
-                           "the verdict is \"" + unrounded->verdict + "\" with the unrounded numbers and \"" +
-                               printed->verdict + "\" with the printed ones");
-            finding.expected = unrounded->verdict;
-            finding.actual = printed->verdict;
+            AuditFinding finding = finding_of(
+                subject, i,
+                say("the verdict is \"{unrounded}\" with the unrounded numbers and \"{printed}\" with the printed ones",
+                    decided_in_words(unrounded->verdict), decided_in_words(printed->verdict)));
+            finding.expected = decided_in_words(unrounded->verdict);
+            finding.actual = decided_in_words(printed->verdict);
             finding.kind = "printed";
             findings.add(std::move(finding));
         }
@@ -112,12 +121,12 @@ void ratio_too_small(const AuditSubject& subject, FindingCollector& findings) {
         if (ratio >= *least * (1.0 - k_rounding)) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, i,
-                       "the test uncertainty ratio is " + text::significant(ratio, 3) + ", below the " +
-                           text::significant(*least, 3) + " of the rule, and no alternative is agreed on");
-        finding.expected = "at least " + text::significant(*least, 3);
-        finding.actual = text::significant(ratio, 3);
+        AuditFinding finding = finding_of(subject, i,
+                                          say("the test uncertainty ratio is {ratio:number}, below the {least:number} "
+                                              "of the rule, and no alternative is agreed on",
+                                              text::significant(ratio, 3), text::significant(*least, 3)));
+        finding.expected = say("at least {least:number}", text::significant(*least, 3));
+        finding.actual = say_number(text::significant(ratio, 3));
         findings.add(std::move(finding));
     }
 }
@@ -137,7 +146,7 @@ void state_as_found_not_shown(const AuditSubject& subject, FindingCollector& fin
     }
     AuditFinding finding;
     finding.where = "/adjustment/as_found";
-    finding.what = "the item was adjusted, conformity is stated, and nothing is said of the results before";
+    finding.what = say("the item was adjusted, conformity is stated, and nothing is said of the results before");
     findings.add(std::move(finding));
 }
 
@@ -161,11 +170,11 @@ void verdict_on_open_findings(const AuditSubject& subject, std::span<const Audit
         if (open.empty()) {
             continue;
         }
-        AuditFinding finding = finding_of(subject, i,
-                                          "conformity is decided with an uncertainty on which major findings are "
-                                          "open: " +
-                                              text::all_of(open));
-        finding.evidence = open;
+        AuditFinding finding =
+            finding_of(subject, i,
+                       say("conformity is decided with an uncertainty on which major findings are open: {open}",
+                           all_of(sentences_of(open))));
+        finding.evidence = sentences_of(open);
         findings.add(std::move(finding));
     }
 }

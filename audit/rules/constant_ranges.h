@@ -3,12 +3,13 @@
 #include <string_view>
 
 #include "audit/audited_budget.h"
+#include "audit/sentence.h"
 
 namespace gumcert::audit {
 
 /// What a constant of nature or of a material lies between, in SI units.
 struct ConstantRange {
-    std::string_view kind;  ///< "thermal expansion of steel"
+    Sentence kind;          ///< "thermal expansion of steel"
     std::string_view unit;  ///< coherent SI, as Unit reads it
     double low = 0.0, high = 0.0;
 };

@@ -15,7 +15,6 @@
 #include "audit/word_line.h"
 #include "certificate/dates.h"
 #include "certificate/text_words.h"
-#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -70,8 +69,8 @@ std::size_t rows_not_recognised(const AuditedBudget& budget) {
 }
 
 /// A contribution that nobody put into the budgets. Rows that the program did not recognise may be it: minor then.
-void add_missing_contribution(const AuditSubject& subject, std::vector<std::size_t> budgets, const std::string& what,
-                              FindingSeverity severity, std::vector<std::string> evidence, FindingCollector& findings) {
+void add_missing_contribution(const AuditSubject& subject, std::vector<std::size_t> budgets, const Sentence& what,
+                              FindingSeverity severity, std::vector<Sentence> evidence, FindingCollector& findings) {
     std::optional<AuditFinding> finding = finding_of_all(subject, std::move(budgets), what);
     if (!finding) {
         return;
@@ -80,7 +79,7 @@ void add_missing_contribution(const AuditSubject& subject, std::vector<std::size
     finding->contribution_missing = true;
     const std::size_t unknown = rows_not_recognised(subject.budgets[finding->budgets.front()]);
     if (unknown > 0) {
-        finding->evidence.push_back("rows that were not recognised: " + std::to_string(unknown));
+        finding->evidence.push_back(say("rows that were not recognised: {count:number}", std::to_string(unknown)));
         severity = std::min(severity, FindingSeverity::minor);
     }
     findings.add(std::move(*finding), severity);
@@ -118,12 +117,8 @@ std::vector<RequiredContributor> asked_of(const AuditedBudget& budget) {
 
 /// B01: one finding for all that a budget leaves out, and one for what it names without a number.
 void required_contributor_missing(const AuditSubject& subject, FindingCollector& findings) {
-    std::vector<std::pair<std::string, std::vector<std::size_t>>> gaps;  // sentence and budgets, in their order
-    const auto note = [&gaps](const std::string& beginning, const std::vector<std::string>& names, std::size_t budget) {
-        if (names.empty()) {
-            return;
-        }
-        const std::string what = beginning + text::all_of(names);
+    std::vector<std::pair<Sentence, std::vector<std::size_t>>> gaps;  // sentence and budgets, in their order
+    const auto note = [&gaps](const Sentence& what, std::size_t budget) {
         const auto same = std::find_if(gaps.begin(), gaps.end(), [&](const auto& gap) { return gap.first == what; });
         if (same == gaps.end()) {
             gaps.emplace_back(what, std::vector{budget});
@@ -136,7 +131,7 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
             continue;
         }
         const std::vector<RowWithName> rows = named_rows(subject.budgets[i]);
-        std::vector<std::string> missing, without_number;
+        std::vector<Sentence> missing, without_number;
         for (const RequiredContributor& required : asked_of(subject.budgets[i])) {
             const Presence presence = presence_of(rows, required);
             if (presence == Presence::missing) {
@@ -145,15 +140,19 @@ void required_contributor_missing(const AuditSubject& subject, FindingCollector&
                 without_number.emplace_back(required.name);
             }
         }
-        note("no row for ", missing, i);
-        note("named without a number: ", without_number, i);
+        if (!missing.empty()) {
+            note(say("no row for {contributors}", all_of(missing)), i);
+        }
+        if (!without_number.empty()) {
+            note(say("named without a number: {contributors}", all_of(without_number)), i);
+        }
     }
     for (auto& [what, budgets] : gaps) {
         const MethodChecklist* checklist = checklist_of(subject.budgets[budgets.front()].method);
-        std::vector<std::string> evidence{
-            "checklist: " + (checklist == nullptr ? "every method"
-                                                  : std::string(checklist->title) + ", after " +
-                                                        std::string(checklist->source) + " (clauses to be verified)")};
+        std::vector<Sentence> evidence{checklist == nullptr
+                                           ? say("checklist: every method")
+                                           : say("checklist: {method}, after {documents} (clauses to be verified)",
+                                                 checklist->title, std::string(checklist->source))};
         add_missing_contribution(subject, std::move(budgets), what, FindingSeverity::major, std::move(evidence),
                                  findings);
     }
@@ -164,20 +163,21 @@ void drift_missing(const AuditSubject& subject, FindingCollector& findings) {
     std::vector<std::size_t> budgets = budgets_where(subject, [](const AuditedBudget& budget) {
         return has_row_of(budget, {Contributor::reference}) && !has_row_of(budget, {Contributor::reference_drift});
     });
-    std::vector<std::string> evidence;
+    std::vector<Sentence> evidence;
     if (subject.certificate) {
         const certificate::CertificateData& data = subject.certificate->data;
         for (const certificate::StandardUsed& standard : data.standards) {
             const std::optional<long> days = certificate::days_between(standard.calibrated, data.dates.performed_from);
             if (days && *days > 0) {
-                evidence.push_back(standard.identification + ": calibrated " + std::to_string(*days) +
-                                   " days before the work");
+                evidence.push_back(say("{standard}: calibrated {days:number} days before the work",
+                                       standard.identification, std::to_string(*days)));
             }
         }
     }
-    add_missing_contribution(subject, std::move(budgets),
-                             "no contribution, or 0, for the drift of the reference standard since its calibration",
-                             FindingSeverity::major, std::move(evidence), findings);
+    add_missing_contribution(
+        subject, std::move(budgets),
+        say("no contribution, or 0, for the drift of the reference standard since its calibration"),
+        FindingSeverity::major, std::move(evidence), findings);
 }
 
 /// B03
@@ -193,11 +193,11 @@ void drift_of_few_calibrations(const AuditSubject& subject, FindingCollector& fi
         if (!count || *count >= k_least) {
             return;
         }
-        AuditFinding finding = finding_at(
-            at, "",
-            "the drift is estimated from " + std::to_string(*count) + (*count == 1 ? " calibration" : " calibrations"));
-        finding.expected = "3 calibrations at least";
-        finding.actual = std::to_string(*count);
+        AuditFinding finding = finding_at(at, "",
+                                          say_count(*count, "the drift is estimated from {count:number} calibration",
+                                                    "the drift is estimated from {count:number} calibrations"));
+        finding.expected = say("3 calibrations at least");
+        finding.actual = say_number(std::to_string(*count));
         findings.add(std::move(finding));
     });
 }
@@ -213,7 +213,7 @@ void item_missing(const AuditSubject& subject, FindingCollector& findings) {
         budgets_where(
             subject,
             [&](const AuditedBudget& budget) { return presence_of(budget, of_item) != Presence::with_number; }),
-        "no contribution of the customer's device: no resolution, repeatability or stability of it",
+        say("no contribution of the customer's device: no resolution, repeatability or stability of it"),
         FindingSeverity::major, {}, findings);
 }
 
@@ -227,7 +227,7 @@ void reproducibility_missing(const AuditSubject& subject, FindingCollector& find
         budgets_where(
             subject,
             [&](const AuditedBudget& budget) { return presence_of(budget, required) != Presence::with_number; }),
-        "no contribution of reproducibility (operator, day, set-up)", FindingSeverity::minor, {}, findings);
+        say("no contribution of reproducibility (operator, day, set-up)"), FindingSeverity::minor, {}, findings);
 }
 
 /// B06
@@ -242,7 +242,7 @@ void fit_missing(const AuditSubject& subject, FindingCollector& findings) {
                                                              "calibration curve", "ausgleichs", "kleinste quadrate"});
                           return fitted && !has_row_of(budget, {Contributor::fit});
                       }),
-        "the result comes from a fit, and no contribution of its parameters and residuals is there",
+        say("the result comes from a fit, and no contribution of its parameters and residuals is there"),
         FindingSeverity::major, {}, findings);
 }
 
@@ -256,7 +256,7 @@ void interpolation_missing(const AuditSubject& subject, FindingCollector& findin
             return;
         }
         AuditFinding finding = finding_at(
-            at, "", "a calibration value is interpolated, and no contribution of the interpolation is there");
+            at, "", say("a calibration value is interpolated, and no contribution of the interpolation is there"));
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });
@@ -296,8 +296,8 @@ void structures_differ(const AuditSubject& subject, FindingCollector& findings) 
         }
         AuditFinding finding =
             finding_of(subject, i,
-                       "this budget and that of " + (other.place.empty() ? other.name : other.place) +
-                           ", of the same method, have different rows: " + text::listed(only, 6));
+                       say("this budget and that of {other}, of the same method, have different rows: {rows}",
+                           other.place.empty() ? other.name : other.place, listed(sentences_of(only), 6)));
         findings.add(std::move(finding));
     }
 }

@@ -43,8 +43,8 @@ void for_each_foreign_outcome(const AuditSubject& subject, const Look& look) {
     });
 }
 
-std::string range_in_words(const Interval& interval, const std::string& unit) {
-    return in_words(interval.low) + " to " + in_words(interval.high, unit);
+Sentence range_in_words(const Interval& interval, const std::string& unit) {
+    return say("{low:number} to {high:number}", in_words(interval.low), in_words(interval.high, unit));
 }
 
 std::string claimed_in_words(const StatedNumber& number, const std::string& unit) {
@@ -64,15 +64,16 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
             return;
         }
         const double c = row.sensitivity->value;
-        AuditFinding finding = finding_at(at, "contribution",
-                                          "the contribution " + claimed_in_words(*row.contribution, at.of.unit) +
-                                              " is not |c| u = " + in_words(std::abs(c) * row.used_u, at.of.unit));
-        finding.evidence = {"c = " + in_words(c), "u = " + in_words(row.used_u, row.unit)};
+        AuditFinding finding = finding_at(
+            at, "contribution",
+            say("the contribution {contribution:number} is not |c| u = {c_u:number}",
+                claimed_in_words(*row.contribution, at.of.unit), in_words(std::abs(c) * row.used_u, at.of.unit)));
+        finding.evidence = {equals("c", in_words(c)), equals("u", in_words(row.used_u, row.unit))};
         if (is_about(std::abs(row.contribution->value), c * c * row.used_u, 0.01)) {
-            finding.evidence.emplace_back("it is c² u: the coefficient was multiplied twice");
+            finding.evidence.push_back(say("it is c² u: the coefficient was multiplied twice"));
         }
-        finding.expected = in_words(std::abs(c) * row.used_u, at.of.unit);
-        finding.actual = claimed_in_words(*row.contribution, at.of.unit);
+        finding.expected = say_number(in_words(std::abs(c) * row.used_u, at.of.unit));
+        finding.actual = say_number(claimed_in_words(*row.contribution, at.of.unit));
         finding.correct = set_sensitivity(at.row, c);
         findings.add(std::move(finding));
     });
@@ -88,42 +89,46 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
         }
         const ClaimCheck check = check_claims(budget);
         if (check.u_c_outside && !check.linear_sum) {  // K09
-            AuditFinding finding = finding_of(subject, b,
-                                              "the claimed u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit) +
-                                                  " does not follow from the rows, whatever their rounding");
-            finding.evidence = {"the rows allow " + range_in_words(check.u_c, budget.unit)};
+            AuditFinding finding =
+                finding_of(subject, b,
+                           say("the claimed u_c = {u_c:number} does not follow from the rows, whatever their rounding",
+                               claimed_in_words(*budget.claims.u_c, budget.unit)));
+            finding.evidence = {say("the rows allow {u_c}", range_in_words(check.u_c, budget.unit))};
             finding.expected = range_in_words(check.u_c, budget.unit);
-            finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+            finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
             finding.kind = "u_c";
             // ν_eff of the sum that is claimed goes with it.
             finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = corrected.k_over_rows = 1.0; };
             findings.add(std::move(finding));
         }
         if (check.nu_eff_outside && !check.u_c_outside) {
-            AuditFinding finding = finding_of(subject, b,
-                                              "k = " + claimed_in_words(*budget.claims.k, "") +
-                                                  " is that of ν_eff = " + claimed_in_words(*budget.claims.nu_eff, "") +
-                                                  ", which the rows do not give, whatever their rounding");
-            finding.evidence = {"the rows allow ν_eff = " + range_in_words(check.nu_eff, "")};
+            AuditFinding finding =
+                finding_of(subject, b,
+                           say("k = {k:number} is that of ν_eff = {nu_eff:number}, which the rows do not give, "
+                               "whatever their rounding",
+                               claimed_in_words(*budget.claims.k, ""), claimed_in_words(*budget.claims.nu_eff, "")));
+            finding.evidence = {say("the rows allow ν_eff = {nu_eff}", range_in_words(check.nu_eff, ""))};
             finding.expected = range_in_words(check.nu_eff, "");
-            finding.actual = claimed_in_words(*budget.claims.nu_eff, "");
+            finding.actual = say_number(claimed_in_words(*budget.claims.nu_eff, ""));
             finding.kind = "nu_eff";
             finding.correct = [](AuditedBudget& corrected) { corrected.k_over_rows = 1.0; };
             findings.add(std::move(finding));
         }
         if (check.U_outside) {
-            AuditFinding finding = finding_of(subject, b,
-                                              "the claimed U = " + claimed_in_words(*budget.claims.U, budget.unit) +
-                                                  " is not k u_c, whatever the rounding of its rows");
-            finding.evidence = {"k u_c allows " + range_in_words(check.U, budget.unit)};
+            AuditFinding finding =
+                finding_of(subject, b,
+                           say("the claimed U = {U:number} is not k u_c, whatever the rounding of its rows",
+                               claimed_in_words(*budget.claims.U, budget.unit)));
+            finding.evidence = {say("k u_c allows {U}", range_in_words(check.U, budget.unit))};
             if (budget.claims.k) {
-                finding.evidence.push_back("claimed k = " + claimed_in_words(*budget.claims.k, ""));
+                finding.evidence.push_back(say("claimed k = {k:number}", claimed_in_words(*budget.claims.k, "")));
             }
             if (budget.claims.u_c) {
-                finding.evidence.push_back("claimed u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit));
+                finding.evidence.push_back(
+                    say("claimed u_c = {u_c:number}", claimed_in_words(*budget.claims.u_c, budget.unit)));
             }
             finding.expected = range_in_words(check.U, budget.unit);
-            finding.actual = claimed_in_words(*budget.claims.U, budget.unit);
+            finding.actual = say_number(claimed_in_words(*budget.claims.U, budget.unit));
             finding.kind = "U";
             finding.correct = [](AuditedBudget& corrected) { corrected.U_over_k_u_c = 1.0; };
             findings.add(std::move(finding));
@@ -139,13 +144,13 @@ void linear_sum(const AuditSubject& subject, FindingCollector& findings) {
         if (!check.linear_sum) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, b,
-                       "u_c = " + claimed_in_words(*budget.claims.u_c, budget.unit) +
-                           " is the plain sum of the contributions, not the root of the sum of squares");
-        finding.evidence = {"the root of the sum of squares is " + range_in_words(check.u_c, budget.unit)};
+        AuditFinding finding = finding_of(
+            subject, b,
+            say("u_c = {u_c:number} is the plain sum of the contributions, not the root of the sum of squares",
+                claimed_in_words(*budget.claims.u_c, budget.unit)));
+        finding.evidence = {say("the root of the sum of squares is {u_c}", range_in_words(check.u_c, budget.unit))};
         finding.expected = range_in_words(check.u_c, budget.unit);
-        finding.actual = claimed_in_words(*budget.claims.u_c, budget.unit);
+        finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
         finding.correct = k_trust_rows;
         findings.add(std::move(finding));
     }
@@ -181,13 +186,13 @@ void fixed_k_of_few(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         const double p = probability_of(budget), k = gum::coverage_factor(p, outcome.nu_eff);
-        AuditFinding finding = finding_of(
-            subject, b,
-            "k = " + in_words(budget.coverage.k) + " is fixed although ν_eff is only " + in_words(outcome.nu_eff));
-        finding.evidence = {"p = " + text::significant(100.0 * p, 4) + " %", "t_p(ν_eff) = " + in_words(k),
-                            "u_c = " + in_words(outcome.u_c, budget.unit)};
-        finding.expected = "k = " + in_words(k);
-        finding.actual = "k = " + in_words(budget.coverage.k);
+        AuditFinding finding = finding_of(subject, b,
+                                          say("k = {k:number} is fixed although ν_eff is only {nu_eff:number}",
+                                              in_words(budget.coverage.k), in_words(outcome.nu_eff)));
+        finding.evidence = {say("p = {p:number} %", text::significant(100.0 * p, 4)), equals("t_p(ν_eff)", in_words(k)),
+                            equals("u_c", in_words(outcome.u_c, budget.unit))};
+        finding.expected = equals("k", in_words(k));
+        finding.actual = equals("k", in_words(budget.coverage.k));
         finding.correct = [p](AuditedBudget& corrected) {
             corrected.coverage.kind = CoverageRule::Kind::student_t;
             corrected.coverage.probability = p;
@@ -221,14 +226,16 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
         if (is_about(whole.k, lower.k, 1e-9)) {
             return;
         }
-        AuditFinding finding =
-            finding_of(subject, b,
-                       "ν_eff = " + in_words(outcome.nu_eff) +
-                           (some_truncate ? " is used as it is; other budgets cut it to the next lower whole number"
-                                          : " is used as it is; cut to the next lower whole number, U would be printed "
-                                            "otherwise"));
-        finding.evidence = {"k = " + in_words(whole.k) + ", cut " + in_words(lower.k),
-                            "U = " + whole.printed_U + ", cut " + lower.printed_U};
+        AuditFinding finding = finding_of(
+            subject, b,
+            some_truncate
+                ? say("ν_eff = {nu_eff:number} is used as it is; other budgets cut it to the next lower whole number",
+                      in_words(outcome.nu_eff))
+                : say("ν_eff = {nu_eff:number} is used as it is; cut to the next lower whole number, U would be "
+                      "printed otherwise",
+                      in_words(outcome.nu_eff)));
+        finding.evidence = {say("k = {k:number}, cut {cut:number}", in_words(whole.k), in_words(lower.k)),
+                            say("U = {U:number}, cut {cut:number}", whole.printed_U, lower.printed_U)};
         if (foreign || some_truncate) {
             finding.correct = [](AuditedBudget& corrected) {
                 if (corrected.coverage.kind == CoverageRule::Kind::student_t) {
@@ -293,6 +300,11 @@ bool loses_digits(const StatedNumber& stated, double k) {
     return stated.value == std::round(k) && !is_about(stated.value, k, k_seen);
 }
 
+/// What is said of k with the sentence of the document that says it.
+Sentence with_sentence(Sentence said, const std::string& sentence) {
+    return sentence.empty() ? said : say("{said}: \"{sentence}\"", std::move(said), sentence);
+}
+
 /// K03
 void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
     for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome&) {
@@ -301,18 +313,19 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         const BudgetOutcome& outcome = shown.outcome;
         const double k = outcome.k;
         const Interval stated = words.k ? words.k->interval() : Interval{k, k};
-        const std::string sentence =
-            budget.claims.coverage_sentence.empty() ? "" : ": \"" + budget.claims.coverage_sentence + "\"";
+        const std::string& sentence = budget.claims.coverage_sentence;
         if (words.k && !loses_digits(*words.k, k) && !outcome.at_capability &&
             !stated.meets({0.99 * shown.allowed.k.low, 1.01 * shown.allowed.k.high})) {
-            AuditFinding finding = finding_of(
-                subject, b,
-                "k = " + in_words(words.k->value) + " is stated, and k = " + in_words(k) + " was used" + sentence);
-            finding.evidence = {"U = " + in_words(outcome.U, budget.unit),
-                                "u_c = " + in_words(outcome.u_c, budget.unit)};
+            AuditFinding finding =
+                finding_of(subject, b,
+                           with_sentence(say("k = {stated:number} is stated, and k = {used:number} was used",
+                                             in_words(words.k->value), in_words(k)),
+                                         sentence));
+            finding.evidence = {equals("U", in_words(outcome.U, budget.unit)),
+                                equals("u_c", in_words(outcome.u_c, budget.unit))};
             finding.kind = "k";
-            finding.expected = "k = " + in_words(k);
-            finding.actual = "k = " + in_words(words.k->value);
+            finding.expected = equals("k", in_words(k));
+            finding.actual = equals("k", in_words(words.k->value));
             findings.add(std::move(finding));
         }
         if (!words.p || !(*words.p > 0.5) || !(*words.p < 1.0)) {
@@ -329,12 +342,16 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         if ((k < 0.99 * least && !narrow_shape) || k > 1.06 * most) {
             AuditFinding finding =
                 finding_of(subject, b,
-                           "k = " + in_words(k) + " and p = " + text::significant(100.0 * *words.p, 4) +
-                               " % do not belong together" + sentence);
-            finding.evidence = {"normal distribution: k = " + in_words(least), "ν_eff = " + in_words(outcome.nu_eff)};
+                           with_sentence(say("k = {k:number} and p = {p:number} % do not belong together", in_words(k),
+                                             text::significant(100.0 * *words.p, 4)),
+                                         sentence));
+            finding.evidence = {say("normal distribution: k = {least:number}", in_words(least)),
+                                equals("ν_eff", in_words(outcome.nu_eff))};
             finding.kind = "p";
-            finding.expected = "k = " + in_words(least) + (most > least ? " to " + in_words(most) : std::string());
-            finding.actual = "k = " + in_words(k);
+            finding.expected = most > least
+                                   ? say("k = {least:number} to {most:number}", in_words(least), in_words(most))
+                                   : equals("k", in_words(least));
+            finding.actual = equals("k", in_words(k));
             findings.add(std::move(finding));
         }
     });
@@ -349,12 +366,14 @@ void k_loses_digits(const AuditSubject& subject, FindingCollector& findings) {
         if (!words.k || outcome.at_capability || !loses_digits(*words.k, k)) {
             return;
         }
-        AuditFinding finding = finding_of(subject, b,
-                                          "k = " + in_words(k) + " is printed as " + in_words(words.k->value) +
-                                              ": who divides U by it gets another u_c");
-        finding.evidence = {"U = " + in_words(outcome.U, budget.unit), "u_c = " + in_words(outcome.u_c, budget.unit)};
-        finding.expected = "k = " + text::fixed(k, 2);
-        finding.actual = "k = " + in_words(words.k->value);
+        AuditFinding finding =
+            finding_of(subject, b,
+                       say("k = {k:number} is printed as {printed:number}: who divides U by it gets another u_c",
+                           in_words(k), in_words(words.k->value)));
+        finding.evidence = {equals("U", in_words(outcome.U, budget.unit)),
+                            equals("u_c", in_words(outcome.u_c, budget.unit))};
+        finding.expected = equals("k", text::fixed(k, 2));
+        finding.actual = equals("k", in_words(words.k->value));
         findings.add(std::move(finding));
     });
 }
@@ -402,14 +421,15 @@ void rectangular_dominance(const AuditSubject& subject, FindingCollector& findin
         if (!(k < (1.0 - k_moved) * outcome.k)) {
             return;
         }
-        AuditFinding finding =
-            finding_of(subject, b,
-                       "a rectangular contribution is nearly all of u_c, and k = " + in_words(outcome.k) +
-                           " is that of a normal distribution");
-        finding.evidence = {"rest / dominant = " + in_words(rest / largest), "exact k = " + in_words(k),
-                            "p = " + text::significant(100.0 * exact.coverage.probability, 4) + " %"};
-        finding.expected = "k = " + in_words(k);
-        finding.actual = "k = " + in_words(outcome.k);
+        AuditFinding finding = finding_of(
+            subject, b,
+            say("a rectangular contribution is nearly all of u_c, and k = {k:number} is that of a normal distribution",
+                in_words(outcome.k)));
+        finding.evidence = {say("rest / dominant = {ratio:number}", in_words(rest / largest)),
+                            say("exact k = {k:number}", in_words(k)),
+                            say("p = {p:number} %", text::significant(100.0 * exact.coverage.probability, 4))};
+        finding.expected = equals("k", in_words(k));
+        finding.actual = equals("k", in_words(outcome.k));
         finding.correct = k_by_convolution;
         findings.add(std::move(finding));
     });
@@ -436,11 +456,12 @@ void wider_than_possible(const AuditSubject& subject, FindingCollector& findings
         }
         AuditFinding finding =
             finding_of(subject, b,
-                       "U = " + in_words(outcome.U, budget.unit) + " is more than all limits of the rows together, " +
-                           in_words(sum, budget.unit));
-        finding.evidence = {"k = " + in_words(outcome.k), "sum of the half-widths = " + in_words(sum, budget.unit)};
-        finding.expected = "U ≤ " + in_words(sum, budget.unit);
-        finding.actual = in_words(outcome.U, budget.unit);
+                       say("U = {U:number} is more than all limits of the rows together, {sum:number}",
+                           in_words(outcome.U, budget.unit), in_words(sum, budget.unit)));
+        finding.evidence = {equals("k", in_words(outcome.k)),
+                            say("sum of the half-widths = {sum:number}", in_words(sum, budget.unit))};
+        finding.expected = say("U ≤ {sum:number}", in_words(sum, budget.unit));
+        finding.actual = say_number(in_words(outcome.U, budget.unit));
         finding.correct = k_by_convolution;
         findings.add(std::move(finding));
     });
@@ -458,11 +479,11 @@ void one_term(const AuditSubject& subject, FindingCollector& findings) {
             if (part * part <= k_share || !budget.correlations.empty()) {
                 continue;
             }
-            AuditFinding finding =
-                finding_at({.budget = b, .row = r, .of = budget, .is = row}, "",
-                           "this row is " + text::significant(100.0 * part * part, 3) + " % of the variance");
-            finding.evidence = {"|c| u = " + in_words(std::abs(row.used_sensitivity) * row.used_u, budget.unit),
-                                "u_c = " + in_words(outcome.u_c, budget.unit)};
+            AuditFinding finding = finding_at(
+                {.budget = b, .row = r, .of = budget, .is = row}, "",
+                say("this row is {share:number} % of the variance", text::significant(100.0 * part * part, 3)));
+            finding.evidence = {equals("|c| u", in_words(std::abs(row.used_sensitivity) * row.used_u, budget.unit)),
+                                equals("u_c", in_words(outcome.u_c, budget.unit))};
             findings.add(std::move(finding));
         }
     });
@@ -480,13 +501,14 @@ void asymmetric_interval(const AuditSubject& subject, FindingCollector& findings
         if (std::abs(above - below) <= k_unequal * std::abs(above + below)) {
             return;
         }
-        AuditFinding finding =
-            finding_of(subject, b, "the coverage interval is not symmetric about the value, and U is printed as ±");
-        finding.evidence = {"below the value " + in_words(below, budget.unit),
-                            "above it " + in_words(above, budget.unit), "threshold: 10 % of the width"};
-        finding.expected = "the ends " + in_words(*budget.monte_carlo->low) + " and " +
-                           in_words(*budget.monte_carlo->high, budget.unit);
-        finding.actual = "± " + in_words(outcome.U, budget.unit);
+        AuditFinding finding = finding_of(
+            subject, b, say("the coverage interval is not symmetric about the value, and U is printed as ±"));
+        finding.evidence = {say("below the value {below:number}", in_words(below, budget.unit)),
+                            say("above it {above:number}", in_words(above, budget.unit)),
+                            say("threshold: 10 % of the width")};
+        finding.expected = say("the ends {low:number} and {high:number}", in_words(*budget.monte_carlo->low),
+                               in_words(*budget.monte_carlo->high, budget.unit));
+        finding.actual = say("± {U:number}", in_words(outcome.U, budget.unit));
         findings.add(std::move(finding));
     });
 }
@@ -506,11 +528,12 @@ void below_physical_limit(const AuditSubject& subject, FindingCollector& finding
         if (!least || !budget.value || *budget.value - outcome.U >= *least) {
             return;
         }
-        AuditFinding finding = finding_of(
-            subject, b,
-            "the interval reaches below " + in_words(*least, budget.unit) + ", where the quantity has no values");
-        finding.evidence = {"value = " + in_words(*budget.value, budget.unit),
-                            "U = " + in_words(outcome.U, budget.unit)};
+        AuditFinding finding =
+            finding_of(subject, b,
+                       say("the interval reaches below {least:number}, where the quantity has no values",
+                           in_words(*least, budget.unit)));
+        finding.evidence = {equals(say("value"), in_words(*budget.value, budget.unit)),
+                            equals("U", in_words(outcome.U, budget.unit))};
         findings.add(std::move(finding));
     });
 }
@@ -527,9 +550,9 @@ void larger_than_tolerance(const AuditSubject& subject, FindingCollector& findin
         }
         AuditFinding finding =
             finding_of(subject, b,
-                       "U = " + in_words(outcome.U, budget.unit) + " is larger than the tolerance that it serves, ± " +
-                           in_words(half, budget.unit));
-        finding.evidence = {"U / tolerance = " + in_words(outcome.U / half)};
+                       say("U = {U:number} is larger than the tolerance that it serves, ± {half:number}",
+                           in_words(outcome.U, budget.unit), in_words(half, budget.unit)));
+        finding.evidence = {say("U / tolerance = {ratio:number}", in_words(outcome.U / half))};
         findings.add(std::move(finding));
     });
 }

@@ -66,12 +66,16 @@ void recorded_range_larger(const AuditSubject& subject, FindingCollector& findin
             if (*recorded <= budgeted * (1.0 + k_rounding)) {
                 return;
             }
-            AuditFinding finding = finding_at(at, "",
-                                              "the recorded range is ±" + in_words(*recorded, at.is.unit) +
-                                                  " about its middle, and the budget has ±" +
-                                                  in_words(budgeted, at.is.unit) + (stated ? "" : " (√3·u)"));
-            finding.expected = in_words(*recorded, at.is.unit);
-            finding.actual = in_words(budgeted, at.is.unit);
+            AuditFinding finding =
+                finding_at(at, "",
+                           stated ? say("the recorded range is ±{recorded:number} about its middle, and the budget has "
+                                        "±{budgeted:number}",
+                                        in_words(*recorded, at.is.unit), in_words(budgeted, at.is.unit))
+                                  : say("the recorded range is ±{recorded:number} about its middle, and the budget has "
+                                        "±{budgeted:number} (√3·u)",
+                                        in_words(*recorded, at.is.unit), in_words(budgeted, at.is.unit)));
+            finding.expected = say_number(in_words(*recorded, at.is.unit));
+            finding.actual = say_number(in_words(budgeted, at.is.unit));
             finding.correct = scale_u(at.row, *recorded / budgeted);
             findings.add(std::move(finding));
         });
@@ -94,8 +98,9 @@ void sensor_without_calibration(const AuditSubject& subject, FindingCollector& f
         }
         AuditFinding finding;
         finding.where = "/conditions/" + std::to_string(i) + "/sensor";
-        finding.what = sensor.empty() ? "a condition without its sensor and without U of it"
-                                      : "the sensor " + condition.sensor + " has no U, and is not among the standards";
+        finding.what = sensor.empty()
+                           ? say("a condition without its sensor and without U of it")
+                           : say("the sensor {sensor} has no U, and is not among the standards", condition.sensor);
         findings.add(std::move(finding));
     }
 }
@@ -108,8 +113,9 @@ void no_time_to_acclimatise(const AuditSubject& subject, FindingCollector& findi
     }
     AuditFinding finding;
     finding.where = "/dates/performed_from";
-    finding.what = "the work began on the day of receipt, " + data.dates.received +
-                   ": nothing shows the time that the item had to acclimatise";
+    finding.what =
+        say("the work began on the day of receipt, {received}: nothing shows the time that the item had to acclimatise",
+            data.dates.received);
     findings.add(std::move(finding));
 }
 
@@ -148,10 +154,10 @@ void drift_in_readings(const AuditSubject& subject, FindingCollector& findings) 
         if (std::abs(t) <= limit) {
             return;
         }
-        AuditFinding finding =
-            finding_at(at, "",
-                       "the readings have a trend in their order: t = " + text::significant(t, 3) + ", limit " +
-                           text::significant(limit, 3) + " (1 % over all rows with readings)");
+        AuditFinding finding = finding_at(at, "",
+                                          say("the readings have a trend in their order: t = {t:number}, limit "
+                                              "{limit:number} (1 % over all rows with readings)",
+                                              text::significant(t, 3), text::significant(limit, 3)));
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });
@@ -168,9 +174,9 @@ void limits_in_place_of_observations(const AuditSubject& subject, FindingCollect
         }
         AuditFinding finding;
         finding.where = "/conditions/" + std::to_string(i);
-        finding.what = "the observed range is exactly the limits of the method, " +
-                       in_words(condition.minimum, condition.unit) + " to " +
-                       in_words(condition.maximum, condition.unit);
+        finding.what =
+            say("the observed range is exactly the limits of the method, {minimum:number} to {maximum:number}",
+                in_words(condition.minimum, condition.unit), in_words(condition.maximum, condition.unit));
         findings.add(std::move(finding));
     }
 }

@@ -149,10 +149,11 @@ void take_gate_findings(const AuditSubject& subject, FindingCollector& findings)
         AuditFinding finding;
         finding.of_gate = true;
         finding.where = gate.where;
-        finding.what = gate.what;
+        finding.what = say("{finding:sentence}", gate.what);
         finding.correction = gate.action;
-        finding.evidence = {(gate.id.find("DCC-") != std::string::npos ? "check " : "gate ") + gate.id + ", " +
-                            gate.clause};
+        const bool of_check = gate.id.find("DCC-") != std::string::npos;
+        finding.evidence = {of_check ? say("check {id}, {clause}", gate.id, gate.clause)
+                                     : say("gate {id}, {clause}", gate.id, gate.clause)};
         // Equal capability and U is what a floor does: to know, and no fault (see X07).
         const FindingSeverity severity = gate.id == "X03" ? FindingSeverity::information : gate.severity;
         findings.add(std::move(finding), severity);

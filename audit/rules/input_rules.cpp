@@ -26,7 +26,7 @@ constexpr Clause k_certificate{.text = "JCGM 100:2008, 4.3.3", .verified = true}
 /// What u divided by the number that it was made from may mean.
 struct NamedRatio {
     double ratio;
-    std::string_view name;
+    Sentence name;
 };
 /// The name of a ratio within 1 % and the digits of u; nullptr for a ratio that none has.
 template <std::size_t N>
@@ -70,32 +70,44 @@ bool is_slip_of(const AuditedRow& row, double words) {
 }
 
 /// "u = 0.4 µm", and what it comes from.
-std::vector<std::string> evidence_of(const AuditedRow& row, std::string_view base_name, double base) {
-    return {"u = " + in_words(row.used_u, row.unit), std::string(base_name) + " = " + in_words(base, row.unit)};
+std::vector<Sentence> evidence_of(const AuditedRow& row, const Sentence& base_name, double base) {
+    return {equals("u", in_words(row.used_u, row.unit)), equals(base_name, in_words(base, row.unit))};
 }
 
 /// A finding about u that should be another number.
-void add_other_u(const RowAt& at, FindingCollector& findings, std::string what, std::vector<std::string> evidence,
+void add_other_u(const RowAt& at, FindingCollector& findings, Sentence what, std::vector<Sentence> evidence,
                  double expected) {
     AuditFinding finding = finding_at(at, "u", std::move(what));
     finding.evidence = std::move(evidence);
-    finding.expected = in_words(expected, at.is.unit);
-    finding.actual = in_words(at.is.used_u, at.is.unit);
+    finding.expected = say_number(in_words(expected, at.is.unit));
+    finding.actual = say_number(in_words(at.is.used_u, at.is.unit));
     finding.correct = set_u(at.row, expected);
     findings.add(std::move(finding));
+}
+
+/// What was made of the half-width of a distribution; a shape that is not stated counts as rectangular.
+Sentence what_was_done(Shape shape, const std::string& half_width, const Sentence& done) {
+    switch (shape) {
+        case Shape::triangular:
+            return say("the half-width {a:number} of a triangular distribution is {done}", half_width, done);
+        case Shape::arcsine:
+            return say("the half-width {a:number} of a arcsine distribution is {done}", half_width, done);
+        default:
+            return say("the half-width {a:number} of a rectangular distribution is {done}", half_width, done);
+    }
 }
 
 /// U08
 void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 8> k_ratios = {{
-        {1.0, "not divided at all"},
-        {2.0 / k_root_3, "divided as its double: the whole width stands where the half belongs"},
-        {0.5, "divided by 2"},
-        {1.0 / 3.0, "divided by 3: the root was not taken"},
-        {1.0 / std::numbers::sqrt2, "divided by √2, as an arcsine distribution"},
-        {1.0 / std::sqrt(6.0), "divided by √6, as a triangular distribution"},
-        {1.0 / std::sqrt(12.0), "divided by √12, as if it were the full width"},
-        {1.0 / std::sqrt(k_root_3), "divided by the fourth root of 3: the root was taken twice"},
+        {1.0, say("not divided at all")},
+        {2.0 / k_root_3, say("divided as its double: the whole width stands where the half belongs")},
+        {0.5, say("divided by 2")},
+        {1.0 / 3.0, say("divided by 3: the root was not taken")},
+        {1.0 / std::numbers::sqrt2, say("divided by √2, as an arcsine distribution")},
+        {1.0 / std::sqrt(6.0), say("divided by √6, as a triangular distribution")},
+        {1.0 / std::sqrt(12.0), say("divided by √12, as if it were the full width")},
+        {1.0 / std::sqrt(k_root_3), say("divided by the fourth root of 3: the root was taken twice")},
     }};
     const bool has_formulas = subject.workbook != nullptr;
     for_each_row(subject, [&findings, has_formulas](const RowAt& at) {
@@ -158,14 +170,12 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         if (row.shape == Shape::not_stated && !((unity || full_width) && row.origin == Origin::limits)) {
             return;
         }
-        const std::string shape = row.shape == Shape::triangular ? "triangular"
-                                  : row.shape == Shape::arcsine  ? "arcsine"
-                                                                 : "rectangular";
         add_other_u(at, findings,
-                    "the half-width " + in_words(half_width, row.unit) + " of a " + shape + " distribution is " +
-                        (ratio != nullptr ? std::string(ratio->name)
-                         : slip ? in_words(std::abs(row.stated->value), row.unit) + " in the column that is divided"
-                                : "divided by " + in_words(half_width / row.used_u)),
+                    what_was_done(row.shape, in_words(half_width, row.unit),
+                                  ratio != nullptr ? ratio->name
+                                  : slip           ? say("{stated:number} in the column that is divided",
+                                                         in_words(std::abs(row.stated->value), row.unit))
+                                         : say("divided by {divisor:number}", in_words(half_width / row.used_u))),
                     evidence_of(row, "a", half_width), expected);
     });
 }
@@ -198,10 +208,10 @@ void resolution_called_repeatability(const RowAt& at, FindingCollector& findings
         return;
     }
     AuditFinding finding = finding_at(at, "u",
-                                      in_words(*step, row.unit) + "/√12 is the standard uncertainty of a step of " +
-                                          in_words(*step, row.unit) +
-                                          ", and the row is called repeatability: no readings stand behind it");
-    finding.evidence = {"u = " + in_words(row.used_u, row.unit), "√12 u = " + in_words(*step, row.unit)};
+                                      say("{root:number}/√12 is the standard uncertainty of a step of {step:number}, "
+                                          "and the row is called repeatability: no readings stand behind it",
+                                          in_words(*step, row.unit), in_words(*step, row.unit)));
+    finding.evidence = {equals("u", in_words(row.used_u, row.unit)), equals("√12 u", in_words(*step, row.unit))};
     finding.correction = "Call the row a resolution, and add the repeatability from readings, with its ν.";
     finding.question = "From how many readings does the repeatability come?";
     finding.contribution_missing = true;
@@ -211,11 +221,11 @@ void resolution_called_repeatability(const RowAt& at, FindingCollector& findings
 /// U09: d/√12, and √2 d/√12 for a difference of two readings.
 void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
-        {1.0, "the whole step stands as a standard uncertainty"},
-        {1.0 / k_root_3, "the whole step is divided by √3, where half of it is the limit"},
-        {0.5, "half of the step stands as a standard uncertainty"},
-        {1.0 / 6.0, "half of the step is divided by 3: the root was taken twice, or not at all"},
-        {0.5 / std::sqrt(12.0), "half of the step is divided by √12, which belongs to the whole step"},
+        {1.0, say("the whole step stands as a standard uncertainty")},
+        {1.0 / k_root_3, say("the whole step is divided by √3, where half of it is the limit")},
+        {0.5, say("half of the step stands as a standard uncertainty")},
+        {1.0 / 6.0, say("half of the step is divided by 3: the root was taken twice, or not at all")},
+        {0.5 / std::sqrt(12.0), say("half of the step is divided by √12, which belongs to the whole step")},
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
@@ -234,8 +244,8 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
             (in_column_only && ratio->ratio > 0.5)) {
             return;
         }
-        add_other_u(at, findings, "resolution " + in_words(step, row.unit) + ": " + std::string(ratio->name),
-                    evidence_of(row, "step", step), step / std::sqrt(12.0));
+        add_other_u(at, findings, say("resolution {step:number}: {ratio}", in_words(step, row.unit), ratio->name),
+                    evidence_of(row, say("step"), step), step / std::sqrt(12.0));
     });
 }
 
@@ -247,8 +257,9 @@ void maximum_permissible_error_as_u(const AuditSubject& subject, FindingCollecto
             return;
         }
         add_other_u(at, findings,
-                    "the maximum permissible error " + in_words(*at.is.origin_value, at.is.unit) +
-                        " stands as the standard uncertainty; an instrument that conforms lies within ± that limit",
+                    say("the maximum permissible error {limit:number} stands as the standard uncertainty; an "
+                        "instrument that conforms lies within ± that limit",
+                        in_words(*at.is.origin_value, at.is.unit)),
                     evidence_of(at.is, "MPE", *at.is.origin_value), *at.is.origin_value / k_root_3);
     });
 }
@@ -263,8 +274,9 @@ void half_of_permissible_error(const AuditSubject& subject, FindingCollector& fi
             return;
         }
         add_other_u(at, findings,
-                    "the maximum permissible error " + in_words(*row.origin_value, row.unit) +
-                        " is divided by 2, as if it were an expanded uncertainty with k = 2",
+                    say("the maximum permissible error {limit:number} is divided by 2, as if it were an "
+                        "expanded uncertainty with k = 2",
+                        in_words(*row.origin_value, row.unit)),
                     evidence_of(row, "MPE", *row.origin_value), *row.origin_value / k_root_3);
     });
 }
@@ -280,13 +292,15 @@ void specification_beside_certificate(const AuditSubject& subject, FindingCollec
         if (!u_differs(row, u)) {
             return;
         }
-        AuditFinding finding = finding_at(at, "u",
-                                          "the specification is used although a certificate with U = " +
-                                              in_words(*row.certificate_U, row.unit) + " is named");
-        finding.evidence = {"u = " + in_words(row.used_u, row.unit), "U = " + in_words(*row.certificate_U, row.unit),
-                            row.certificate_k ? "k = " + in_words(k) : "k = 2 taken, because none is stated"};
-        finding.expected = in_words(u, row.unit) + ", with the corrections of the certificate applied";
-        finding.actual = in_words(row.used_u, row.unit);
+        AuditFinding finding =
+            finding_at(at, "u",
+                       say("the specification is used although a certificate with U = {U:number} is named",
+                           in_words(*row.certificate_U, row.unit)));
+        finding.evidence = {equals("u", in_words(row.used_u, row.unit)),
+                            equals("U", in_words(*row.certificate_U, row.unit)),
+                            row.certificate_k ? equals("k", in_words(k)) : say("k = 2 taken, because none is stated")};
+        finding.expected = say("{u:number}, with the corrections of the certificate applied", in_words(u, row.unit));
+        finding.actual = say_number(in_words(row.used_u, row.unit));
         finding.correct = set_u(at.row, u);
         if (u < row.used_u) {
             finding.at_most = FindingSeverity::minor;
@@ -304,10 +318,10 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
             return;
         }
         AuditFinding finding = finding_at(
-            at, "", "a specification is used, and nothing says that the instrument was found to conform to it");
-        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+            at, "", say("a specification is used, and nothing says that the instrument was found to conform to it"));
+        finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
         if (at.is.origin_value) {
-            finding.evidence.push_back("limit = " + in_words(*at.is.origin_value, at.is.unit));
+            finding.evidence.push_back(equals(say("limit"), in_words(*at.is.origin_value, at.is.unit)));
         }
         findings.add(std::move(finding));
     });
@@ -316,11 +330,11 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
 /// U13
 void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
-        {1.0, "U stands as a standard uncertainty"},
-        {1.0 / k_root_3, "U is divided by √3, as if it were the limit of a rectangular distribution"},
-        {0.5, "U is divided by 2"},
-        {1.0 / 1.96, "U is divided by 1.96"},
-        {1.0 / 3.0, "U is divided by 3"},
+        {1.0, say("U stands as a standard uncertainty")},
+        {1.0 / k_root_3, say("U is divided by √3, as if it were the limit of a rectangular distribution")},
+        {0.5, say("U is divided by 2")},
+        {1.0 / 1.96, say("U is divided by 1.96")},
+        {1.0 / 3.0, say("U is divided by 3")},
     }};
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
@@ -340,12 +354,14 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
             return;
         }
         const NamedRatio* ratio = named(k_ratios, row, U);
-        add_other_u(at, findings,
-                    (ratio != nullptr ? std::string(ratio->name)
-                                      : "U is divided by " + in_words(U / std::max(row.used_u, 1e-300))) +
-                        "; the certificate states k = " + in_words(k),
-                    {"u = " + in_words(row.used_u, row.unit), "U = " + in_words(U, row.unit), "k = " + in_words(k)},
-                    U / k);
+        add_other_u(
+            at, findings,
+            say("{done}; the certificate states k = {k:number}",
+                ratio != nullptr ? ratio->name
+                                 : say("U is divided by {divisor:number}", in_words(U / std::max(row.used_u, 1e-300))),
+                in_words(k)),
+            {equals("u", in_words(row.used_u, row.unit)), equals("U", in_words(U, row.unit)), equals("k", in_words(k))},
+            U / k);
     });
 }
 
@@ -357,12 +373,13 @@ void certificate_without_k(const AuditSubject& subject, FindingCollector& findin
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);
-        AuditFinding finding = finding_at(at, "",
-                                          halved ? "neither k nor p of the certificate is on record; k = 2 is assumed"
-                                                 : "neither k nor p of the certificate is on record");
-        finding.evidence = {"u = " + in_words(row.used_u, row.unit)};
+        AuditFinding finding =
+            finding_at(at, "",
+                       halved ? say("neither k nor p of the certificate is on record; k = 2 is assumed")
+                              : say("neither k nor p of the certificate is on record"));
+        finding.evidence = {equals("u", in_words(row.used_u, row.unit))};
         if (row.origin_value) {
-            finding.evidence.push_back("U = " + in_words(*row.origin_value, row.unit));
+            finding.evidence.push_back(equals("U", in_words(*row.origin_value, row.unit)));
         }
         findings.add(std::move(finding));
     });
@@ -386,12 +403,13 @@ void wrong_base(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         AuditFinding finding = finding_at(at, "stated",
-                                          std::string("a part of the ") + (of_full ? "full scale" : "reading") +
-                                              " is taken of the " + (of_full ? "reading" : "full scale"));
-        finding.evidence = {text::significant(100.0 * r, 4) + " %", "reading = " + in_words(reading, row.unit),
-                            "full scale = " + in_words(full, row.unit)};
-        finding.expected = in_words(r * right, row.unit);
-        finding.actual = in_words(number, row.unit);
+                                          of_full ? say("a part of the full scale is taken of the reading")
+                                                  : say("a part of the reading is taken of the full scale"));
+        finding.evidence = {say("{share:number} %", text::significant(100.0 * r, 4)),
+                            equals(say("reading"), in_words(reading, row.unit)),
+                            equals(say("full scale"), in_words(full, row.unit))};
+        finding.expected = say_number(in_words(r * right, row.unit));
+        finding.actual = say_number(in_words(number, row.unit));
         finding.correct = scale_u(at.row, right / wrong);
         findings.add(std::move(finding));
     });
@@ -412,13 +430,14 @@ void another_point(const AuditSubject& subject, FindingCollector& findings) {
         if (interpolated || (x >= low - near && x <= high + near)) {
             return;
         }
-        AuditFinding finding =
-            finding_at(at, "",
-                       low == high ? "the certificate holds at " + in_words(low, row.unit) + ", and is used at " +
-                                         in_words(x, row.unit) + " without a term of interpolation"
-                                   : "the certificate holds from " + in_words(low, row.unit) + " to " +
-                                         in_words(high, row.unit) + ", and is used at " + in_words(x, row.unit));
-        finding.evidence = {"u = " + in_words(row.used_u, row.unit)};
+        AuditFinding finding = finding_at(
+            at, "",
+            low == high ? say("the certificate holds at {low:number}, and is used at {x:number} without a term of "
+                              "interpolation",
+                              in_words(low, row.unit), in_words(x, row.unit))
+                        : say("the certificate holds from {low:number} to {high:number}, and is used at {x:number}",
+                              in_words(low, row.unit), in_words(high, row.unit), in_words(x, row.unit)));
+        finding.evidence = {equals("u", in_words(row.used_u, row.unit))};
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });
@@ -436,12 +455,14 @@ void asymmetric_limits(const AuditSubject& subject, FindingCollector& findings) 
         if (!(below > 0.0) || !(above > 0.0) || is_about(below, above, 0.02) || !u_differs(row, expected)) {
             return;
         }
-        add_other_u(
-            at, findings, "the limits are not symmetric about the estimate, and u is not their distance divided by √12",
-            {"u = " + in_words(row.used_u, row.unit),
-             "limits -" + in_words(below, row.unit) + " and +" + in_words(above, row.unit) + " from the estimate",
-             "middle of the limits " + in_words(0.5 * (above - below), row.unit) + " beside the estimate"},
-            expected);
+        add_other_u(at, findings,
+                    say("the limits are not symmetric about the estimate, and u is not their distance divided by √12"),
+                    {equals("u", in_words(row.used_u, row.unit)),
+                     say("limits {below:number} and +{above:number} from the estimate", in_words(-below, row.unit),
+                         in_words(above, row.unit)),
+                     say("middle of the limits {middle:number} beside the estimate",
+                         in_words(0.5 * (above - below), row.unit))},
+                    expected);
     });
 }
 
@@ -450,13 +471,15 @@ void impossible_entries(const AuditSubject& subject, FindingCollector& findings)
     struct Entry {
         const std::optional<StatedNumber>* number;
         const char* column;
+        Sentence name;
         bool may_be_negative, may_be_infinite, may_be_zero;
     };
     for_each_row(subject, [&findings](const RowAt& at) {
-        const Entry entries[] = {{&at.is.u, "u", false, false, true},
-                                 {&at.is.divisor, "divisor", false, false, false},
-                                 {&at.is.sensitivity, "sensitivity coefficient", true, false, true},
-                                 {&at.is.nu, "ν", false, true, false}};
+        const Entry entries[] = {
+            {&at.is.u, "u", "u", false, false, true},
+            {&at.is.divisor, "divisor", say("divisor"), false, false, false},
+            {&at.is.sensitivity, "sensitivity coefficient", say("sensitivity coefficient"), true, false, true},
+            {&at.is.nu, "ν", "ν", false, true, false}};
         for (const Entry& entry : entries) {
             if (!*entry.number) {
                 continue;
@@ -468,12 +491,11 @@ void impossible_entries(const AuditSubject& subject, FindingCollector& findings)
             if (!negative && !zero && !not_finite) {
                 continue;
             }
-            AuditFinding finding =
-                finding_at(at, entry.column,
-                           negative ? std::string("a negative number, which it cannot be")
-                                    : (zero ? std::string("0, which it cannot be") : std::string("no number")));
-            finding.evidence = {std::string(entry.column) + " = " +
-                                (not_finite ? std::string("not finite") : in_words(value))};
+            AuditFinding finding = finding_at(at, entry.column,
+                                              negative ? say("a negative number, which it cannot be")
+                                              : zero   ? say("0, which it cannot be")
+                                                       : say("no number"));
+            finding.evidence = {equals(entry.name, not_finite ? say("not finite") : Sentence(in_words(value)))};
             if (negative && entry.number == &at.is.u) {
                 finding.correct = set_u(at.row, -value);
             }
@@ -492,11 +514,11 @@ void reliability_without_nu(const AuditSubject& subject, FindingCollector& findi
         const double nu = 0.5 / (*row.reliability * *row.reliability);
         AuditFinding finding =
             finding_at(at, "ν",
-                       "u is said to be reliable to about " + text::significant(100.0 * *row.reliability, 3) +
-                           " %, and counts as exactly known");
-        finding.evidence = {"Δu/u = " + in_words(*row.reliability), "u = " + in_words(row.used_u, row.unit)};
-        finding.expected = "ν = " + in_words(nu);
-        finding.actual = "ν infinite";
+                       say("u is said to be reliable to about {reliability:number} %, and counts as exactly known",
+                           text::significant(100.0 * *row.reliability, 3)));
+        finding.evidence = {equals("Δu/u", in_words(*row.reliability)), equals("u", in_words(row.used_u, row.unit))};
+        finding.expected = equals("ν", in_words(nu));
+        finding.actual = say("ν infinite");
         finding.correct = set_degrees_of_freedom(at.row, nu);
         findings.add(std::move(finding));
     });
@@ -512,8 +534,9 @@ void cyclic_quantity(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         add_other_u(at, findings,
-                    "the quantity swings between its limits " + in_words(amplitude, row.unit) +
-                        " on either side; most of the time it is near them",
+                    say("the quantity swings between its limits {amplitude:number} on either side; most of the time it "
+                        "is near them",
+                        in_words(amplitude, row.unit)),
                     evidence_of(row, "a", amplitude), amplitude / std::numbers::sqrt2);
     });
 }
@@ -535,14 +558,14 @@ void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector&
         if (!copied || (row.origin_value && is_about(*row.origin_value, x, 1e-9))) {
             return;
         }
-        AuditFinding finding = finding_at(at, "u", "the value of the quantity stands as its own uncertainty");
-        finding.evidence = {"estimate = " + in_words(row.estimate->value, row.unit),
-                            "u = " + in_words(row.used_u, row.unit)};
+        AuditFinding finding = finding_at(at, "u", say("the value of the quantity stands as its own uncertainty"));
+        finding.evidence = {equals(say("estimate"), in_words(row.estimate->value, row.unit)),
+                            equals("u", in_words(row.used_u, row.unit))};
         // How well the value is known, nobody but the laboratory can say; U is at least what the other rows give.
         AuditedBudget without = at.of;
         leave_out(at.row)(without);
         if (const std::optional<BudgetOutcome> outcome = outcome_or_none(without)) {
-            finding.evidence.push_back("without this row U = " + in_words(outcome->U, at.of.unit));
+            finding.evidence.push_back(say("without this row U = {U:number}", in_words(outcome->U, at.of.unit)));
         }
         findings.add(std::move(finding));
     });

@@ -62,9 +62,9 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             }
             AuditFinding finding = finding_at(
                 at, "sensitivity coefficient",
-                "the unit " + at.is.sensitivity_unit + " does not turn " + at.is.unit + " into " + at.of.unit);
-            finding.evidence = {"c = " + in_words(at.is.used_sensitivity, at.is.sensitivity_unit)};
-            finding.expected = "the dimension of " + at.of.unit + " per " + at.is.unit;
+                say("the unit {unit} does not turn {from} into {to}", at.is.sensitivity_unit, at.is.unit, at.of.unit));
+            finding.evidence = {equals("c", in_words(at.is.used_sensitivity, at.is.sensitivity_unit))};
+            finding.expected = say("the dimension of {result} per {quantity}", at.of.unit, at.is.unit);
             finding.actual = at.is.sensitivity_unit;
             findings.add(std::move(finding));
             return;
@@ -77,12 +77,13 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             if (at.is.sensitivity || at.is.contribution) {
                 return;  // 1 of a unit per another may be right
             }
-            AuditFinding finding = finding_at(
-                at, "sensitivity coefficient",
-                "u in " + at.is.unit + " is added to a budget in " + at.of.unit + " without a sensitivity coefficient");
-            finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
-            finding.expected = "a coefficient in " + at.of.unit + " per " + at.is.unit;
-            finding.actual = "none";
+            AuditFinding finding =
+                finding_at(at, "sensitivity coefficient",
+                           say("u in {unit} is added to a budget in {other} without a sensitivity coefficient",
+                               at.is.unit, at.of.unit));
+            finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
+            finding.expected = say("a coefficient in {result} per {quantity}", at.of.unit, at.is.unit);
+            finding.actual = say("none");
             findings.add(std::move(finding));
             return;
         }
@@ -90,11 +91,11 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
         if (is_about(factor, 1.0, 1e-9)) {
             return;
         }
-        AuditFinding finding =
-            finding_at(at, "sensitivity coefficient",
-                       "u in " + at.is.unit + " is added to a budget in " + at.of.unit + " as if both were one unit");
-        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
-        finding.expected = "c = " + in_words(factor, at.of.unit + " per " + at.is.unit);
+        AuditFinding finding = finding_at(
+            at, "sensitivity coefficient",
+            say("u in {unit} is added to a budget in {other} as if both were one unit", at.is.unit, at.of.unit));
+        finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
+        finding.expected = equals("c", say("{factor:number} per {unit}", in_words(factor, at.of.unit), at.is.unit));
         finding.actual = "c = 1";
         finding.correct = set_sensitivity(at.row, factor);
         findings.add(std::move(finding));
@@ -160,13 +161,16 @@ void add_other_derivative(const AuditSubject& subject, std::size_t position, con
     const RowAt at{.budget = position, .row = other.row, .of = budget, .is = budget.rows[other.row]};
     AuditFinding finding = finding_at(
         at, "sensitivity coefficient",
-        other.of_budget ? "the coefficient " + in_words(other.stated) + " belongs to another point (" +
-                              subject.budgets[*other.of_budget].name + "); here it is " + in_words(other.derivative)
-                        : "the coefficient " + in_words(other.stated) + " is not the derivative of the equation, " +
-                              in_words(other.derivative));
-    finding.evidence = {"equation " + budget.equation, "estimate = " + in_words(at.is.estimate->value, at.is.unit)};
-    finding.expected = "c = " + in_words(other.derivative);
-    finding.actual = "c = " + in_words(other.stated);
+        other.of_budget
+            ? say("the coefficient {stated:number} belongs to another point ({point}); here it is "
+                  "{derivative:number}",
+                  in_words(other.stated), subject.budgets[*other.of_budget].name, in_words(other.derivative))
+            : say("the coefficient {stated:number} is not the derivative of the equation, {derivative:number}",
+                  in_words(other.stated), in_words(other.derivative)));
+    finding.evidence = {say("equation {equation}", budget.equation),
+                        equals(say("estimate"), in_words(at.is.estimate->value, at.is.unit))};
+    finding.expected = equals("c", in_words(other.derivative));
+    finding.actual = equals("c", in_words(other.stated));
     finding.correct = set_sensitivity(other.row, other.derivative);
     findings.add(std::move(finding));
 }
@@ -203,9 +207,10 @@ void model_and_rows(const AuditSubject& subject, FindingCollector& findings) {
             continue;
         }
         for (const std::string& name : model->without_row()) {
-            AuditFinding finding = finding_of(subject, b, "the equation has " + name + ", and no row stands for it");
+            AuditFinding finding =
+                finding_of(subject, b, say("the equation has {name}, and no row stands for it", name));
             finding.kind = "without row: " + name;
-            finding.evidence = {"equation " + budget.equation};
+            finding.evidence = {say("equation {equation}", budget.equation)};
             finding.contribution_missing = true;
             findings.add(std::move(finding));
         }
@@ -218,8 +223,8 @@ void model_and_rows(const AuditSubject& subject, FindingCollector& findings) {
                 continue;
             }
             AuditFinding finding = finding_at({.budget = b, .row = r, .of = budget, .is = budget.rows[r]}, "",
-                                              "the row stands for " + name + ", which the equation does not have");
-            finding.evidence = {"equation " + budget.equation};
+                                              say("the row stands for {name}, which the equation does not have", name));
+            finding.evidence = {say("equation {equation}", budget.equation)};
             findings.add(std::move(finding));
         }
     }
@@ -317,14 +322,15 @@ void vanishing_first_order(const AuditSubject& subject, FindingCollector& findin
             continue;
         }
         const double u = std::sqrt(order->vanishing);
-        AuditFinding finding =
-            finding_of(subject, b,
-                       "an estimate is 0, so first-order terms vanish, and the terms of second order " +
-                           text::all_of(order->pairs) + " are left out");
-        finding.evidence = {"second order u = " + in_words(u, budget.unit),
-                            "u_c of the rows = " + in_words(u_c, budget.unit), "threshold 5 % of u_c²"};
-        finding.expected = "a term u = " + in_words(u, budget.unit);
-        finding.actual = "none";
+        AuditFinding finding = finding_of(
+            subject, b,
+            say("an estimate is 0, so first-order terms vanish, and the terms of second order {pairs} are left out",
+                all_of(sentences_of(order->pairs))));
+        finding.evidence = {say("second order u = {u:number}", in_words(u, budget.unit)),
+                            say("u_c of the rows = {u_c:number}", in_words(u_c, budget.unit)),
+                            say("threshold 5 % of u_c²")};
+        finding.expected = say("a term u = {u:number}", in_words(u, budget.unit));
+        finding.actual = say("none");
         finding.correct = add_contribution(u, "terms of second order: " + text::all_of(order->pairs));
         findings.add(std::move(finding));
     }
@@ -349,13 +355,12 @@ void not_linear(const AuditSubject& subject, FindingCollector& findings) {
         if (change <= delta) {
             continue;
         }
-        AuditFinding finding = finding_of(
-            subject, b,
-            "the equation is not linear over the uncertainties, and nothing says that the law of propagation "
-            "was validated");
-        finding.evidence = {"U by first order = " + in_words(outcome.k * outcome.u_c, budget.unit),
-                            "U with second order = " + in_words(outcome.k * u_both, budget.unit),
-                            "half a unit of the last digit = " + in_words(delta, budget.unit)};
+        AuditFinding finding = finding_of(subject, b,
+                                          say("the equation is not linear over the uncertainties, and nothing says "
+                                              "that the law of propagation was validated"));
+        finding.evidence = {say("U by first order = {U:number}", in_words(outcome.k * outcome.u_c, budget.unit)),
+                            say("U with second order = {U:number}", in_words(outcome.k * u_both, budget.unit)),
+                            say("half a unit of the last digit = {delta:number}", in_words(delta, budget.unit))};
         finding.correct = add_contribution(std::sqrt(order->others), "terms of second order");
         findings.add(std::move(finding));
     }
@@ -375,13 +380,15 @@ void value_beside_mean(const AuditSubject& subject, FindingCollector& findings) 
             continue;
         }
         AuditFinding finding = finding_of(subject, b,
-                                          "the equation bends over the uncertainties: the mean of the values lies " +
-                                              in_words(shift, budget.unit) + " beside the stated value");
-        finding.evidence = {"value = " + in_words(*budget.value, budget.unit),
-                            "half the sum of second derivatives times covariances = " + in_words(shift, budget.unit),
-                            "half a unit of the last digit = " + in_words(delta, budget.unit)};
-        finding.expected = in_words(*budget.value + shift, budget.unit);
-        finding.actual = in_words(*budget.value, budget.unit);
+                                          say("the equation bends over the uncertainties: the mean of the values lies "
+                                              "{shift:number} beside the stated value",
+                                              in_words(shift, budget.unit)));
+        finding.evidence = {
+            equals(say("value"), in_words(*budget.value, budget.unit)),
+            say("half the sum of second derivatives times covariances = {shift:number}", in_words(shift, budget.unit)),
+            say("half a unit of the last digit = {delta:number}", in_words(delta, budget.unit))};
+        finding.expected = say_number(in_words(*budget.value + shift, budget.unit));
+        finding.actual = say_number(in_words(*budget.value, budget.unit));
         finding.correct = [shift](AuditedBudget& corrected) {
             if (corrected.value) {
                 *corrected.value += shift;
@@ -402,27 +409,29 @@ void too_few_trials(const AuditSubject& subject, FindingCollector& findings) {
         }
         const double least = 1e4 / (1.0 - budget.coverage.probability);
         const double delta = half_digit(budget, outcome->U);
-        std::string what;
+        Sentence what;
         if (trials->numerical_error) {
             // JCGM 101:2008, 7.9: two standard deviations within the numerical tolerance.
-            what = 2.0 * *trials->numerical_error > delta ? "the numerical error of U moves its last digit" : "";
+            what = 2.0 * *trials->numerical_error > delta ? say("the numerical error of U moves its last digit")
+                                                          : Sentence();
         } else if (trials->converged && !*trials->converged) {
-            what = "the trials did not become stable";
+            what = say("the trials did not become stable");
         } else if (!trials->converged && trials->trials && *trials->trials < least) {
-            what = "few trials, and no numerical error of U is stated";
+            what = say("few trials, and no numerical error of U is stated");
         }
         if (what.empty()) {
             continue;
         }
         AuditFinding finding = finding_of(subject, b, std::move(what));
         if (trials->trials) {
-            finding.evidence.push_back("M = " + text::shortest_plain(*trials->trials) +
-                                       ", 10⁴/(1 − p) = " + text::significant(least, 6));
+            finding.evidence.push_back(say("M = {trials:number}, 10⁴/(1 − p) = {least:number}",
+                                           text::shortest_plain(*trials->trials), text::significant(least, 6)));
         }
         if (trials->numerical_error) {
-            finding.evidence.push_back("numerical error of U = " + in_words(*trials->numerical_error, budget.unit));
+            finding.evidence.push_back(
+                say("numerical error of U = {error:number}", in_words(*trials->numerical_error, budget.unit)));
         }
-        finding.evidence.push_back("half a unit of the last digit = " + in_words(delta, budget.unit));
+        finding.evidence.push_back(say("half a unit of the last digit = {delta:number}", in_words(delta, budget.unit)));
         findings.add(std::move(finding));
     }
 }
@@ -431,10 +440,10 @@ void too_few_trials(const AuditSubject& subject, FindingCollector& findings) {
 void not_repeatable(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         if (subject.budgets[b].monte_carlo && !subject.budgets[b].monte_carlo->repeatable) {
-            AuditFinding finding =
-                finding_of(subject, b,
-                           "the trials cannot be repeated: seed, generator or version of the program is not on record");
-            finding.evidence = {"budget " + subject.budgets[b].name};
+            AuditFinding finding = finding_of(
+                subject, b,
+                say("the trials cannot be repeated: seed, generator or version of the program is not on record"));
+            finding.evidence = {say("budget {name}", subject.budgets[b].name)};
             findings.add(std::move(finding));
         }
     }
@@ -447,11 +456,12 @@ void known_correction(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         const double correction = *at.is.unapplied_correction, shift = at.is.used_sensitivity * correction;
-        AuditFinding finding =
-            finding_at(at, "estimate",
-                       "a correction of " + in_words(correction, at.is.unit) +
-                           " is known and not applied; the result is off by " + in_words(shift, at.of.unit));
-        finding.evidence = {"c = " + in_words(at.is.used_sensitivity), "u = " + in_words(at.is.used_u, at.is.unit)};
+        AuditFinding finding = finding_at(
+            at, "estimate",
+            say("a correction of {correction:number} is known and not applied; the result is off by {shift:number}",
+                in_words(correction, at.is.unit), in_words(shift, at.of.unit)));
+        finding.evidence = {equals("c", in_words(at.is.used_sensitivity)),
+                            equals("u", in_words(at.is.used_u, at.is.unit))};
         finding.correct = [shift](AuditedBudget& budget) {
             if (budget.value) {
                 *budget.value += shift;
@@ -541,14 +551,15 @@ void counted_twice(const AuditSubject& subject, FindingCollector& findings) {
         }
         const bool drifts = budget.rows[kept].contributor == Contributor::reference_drift;
         const std::string& name = named_source(budget.rows[left]);
-        AuditFinding finding =
-            finding_at({.budget = pair.budget, .row = left, .of = budget, .is = budget.rows[left]}, "",
-                       (drifts ? "the drift of " + name + " stands in the budget twice, also as "
-                               : "the drift of " + name + " is within the limit of error, ") +
-                           name_of_row(budget, kept));
-        finding.evidence = {"|c| u = " + in_words(contribution_of(budget.rows[kept]), budget.unit) + " and " +
-                                in_words(contribution_of(budget.rows[left]), budget.unit),
-                            "source " + name};
+        AuditFinding finding = finding_at(
+            {.budget = pair.budget, .row = left, .of = budget, .is = budget.rows[left]}, "",
+            drifts ? say("the drift of {source} stands in the budget twice, also as {row}", name,
+                         name_of_row(budget, kept))
+                   : say("the drift of {source} is within the limit of error, {row}", name, name_of_row(budget, kept)));
+        finding.evidence = {
+            say("|c| u = {first:number} and {second:number}", in_words(contribution_of(budget.rows[kept]), budget.unit),
+                in_words(contribution_of(budget.rows[left]), budget.unit)),
+            say("source {name}", name)};
         finding.correct = leave_out(left);
         findings.add(std::move(finding));
     }
@@ -562,17 +573,23 @@ std::string u_with_correlation(const AuditedBudget& budget, std::size_t a, std::
     return outcome ? in_words(outcome->u_c, budget.unit) : "0";
 }
 
-void add_neglected_correlation(const AuditSubject& subject, const SharedSource& pair, const std::string& what,
+/// \param of_fit  the rows are parameters of one fit
+void add_neglected_correlation(const AuditSubject& subject, const SharedSource& pair, bool of_fit,
                                FindingCollector& findings) {
     const AuditedBudget& budget = subject.budgets[pair.budget];
     const std::optional<BudgetOutcome> outcome = outcome_of(budget);
-    AuditFinding finding =
-        finding_at({.budget = pair.budget, .row = pair.second, .of = budget, .is = budget.rows[pair.second]}, "",
-                   what + " " + named_source(budget.rows[pair.second]) + " as " + name_of_row(budget, pair.first) +
-                       ", and no correlation is stated");
-    finding.evidence = {"u_c with r = 0: " + (outcome ? in_words(outcome->u_c, budget.unit) : std::string("none")),
-                        "with r = 1: " + u_with_correlation(budget, pair.first, pair.second, 1.0),
-                        "with r = -1: " + u_with_correlation(budget, pair.first, pair.second, -1.0)};
+    const std::string& source = named_source(budget.rows[pair.second]);
+    const Sentence other = name_of_row(budget, pair.first);
+    AuditFinding finding = finding_at(
+        {.budget = pair.budget, .row = pair.second, .of = budget, .is = budget.rows[pair.second]}, "",
+        of_fit
+            ? say("the parameter comes from the same fit {source} as {row}, and no correlation is stated", source,
+                  other)
+            : say("the row comes from the same source {source} as {row}, and no correlation is stated", source, other));
+    finding.evidence = {
+        say("u_c with r = 0: {u_c:number}", outcome ? Sentence(in_words(outcome->u_c, budget.unit)) : say("none")),
+        say("with r = 1: {u_c:number}", u_with_correlation(budget, pair.first, pair.second, 1.0)),
+        say("with r = -1: {u_c:number}", u_with_correlation(budget, pair.first, pair.second, -1.0))};
     findings.add(std::move(finding));
 }
 
@@ -588,7 +605,7 @@ void neglected_correlation(const AuditSubject& subject, FindingCollector& findin
                              !a.type_a.value_or(false) && !b.type_a.value_or(false);
         const bool fits = a.contributor == Contributor::fit && b.contributor == Contributor::fit;
         if ((certificates || sensors) && !fits && !have_correlation(budget, pair.first, pair.second)) {
-            add_neglected_correlation(subject, pair, "the row comes from the same source", findings);
+            add_neglected_correlation(subject, pair, false, findings);
         }
     }
 }
@@ -600,7 +617,7 @@ void neglected_fit_covariance(const AuditSubject& subject, FindingCollector& fin
         if (budget.rows[pair.first].contributor == Contributor::fit &&
             budget.rows[pair.second].contributor == Contributor::fit &&
             !have_correlation(budget, pair.first, pair.second)) {
-            add_neglected_correlation(subject, pair, "the parameter comes from the same fit", findings);
+            add_neglected_correlation(subject, pair, true, findings);
         }
     }
 }
@@ -613,12 +630,13 @@ void impossible_correlations(const AuditSubject& subject, FindingCollector& find
         const auto n = static_cast<Eigen::Index>(budget.rows.size());
         Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
         for (const RowCorrelation& pair : budget.correlations) {
-            const std::string pair_name = name_of_row(budget, pair.first) + " and " + name_of_row(budget, pair.second);
             if (!(std::abs(pair.r) <= 1.0)) {
                 outside = true;
                 AuditFinding finding =
-                    finding_of(subject, b, "the correlation of " + pair_name + " lies outside of -1 to 1");
-                finding.evidence = {"r = " + in_words(pair.r)};
+                    finding_of(subject, b,
+                               say("the correlation of {first} and {second} lies outside of -1 to 1",
+                                   name_of_row(budget, pair.first), name_of_row(budget, pair.second)));
+                finding.evidence = {equals("r", in_words(pair.r))};
                 findings.add(std::move(finding));
             }
             const auto i = static_cast<Eigen::Index>(pair.first), j = static_cast<Eigen::Index>(pair.second);
@@ -637,11 +655,11 @@ void impossible_correlations(const AuditSubject& subject, FindingCollector& find
         if (gum::nearest_correlation(matrix, tolerance)) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, b, "the correlations contradict each other: the matrix is not positive semi-definite");
+        AuditFinding finding = finding_of(
+            subject, b, say("the correlations contradict each other: the matrix is not positive semi-definite"));
         for (const RowCorrelation& pair : budget.correlations) {
-            finding.evidence.push_back("r = " + in_words(pair.r) + " of " + name_of_row(budget, pair.first) + " and " +
-                                       name_of_row(budget, pair.second));
+            finding.evidence.push_back(say("r = {r:number} of {first} and {second}", in_words(pair.r),
+                                           name_of_row(budget, pair.first), name_of_row(budget, pair.second)));
         }
         findings.add(std::move(finding));
     }
@@ -662,14 +680,15 @@ void degrees_of_freedom_of_correlated_rows(const AuditSubject& subject, FindingC
                 contribution_of(first) == 0.0 || contribution_of(second) == 0.0) {
                 continue;
             }
-            AuditFinding finding = finding_of(
-                subject, b,
-                "ν_eff comes from the Welch-Satterthwaite formula, which holds for independent rows; " +
-                    name_of_row(budget, pair.first) + " and " + name_of_row(budget, pair.second) + " are correlated");
-            finding.kind = name_of_row(budget, pair.first) + name_of_row(budget, pair.second);
-            finding.evidence = {"r = " + in_words(pair.r),
-                                "ν = " + in_words(first.used_nu) + " and " + in_words(second.used_nu),
-                                "ν_eff = " + in_words(outcome->nu_eff), "k = " + in_words(outcome->k)};
+            AuditFinding finding = finding_of(subject, b,
+                                              say("ν_eff comes from the Welch-Satterthwaite formula, which holds for "
+                                                  "independent rows; {first} and {second} are correlated",
+                                                  name_of_row(budget, pair.first), name_of_row(budget, pair.second)));
+            finding.kind = name_of_row(budget, pair.first).english() + name_of_row(budget, pair.second).english();
+            finding.evidence = {
+                equals("r", in_words(pair.r)),
+                say("ν = {first:number} and {second:number}", in_words(first.used_nu), in_words(second.used_nu)),
+                equals("ν_eff", in_words(outcome->nu_eff)), equals("k", in_words(outcome->k))};
             findings.add(std::move(finding));
         }
     }
@@ -695,14 +714,16 @@ void implausible_length_part(const AuditSubject& subject, FindingCollector& find
                 factor = tried;
             }
         }
-        AuditFinding finding = finding_at(
-            at, "specification",
-            "the part " + in_words(stated) +
-                " of the specification that grows with the length is not that of a coordinate measuring machine");
-        finding.evidence = {"specification " + in_words(*at.is.limit_constant) + " + " + in_words(stated) + " L",
-                            "known specifications: 5E-7 to 1E-5 of the length"};
-        finding.expected = factor > 0.0 ? in_words(stated * factor) + ", if one power of ten is wrong" : "";
-        finding.actual = in_words(stated);
+        AuditFinding finding = finding_at(at, "specification",
+                                          say("the part {stated:number} of the specification that grows with the "
+                                              "length is not that of a coordinate measuring machine",
+                                              in_words(stated)));
+        finding.evidence = {say("specification {constant:number} + {growing:number} L", in_words(*at.is.limit_constant),
+                                in_words(stated)),
+                            say("known specifications: 5E-7 to 1E-5 of the length")};
+        finding.expected =
+            factor > 0.0 ? say("{factor:number}, if one power of ten is wrong", in_words(stated * factor)) : "";
+        finding.actual = say_number(in_words(stated));
         finding.question = "Which exponent does the data sheet of the machine state, and in which unit is L?";
         if (factor > 0.0 && at.is.origin_value && *at.is.origin_value > *at.is.limit_constant) {
             const double growing = *at.is.origin_value - *at.is.limit_constant;
@@ -720,10 +741,10 @@ void days_over_months(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         AuditFinding finding =
-            finding_at(at, "u", "a rate per year times days divided by 12: the units of time do not close");
-        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
-        finding.expected = "days/365";
-        finding.actual = "days/12";
+            finding_at(at, "u", say("a rate per year times days divided by 12: the units of time do not close"));
+        finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
+        finding.expected = say("days/365");
+        finding.actual = say("days/12");
         finding.question = "Is the age of the calibration meant in days, months or years?";
         finding.correct = scale_u(at.row, 12.0 / 365.0);
         findings.add(std::move(finding));
@@ -750,21 +771,21 @@ void implausible_constant(const AuditSubject& subject, FindingCollector& finding
         if (value + digits >= range->low && value - digits <= range->high) {
             return;
         }
-        std::string power;
+        Sentence power;
         for (int exponent = -6; exponent <= 6 && power.empty(); ++exponent) {
             const double moved = value * std::pow(10.0, exponent);
             if (exponent != 0 && moved >= range->low && moved <= range->high) {
-                power = "times 10^" + std::to_string(exponent) + " it would be plausible";
+                power = say("times 10^{exponent:number} it would be plausible", std::to_string(exponent));
             }
         }
-        AuditFinding finding = finding_at(at, "estimate", "not a plausible value for the " + std::string(range->kind));
-        finding.evidence = {"estimate = " + in_words(at.is.estimate->value, at.is.unit)};
+        AuditFinding finding = finding_at(at, "estimate", say("not a plausible value for the {kind}", range->kind));
+        finding.evidence = {equals(say("estimate"), in_words(at.is.estimate->value, at.is.unit))};
         if (!power.empty()) {
             finding.evidence.push_back(power);
         }
-        finding.expected =
-            in_words(unit->from_si(range->low)) + " to " + in_words(unit->from_si(range->high), at.is.unit);
-        finding.actual = in_words(at.is.estimate->value, at.is.unit);
+        finding.expected = say("{low:number} to {high:number}", in_words(unit->from_si(range->low)),
+                               in_words(unit->from_si(range->high), at.is.unit));
+        finding.actual = say_number(in_words(at.is.estimate->value, at.is.unit));
         findings.add(std::move(finding));
     });
 }
@@ -829,8 +850,9 @@ void equal_rows(const AuditSubject& subject, FindingCollector& findings) {
                 continue;
             }
             AuditFinding finding = finding_at({.budget = b, .row = j, .of = budget, .is = row}, "",
-                                              "the same contribution as " + name_of_row(budget, *same));
-            finding.evidence = {"u = " + in_words(row.used_u, row.unit), "c = " + in_words(row.used_sensitivity)};
+                                              say("the same contribution as {row}", name_of_row(budget, *same)));
+            finding.evidence = {equals("u", in_words(row.used_u, row.unit)),
+                                equals("c", in_words(row.used_sensitivity))};
             finding.correct = leave_out(j);
             findings.add(std::move(finding));
         }

@@ -23,8 +23,8 @@ void changed_record(const AuditSubject& subject, FindingCollector& findings) {
     }
     AuditFinding finding;
     finding.where = subject.name;
-    finding.what = "the record says something else than its own job gives: it was changed after it was made";
-    finding.evidence = *subject.disagreements;
+    finding.what = say("the record says something else than its own job gives: it was changed after it was made");
+    finding.evidence = sentences_of(*subject.disagreements);
     findings.add(std::move(finding));
 }
 

@@ -69,8 +69,8 @@ void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
             continue;
         }
         AuditFinding finding =
-            finding_of(subject, i, "U is stated as " + U->text + ", with more than two significant digits");
-        finding.actual = U->text;
+            finding_of(subject, i, say("U is stated as {U:number}, with more than two significant digits", U->text));
+        finding.actual = say_number(U->text);
         findings.add(std::move(finding), milder_in_a_budget(subject, FindingSeverity::major));
     }
 }
@@ -83,10 +83,10 @@ void places_differ(const AuditSubject& subject, FindingCollector& findings) {
             is_about(last_place(*claims.U), last_place(*claims.value), 1e-6)) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, i,
-                       "value " + claims.value->text + " and U " + claims.U->text + " end at different decimal places");
-        finding.actual = claims.value->text + " ± " + claims.U->text;
+        AuditFinding finding = finding_of(subject, i,
+                                          say("value {value:number} and U {U:number} end at different decimal places",
+                                              claims.value->text, claims.U->text));
+        finding.actual = say("{value:number} ± {U:number}", claims.value->text, claims.U->text);
         findings.add(std::move(finding), milder_in_a_budget(subject, FindingSeverity::major));
     }
 }
@@ -114,19 +114,19 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
         if (!rounded || !outcome || rounded->printed_U == outcome->printed_U) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, i,
-                       "U follows from rounded standard uncertainties: " + rounded->printed_U + ", and " +
-                           outcome->printed_U + " from the numbers that they were rounded from");
-        finding.expected = outcome->printed_U;
-        finding.actual = rounded->printed_U;
+        AuditFinding finding = finding_of(subject, i,
+                                          say("U follows from rounded standard uncertainties: {rounded:number}, and "
+                                              "{unrounded:number} from the numbers that they were rounded from",
+                                              rounded->printed_U, outcome->printed_U));
+        finding.expected = say_number(outcome->printed_U);
+        finding.actual = say_number(rounded->printed_U);
         finding.correct = unrounded;
         findings.add(std::move(finding));
     }
 }
 
 /// Sentences of one rule that are different matters stay apart where budgets are put together.
-AuditFinding matter_of(const AuditSubject& subject, std::size_t budget, const char* kind, std::string what) {
+AuditFinding matter_of(const AuditSubject& subject, std::size_t budget, const char* kind, Sentence what) {
     AuditFinding finding = finding_of(subject, budget, std::move(what));
     finding.kind = kind;
     return finding;
@@ -143,11 +143,11 @@ void coverage_not_stated(const AuditSubject& subject, FindingCollector& findings
         const bool p = claims.coverage_probability || claims.coverage_sentence.find('%') != std::string::npos;
         if (!k) {
             findings.add(matter_of(subject, i, "factor",
-                                   p ? "U is stated without its coverage factor"
-                                     : "U is stated without coverage factor and coverage probability"),
+                                   p ? say("U is stated without its coverage factor")
+                                     : say("U is stated without coverage factor and coverage probability")),
                          milder_in_a_budget(subject, FindingSeverity::critical));
         } else if (!p) {
-            findings.add(matter_of(subject, i, "probability", "U is stated without its coverage probability"),
+            findings.add(matter_of(subject, i, "probability", say("U is stated without its coverage probability")),
                          milder_in_a_budget(subject, FindingSeverity::major));
         }
     }
@@ -167,7 +167,7 @@ void unit_or_sign_unclear(const AuditSubject& subject, FindingCollector& finding
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         if (budget.unit.empty() && (budget.claims.U || budget.claims.u_c)) {
-            findings.add(matter_of(subject, i, "unit", "the result has no unit"));
+            findings.add(matter_of(subject, i, "unit", say("the result has no unit")));
         }
         std::string point, comma;
         const auto look = [&](const std::optional<StatedNumber>& number) {
@@ -187,7 +187,8 @@ void unit_or_sign_unclear(const AuditSubject& subject, FindingCollector& finding
             look(*number);
         }
         if (subject.kind != AuditSubject::Kind::workbook && !point.empty() && !comma.empty()) {
-            AuditFinding finding = matter_of(subject, i, "sign", "decimal point and decimal comma stand in one table");
+            AuditFinding finding =
+                matter_of(subject, i, "sign", say("decimal point and decimal comma stand in one table"));
             finding.evidence = {point, comma};
             findings.add(std::move(finding), FindingSeverity::major);
         }
@@ -219,11 +220,12 @@ void misprinted(const AuditSubject& subject, FindingCollector& findings) {
                 return;
             }
             if (is_zero_with_minus(number->text)) {
-                findings.add(matter_of(subject, i, "zero", "a zero is printed with a minus sign: " + number->text));
+                findings.add(matter_of(subject, i, "zero",
+                                       say("a zero is printed with a minus sign: {printed:number}", number->text)));
             }
             if (has_lost_exponent(number->text)) {
-                findings.add(
-                    matter_of(subject, i, "exponent", "an exponent is printed as a difference: " + number->text));
+                findings.add(matter_of(subject, i, "exponent",
+                                       say("an exponent is printed as a difference: {printed}", number->text)));
             }
         };
         for (const AuditedRow& row : budget.rows) {

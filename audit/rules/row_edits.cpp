@@ -19,7 +19,7 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
     }
 }
 
-AuditFinding finding_at(const RowAt& at, const std::string& column, std::string what) {
+AuditFinding finding_at(const RowAt& at, const std::string& column, Sentence what) {
     AuditFinding finding;
     finding.where = at.is.place;
     if (!at.is.quantity.empty()) {
@@ -34,7 +34,7 @@ AuditFinding finding_at(const RowAt& at, const std::string& column, std::string 
     return finding;
 }
 
-AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, std::string what) {
+AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, Sentence what) {
     AuditFinding finding;
     const AuditedBudget& of = subject.budgets[budget];
     finding.where = of.place.empty() ? of.name : of.place;
@@ -111,10 +111,18 @@ bool u_differs(const AuditedRow& row, double expected, double relative, double l
     return std::abs(row.used_u - expected) > row.u_half_step + left_open + relative * std::abs(expected);
 }
 
-std::string name_of_row(const AuditedBudget& budget, std::size_t row) {
+Sentence place_in_words(const std::string& place) {
+    const std::string row = "row ";
+    const bool counted = place.starts_with(row) && place.size() > row.size() &&
+                         place.find_first_not_of("0123456789", row.size()) == std::string::npos;
+    return counted ? say("row {row:number}", place.substr(row.size())) : Sentence(place);
+}
+
+Sentence name_of_row(const AuditedBudget& budget, std::size_t row) {
     const AuditedRow& is = budget.rows[row];
-    const std::string place = is.place.empty() ? "row " + std::to_string(row + 1) : is.place;
-    return is.quantity.empty() ? place : place + " (" + is.quantity + ")";
+    const Sentence place =
+        is.place.empty() ? say("row {row:number}", std::to_string(row + 1)) : place_in_words(is.place);
+    return is.quantity.empty() ? place : say("{place} ({quantity})", place, is.quantity);
 }
 
 bool is_about(double a, double b, double tolerance) {

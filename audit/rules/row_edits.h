@@ -26,9 +26,9 @@ struct RowAt {
 void for_each_row(const AuditSubject& subject, const std::function<void(const RowAt&)>& look);
 
 /// A finding about a row: where it is, and which budget it touches. Column "" means the row as a whole.
-[[nodiscard]] AuditFinding finding_at(const RowAt& at, const std::string& column, std::string what);
+[[nodiscard]] AuditFinding finding_at(const RowAt& at, const std::string& column, Sentence what);
 /// A finding about a budget as a whole.
-[[nodiscard]] AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, std::string what);
+[[nodiscard]] AuditFinding finding_of(const AuditSubject& subject, std::size_t budget, Sentence what);
 
 /// "0.231 µm": four significant digits, with the unit where there is one.
 [[nodiscard]] std::string in_words(double number, const std::string& unit = "");
@@ -54,8 +54,10 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 /// digits of u, and what is left open of the expected number itself.
 [[nodiscard]] bool u_differs(const AuditedRow& row, double expected, double relative = 0.01, double left_open = 0.0);
 
-/// "row 3": the place of a row, or its position where it has none.
-[[nodiscard]] std::string name_of_row(const AuditedBudget& budget, std::size_t row);
+/// A place as readers name it: "row 3" can be said in other languages, "Budget!D5" need not be.
+[[nodiscard]] Sentence place_in_words(const std::string& place);
+/// "row 3 (drift)": the place of a row, or its position where it has none, with its quantity.
+[[nodiscard]] Sentence name_of_row(const AuditedBudget& budget, std::size_t row);
 
 /// True where two numbers are the same but for a relative deviation.
 [[nodiscard]] bool is_about(double a, double b, double tolerance = 0.01);

@@ -94,10 +94,10 @@ verified).
 std::string row_of(const MethodChecklist& checklist) {
     std::vector<std::string> names;
     for (const RequiredContributor& required : checklist.required) {
-        names.emplace_back(required.name);
+        names.push_back(required.name.english());
     }
-    return "| " + cell(checklist.title) + " | `" + std::string(checklist.method) + "` | " + cell(text::listed(names)) +
-           " | " + cell(checklist.source) + " |\n";
+    return "| " + cell(checklist.title.english()) + " | `" + std::string(checklist.method) + "` | " +
+           cell(text::listed(names)) + " | " + cell(checklist.source) + " |\n";
 }
 
 }  // namespace

@@ -38,11 +38,12 @@ void below_capability(const AuditSubject& subject, FindingCollector& findings) {
             continue;
         }
         AuditFinding finding = finding_of(subject, i,
-                                          "U = " + in_words(*U, budget.unit) + " is below the capability " +
-                                              in_words(*budget.capability, budget.unit));
-        finding.evidence = {"U = " + in_words(*U, budget.unit), "CMC = " + in_words(*budget.capability, budget.unit)};
-        finding.expected = "at least " + in_words(*budget.capability, budget.unit);
-        finding.actual = in_words(*U, budget.unit);
+                                          say("U = {U:number} is below the capability {capability:number}",
+                                              in_words(*U, budget.unit), in_words(*budget.capability, budget.unit)));
+        finding.evidence = {equals("U", in_words(*U, budget.unit)),
+                            equals("CMC", in_words(*budget.capability, budget.unit))};
+        finding.expected = say("at least {least:number}", in_words(*budget.capability, budget.unit));
+        finding.actual = say_number(in_words(*U, budget.unit));
         if (!budget.floor_applied) {
             finding.correct = [](AuditedBudget& corrected) { corrected.floor_applied = true; };
         }
@@ -66,16 +67,17 @@ void always_the_capability(const AuditSubject& subject, FindingCollector& findin
         equal.push_back(i);
     }
     if (all && !explained && equal.size() > 1) {
-        findings.add(*finding_of_all(subject, equal,
-                                     "the stated U equals the capability at all " + std::to_string(equal.size()) +
-                                         " points, and the rows do not give that"));
+        findings.add(*finding_of_all(
+            subject, equal,
+            say("the stated U equals the capability at all {count:number} points, and the rows do not give that",
+                std::to_string(equal.size()))));
     }
 }
 
 /// X07: k u_c is nowhere above the capability, so that no budget is ever seen.
 void floor_hides_budget(const AuditSubject& subject, FindingCollector& findings) {
     std::vector<std::size_t> points;
-    std::vector<std::string> ratios;
+    std::vector<Sentence> ratios;
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         const std::optional<double> computed = computed_U(budget);
@@ -86,13 +88,13 @@ void floor_hides_budget(const AuditSubject& subject, FindingCollector& findings)
             return;
         }
         points.push_back(i);
-        ratios.push_back("k·u_c/CMC = " + text::significant(*computed / *budget.capability, 3) + " (" + budget.name +
-                         ")");
+        ratios.push_back(say("k·u_c/CMC = {ratio:number} ({result})",
+                             text::significant(*computed / *budget.capability, 3), budget.name));
     }
     std::optional<AuditFinding> finding =
         finding_of_all(subject, points,
-                       "the capability is larger than k·u_c of the budget at every point: what is stated "
-                       "is the capability, and the budget is never seen");
+                       say("the capability is larger than k·u_c of the budget at every point: what is stated is the "
+                           "capability, and the budget is never seen"));
     if (finding) {
         finding->evidence = std::move(ratios);
         findings.add(std::move(*finding));
@@ -110,9 +112,9 @@ void capability_without_reference(const AuditSubject& subject, FindingCollector&
         }
     }
     if (std::optional<AuditFinding> finding = finding_of_all(
-            subject, bare, "the capability is a number without the line of the scope that it comes from")) {
+            subject, bare, say("the capability is a number without the line of the scope that it comes from"))) {
         const AuditedBudget& budget = subject.budgets[bare.front()];
-        finding->evidence = {"CMC = " + in_words(*budget.capability, budget.unit)};
+        finding->evidence = {equals("CMC", in_words(*budget.capability, budget.unit))};
         findings.add(std::move(*finding));
     }
 }

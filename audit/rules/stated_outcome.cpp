@@ -48,7 +48,7 @@ std::vector<std::size_t> budgets_where(const AuditSubject& subject,
 }
 
 std::optional<AuditFinding> finding_of_all(const AuditSubject& subject, std::vector<std::size_t> budgets,
-                                           std::string what) {
+                                           Sentence what) {
     if (budgets.empty()) {
         return std::nullopt;
     }
@@ -57,7 +57,7 @@ std::optional<AuditFinding> finding_of_all(const AuditSubject& subject, std::vec
         finding.where += " and " + std::to_string(budgets.size() - 1) + " more";
     }
     finding.budgets = std::move(budgets);
-    finding.kind = finding.what;  // budgets that lack something else are another finding
+    finding.kind = finding.what.english();  // budgets that lack something else are another finding
     return finding;
 }
 

@@ -25,7 +25,7 @@ namespace gumcert::audit {
                                                      const std::function<bool(const AuditedBudget&)>& holds);
 /// One finding of several budgets, at the first of them. Nothing where there are none.
 [[nodiscard]] std::optional<AuditFinding> finding_of_all(const AuditSubject& subject, std::vector<std::size_t> budgets,
-                                                         std::string what);
+                                                         Sentence what);
 
 /// Whether a verdict says that something conforms; nothing where it says neither: "pass", "i.O.", "not conforming".
 [[nodiscard]] std::optional<bool> says_conforming(std::string_view verdict);

@@ -42,7 +42,8 @@ void outside_of_calibrated_range(const AuditSubject& subject, FindingCollector& 
                            "beyond the calibrat", "ausserhalb des kalibr", "ausserhalb kalibr"})) {
             return;
         }
-        AuditFinding finding = finding_at(at, "", "a value outside of the calibrated range of the standard is used");
+        AuditFinding finding =
+            finding_at(at, "", say("a value outside of the calibrated range of the standard is used"));
         finding.evidence = {at.is.comment.empty() ? at.is.source : at.is.comment};
         findings.add(std::move(finding));
     });
@@ -64,13 +65,13 @@ void smaller_than_the_standard(const AuditSubject& subject, FindingCollector& fi
         }
         AuditFinding finding =
             finding_at(at, "",
-                       "u_c = " + in_words(*u_c, at.of.unit) +
-                           " is smaller than what the standard alone contributes, " + in_words(own, at.of.unit));
-        finding.evidence = {"U = " + in_words(*at.is.origin_value, at.is.unit) +
-                                ", k = " + in_words(*at.is.certificate_k) + " of the certificate",
-                            "c = " + in_words(at.is.used_sensitivity)};
-        finding.expected = "u_c of at least " + in_words(own, at.of.unit);
-        finding.actual = in_words(*u_c, at.of.unit);
+                       say("u_c = {u_c:number} is smaller than what the standard alone contributes, {own:number}",
+                           in_words(*u_c, at.of.unit), in_words(own, at.of.unit)));
+        finding.evidence = {say("U = {U:number}, k = {k:number} of the certificate",
+                                in_words(*at.is.origin_value, at.is.unit), in_words(*at.is.certificate_k)),
+                            equals("c", in_words(at.is.used_sensitivity))};
+        finding.expected = say("u_c of at least {own:number}", in_words(own, at.of.unit));
+        finding.actual = say_number(in_words(*u_c, at.of.unit));
         findings.add(std::move(finding));
     });
 }
@@ -88,10 +89,11 @@ void older_certificate_used(const AuditSubject& subject, FindingCollector& findi
                 if (!row_names(at.is, older.certificate) || row_names(at.is, newer.certificate)) {
                     return;
                 }
-                AuditFinding finding = finding_at(at, "",
-                                                  "the values of certificate " + older.certificate + " of " +
-                                                      older.calibrated + " are used, and there is a later one, " +
-                                                      newer.certificate + " of " + newer.calibrated);
+                AuditFinding finding =
+                    finding_at(at, "",
+                               say("the values of certificate {certificate} of {day} are used, and there is a "
+                                   "later one, {later} of {later_day}",
+                                   older.certificate, older.calibrated, newer.certificate, newer.calibrated));
                 finding.expected = newer.certificate;
                 finding.actual = older.certificate;
                 findings.add(std::move(finding));
@@ -111,8 +113,8 @@ void ambiguous_standard(const AuditSubject& subject, FindingCollector& findings)
             if (twins) {
                 AuditFinding finding;
                 finding.where = "/standards/" + std::to_string(j) + "/identification";
-                finding.what = "two standards have the identification " + a.identification;
-                finding.evidence = {"certificates " + a.certificate + " and " + b.certificate};
+                finding.what = say("two standards have the identification {identification}", a.identification);
+                finding.evidence = {say("certificates {first} and {second}", a.certificate, b.certificate)};
                 findings.add(std::move(finding));
                 continue;
             }
@@ -126,8 +128,8 @@ void ambiguous_standard(const AuditSubject& subject, FindingCollector& findings)
                 if (row_names(at.is, a.name.in("en")) && !told(a) && !told(b)) {
                     AuditFinding finding =
                         finding_at(at, "",
-                                   "the name \"" + a.name.in("en") + "\" is that of two standards, " +
-                                       a.identification + " and " + b.identification);
+                                   say("the name \"{name}\" is that of two standards, {first} and {second}",
+                                       a.name.in("en"), a.identification, b.identification));
                     findings.add(std::move(finding));
                 }
             });
@@ -147,7 +149,8 @@ void nearest_point_used(const AuditSubject& subject, FindingCollector& findings)
             return;
         }
         AuditFinding finding = finding_at(
-            at, "", "the value of the nearest calibrated point is used, and no contribution of the distance is there");
+            at, "",
+            say("the value of the nearest calibrated point is used, and no contribution of the distance is there"));
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });

@@ -11,7 +11,7 @@
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "gum/analysis_of_variance.h"
-#include "text/lists.h"
+
 #include "text/numbers.h"
 
 namespace gumcert::audit {
@@ -39,7 +39,12 @@ std::string nu_in_words(double nu) {
     return std::isfinite(nu) ? text::significant(nu, 4) : "infinite";
 }
 
+Sentence with_nu(Sentence said, const std::string& nu) {
+    return say("{said}, ν = {nu:number}", std::move(said), nu);
+}
+
 /// U01
+
 void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
         if (!at.is.type_a.value_or(false) || at.is.nu || std::isfinite(at.is.used_nu)) {
@@ -47,12 +52,12 @@ void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findin
         }
         const std::optional<std::size_t> n = readings_of(at.is);
         AuditFinding finding =
-            finding_at(at, "ν", "a Type A evaluation without degrees of freedom; it counts as exactly known");
-        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit)};
+            finding_at(at, "ν", say("a Type A evaluation without degrees of freedom; it counts as exactly known"));
+        finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
         if (n && *n >= 2 && !at.is.pooled_s) {
-            finding.evidence.push_back(text::count_of(static_cast<std::int64_t>(*n), "reading"));
-            finding.expected = "ν = " + std::to_string(*n - 1);
-            finding.actual = "no ν";
+            finding.evidence.push_back(say_count(*n, "{count:number} reading", "{count:number} readings"));
+            finding.expected = equals("ν", std::to_string(*n - 1));
+            finding.actual = say("no ν");
             finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
         }
         findings.add(std::move(finding));
@@ -71,20 +76,21 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
             // ν and k follow from the few readings: all that is left is to know of them.
             AuditFinding finding =
                 finding_at(at, "",
-                           "the scatter comes of " + text::count_of(static_cast<std::int64_t>(*n), "reading") +
-                               "; ν and k account for it");
-            finding.evidence = {"n = " + std::to_string(*n), "ν = " + nu_in_words(at.is.used_nu)};
+                           say_count(*n, "the scatter comes of {count:number} reading; ν and k account for it",
+                                     "the scatter comes of {count:number} readings; ν and k account for it"));
+            finding.evidence = {equals("n", std::to_string(*n)), equals("ν", nu_in_words(at.is.used_nu))};
             findings.add(std::move(finding));
             return;
         }
-        AuditFinding finding = finding_at(at, "",
-                                          *n < 2 ? "one reading has no scatter: s cannot come from it"
-                                                 : "the scatter comes of " + std::to_string(*n) +
-                                                       " readings, and neither ν nor k accounts for so few");
-        finding.evidence = {"n = " + std::to_string(*n), "ν = " + nu_in_words(at.is.used_nu)};
+        AuditFinding finding = finding_at(
+            at, "",
+            *n < 2 ? say("one reading has no scatter: s cannot come from it")
+                   : say("the scatter comes of {count:number} readings, and neither ν nor k accounts for so few",
+                         std::to_string(*n)));
+        finding.evidence = {equals("n", std::to_string(*n)), equals("ν", nu_in_words(at.is.used_nu))};
         if (*n >= 2 && at.is.nu && !std::isfinite(at.is.used_nu)) {
-            finding.expected = "ν = " + std::to_string(*n - 1);
-            finding.actual = "ν infinite";
+            finding.expected = equals("ν", std::to_string(*n - 1));
+            finding.actual = say("ν infinite");
             finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
         }
         findings.add(std::move(finding));
@@ -130,18 +136,21 @@ void other_number_of_readings(const AuditSubject& subject, FindingCollector& fin
             return;
         }
         const std::string used = text::significant(m, 6);
-        AuditFinding finding = finding_at(at, "divisor",
-                                          "s is divided by √" + used + ", but " + std::to_string(*counted) +
-                                              (*counted == 1 ? " reading makes" : " readings make") + " the mean");
-        finding.evidence = {"s = " + in_words(*s, at.is.unit), "u = " + in_words(at.is.used_u, at.is.unit),
-                            "n = " + std::to_string(*counted)};
-        finding.expected = "divisor √" + std::to_string(*counted);
-        finding.actual = "divisor √" + used;
+        AuditFinding finding = finding_at(
+            at, "divisor",
+            *counted == 1 ? say("s is divided by √{used:number}, but {counted:number} reading makes the mean", used,
+                                std::to_string(*counted))
+                          : say("s is divided by √{used:number}, but {counted:number} readings make the mean", used,
+                                std::to_string(*counted)));
+        finding.evidence = {equals("s", in_words(*s, at.is.unit)), equals("u", in_words(at.is.used_u, at.is.unit)),
+                            equals("n", std::to_string(*counted))};
+        finding.expected = say("divisor √{divisor:number}", std::to_string(*counted));
+        finding.actual = say("divisor √{divisor:number}", used);
         finding.correct = scale_u(at.row, std::sqrt(m / static_cast<double>(*counted)));
         // s of the readings that are there has one degree of freedom less than they are.
         if (!at.is.averaged && *counted >= 2 && at.is.used_nu == m - 1.0) {
-            finding.expected += ", ν = " + std::to_string(*counted - 1);
-            finding.actual += ", ν = " + nu_in_words(at.is.used_nu);
+            finding.expected = with_nu(std::move(finding.expected), std::to_string(*counted - 1));
+            finding.actual = with_nu(std::move(finding.actual), nu_in_words(at.is.used_nu));
             finding.correct =
                 both(std::move(finding.correct), set_degrees_of_freedom(at.row, static_cast<double>(*counted - 1)));
         }
@@ -171,15 +180,16 @@ void scatter_above_budget(const AuditSubject& subject, FindingCollector& finding
         if (p >= level) {
             return;
         }
-        AuditFinding finding = finding_at(
-            at, "u",
-            "the readings scatter more than the pooled standard deviation of the budget: " + in_words(s, at.is.unit) +
-                " against " + in_words(pooled, at.is.unit));
-        finding.evidence = {"F = " + in_words(s * s / (pooled * pooled)), "p = " + text::significant(p, 2),
-                            "level of one test = " + text::significant(level, 2) + " (1 % over " +
-                                text::count_of(static_cast<std::int64_t>(tests), "test") + ")"};
-        finding.expected = "s ≤ pooled s within chance";
-        finding.actual = "s = " + in_words(s, at.is.unit);
+        AuditFinding finding = finding_at(at, "u",
+                                          say("the readings scatter more than the pooled standard deviation of the "
+                                              "budget: {s:number} against {pooled:number}",
+                                              in_words(s, at.is.unit), in_words(pooled, at.is.unit)));
+        finding.evidence = {
+            equals("F", in_words(s * s / (pooled * pooled))), equals("p", text::significant(p, 2)),
+            say("level of one test = {level:number} (1 % over {tests})", text::significant(level, 2),
+                say_count(static_cast<std::size_t>(tests), "{count:number} test", "{count:number} tests"))};
+        finding.expected = say("s ≤ pooled s within chance");
+        finding.actual = equals("s", in_words(s, at.is.unit));
         finding.correct = both(scale_u(at.row, s / pooled), set_degrees_of_freedom(at.row, nu));
         findings.add(std::move(finding));
     });
@@ -200,10 +210,11 @@ void identical_readings(const AuditSubject& subject, FindingCollector& findings)
         if (!equal || has_resolution) {
             return;
         }
-        AuditFinding finding = finding_at(
-            at, "readings",
-            "all " + std::to_string(readings.size()) + " readings are equal, and no row stands for the resolution");
-        finding.evidence = {"every reading = " + in_words(readings.front(), at.is.unit)};
+        AuditFinding finding =
+            finding_at(at, "readings",
+                       say("all {count:number} readings are equal, and no row stands for the resolution",
+                           std::to_string(readings.size())));
+        finding.evidence = {say("every reading = {reading:number}", in_words(readings.front(), at.is.unit))};
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });
@@ -251,15 +262,18 @@ void largest_deviation(const AuditSubject& subject, FindingCollector& findings) 
                 !(pooled->s < 0.99 * pooled->largest)) {
                 return;
             }
-            AuditFinding finding = finding_at(
-                at, "u",
-                "the largest of " + std::to_string(at.is.group_sizes.size()) +
-                    " standard deviations is used, with the degrees of freedom of one series: neither pooled "
-                    "nor the distribution of a maximum");
-            finding.evidence = {"s = " + in_words(s, at.is.unit), "pooled s = " + in_words(pooled->s, at.is.unit),
-                                "ν = " + nu_in_words(at.is.used_nu), "ν of all series = " + nu_in_words(pooled->nu)};
-            finding.expected = "s = " + in_words(pooled->s, at.is.unit) + ", ν = " + nu_in_words(pooled->nu);
-            finding.actual = "s = " + in_words(s, at.is.unit) + ", ν = " + nu_in_words(at.is.used_nu);
+            AuditFinding finding =
+                finding_at(at, "u",
+                           say("the largest of {count:number} standard deviations is used, with the degrees of "
+                               "freedom of one series: neither pooled nor the distribution of a maximum",
+                               std::to_string(at.is.group_sizes.size())));
+            finding.evidence = {
+                equals("s", in_words(s, at.is.unit)), say("pooled s = {s:number}", in_words(pooled->s, at.is.unit)),
+                equals("ν", nu_in_words(at.is.used_nu)), say("ν of all series = {nu:number}", nu_in_words(pooled->nu))};
+            finding.expected =
+                say("s = {s:number}, ν = {nu:number}", in_words(pooled->s, at.is.unit), nu_in_words(pooled->nu));
+            finding.actual =
+                say("s = {s:number}, ν = {nu:number}", in_words(s, at.is.unit), nu_in_words(at.is.used_nu));
             finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
             findings.add(std::move(finding));
             return;
@@ -276,15 +290,15 @@ void largest_deviation(const AuditSubject& subject, FindingCollector& findings) 
         if (!(nu > at.is.used_nu)) {
             return;
         }
-        AuditFinding finding =
-            finding_at(at, "ν",
-                       "the largest of " + std::to_string(at.is.group_sizes.size()) +
-                           " standard deviations is used with the degrees of freedom of one series; pooled, "
-                           "all series would count");
-        finding.evidence = {"u = " + in_words(at.is.used_u, at.is.unit) + ", kept as a bound",
-                            "ν = " + nu_in_words(at.is.used_nu), "ν of all series = " + nu_in_words(nu)};
-        finding.expected = "ν = " + nu_in_words(nu);
-        finding.actual = "ν = " + nu_in_words(at.is.used_nu);
+        AuditFinding finding = finding_at(at, "ν",
+                                          say("the largest of {count:number} standard deviations is used with "
+                                              "the degrees of freedom of one series; pooled, all series would count",
+                                              std::to_string(at.is.group_sizes.size())));
+        finding.evidence = {say("u = {u:number}, kept as a bound", in_words(at.is.used_u, at.is.unit)),
+                            equals("ν", nu_in_words(at.is.used_nu)),
+                            say("ν of all series = {nu:number}", nu_in_words(nu))};
+        finding.expected = equals("ν", nu_in_words(nu));
+        finding.actual = equals("ν", nu_in_words(at.is.used_nu));
         finding.correct = set_degrees_of_freedom(at.row, nu);
         findings.add(std::move(finding));
     });
@@ -304,14 +318,16 @@ void deviation_of_deviations(const AuditSubject& subject, FindingCollector& find
         }
         AuditFinding finding =
             finding_at(at, "u",
-                       "the standard deviation of " + std::to_string(at.is.group_deviations.size()) +
-                           " standard deviations is taken for the repeatability: it says how the scatter varies, not "
-                           "how large it is");
-        finding.evidence = {"s = " + in_words(s, at.is.unit),
-                            "smallest of the standard deviations = " + in_words(pooled->smallest, at.is.unit),
-                            "pooled s = " + in_words(pooled->s, at.is.unit), "ν = " + nu_in_words(at.is.used_nu)};
-        finding.expected = "s = " + in_words(pooled->s, at.is.unit) + ", ν = " + nu_in_words(pooled->nu);
-        finding.actual = "s = " + in_words(s, at.is.unit);
+                       say("the standard deviation of {count:number} standard deviations is taken for the "
+                           "repeatability: it says how the scatter varies, not how large it is",
+                           std::to_string(at.is.group_deviations.size())));
+        finding.evidence = {
+            equals("s", in_words(s, at.is.unit)),
+            say("smallest of the standard deviations = {smallest:number}", in_words(pooled->smallest, at.is.unit)),
+            say("pooled s = {s:number}", in_words(pooled->s, at.is.unit)), equals("ν", nu_in_words(at.is.used_nu))};
+        finding.expected =
+            say("s = {s:number}, ν = {nu:number}", in_words(pooled->s, at.is.unit), nu_in_words(pooled->nu));
+        finding.actual = equals("s", in_words(s, at.is.unit));
         finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
         findings.add(std::move(finding));
     });
@@ -334,12 +350,14 @@ void deviation_in_place_of_range(const AuditSubject& subject, FindingCollector& 
             std::abs(at.is.stated->value - range) <= digits) {
             return;
         }
-        AuditFinding finding = finding_at(at, "stated",
-                                          "the quantity is a range, and the standard deviation of " +
-                                              std::to_string(readings.size()) + " values stands for it");
-        finding.evidence = {"largest − smallest = " + in_words(range, at.is.unit), "s = " + in_words(s, at.is.unit)};
-        finding.expected = in_words(range, at.is.unit);
-        finding.actual = in_words(at.is.stated->value, at.is.unit);
+        AuditFinding finding =
+            finding_at(at, "stated",
+                       say("the quantity is a range, and the standard deviation of {count:number} values stands for it",
+                           std::to_string(readings.size())));
+        finding.evidence = {say("largest − smallest = {range:number}", in_words(range, at.is.unit)),
+                            equals("s", in_words(s, at.is.unit))};
+        finding.expected = say_number(in_words(range, at.is.unit));
+        finding.actual = say_number(in_words(at.is.stated->value, at.is.unit));
         finding.correct = scale_u(at.row, range / s);
         findings.add(std::move(finding));
     });

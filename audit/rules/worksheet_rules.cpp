@@ -13,7 +13,6 @@
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/worksheet_view.h"
-#include "text/lists.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 #include "workbook/formula_text.h"
@@ -34,7 +33,7 @@ constexpr Clause k_evaluation{.text = "ISO/IEC 17025:2017, 7.6", .verified = tru
 constexpr Clause k_bounds_of_inputs{.text = "JCGM 100:2008, 4.3.7", .verified = true};
 
 /// A finding about a cell.
-AuditFinding finding_in(const std::string& place, std::string what) {
+AuditFinding finding_in(const std::string& place, Sentence what) {
     AuditFinding finding;
     finding.where = place;
     finding.what = std::move(what);
@@ -68,6 +67,11 @@ std::optional<CellPlace> cell_of(const WorksheetView& view, const SheetFormula& 
         cell.sheet = *sheet;
     }
     return cell;
+}
+
+/// "=SQRT(B3)", as it stands in its cell.
+std::string text_of(const WorksheetView& view, const SheetFormula& formula) {
+    return "=" + workbook::find_cell(view.workbook().sheets[formula.cell.sheet], formula.cell.address)->formula;
 }
 
 bool says(const std::string& text, std::initializer_list<std::string_view> words) {
@@ -119,21 +123,22 @@ void root_taken_twice(const AuditSubject& subject, FindingCollector& findings) {
         }
         AuditFinding finding = finding_at(
             at, place.empty() ? "u" : place,
-            "the root of the divisor is taken twice: " + in_words(divisor.value_or(std::pow(3.0, 0.25))) +
-                " divides, where the table says " + (at.is.shape_text.empty() ? "nothing" : at.is.shape_text));
+            say("the root of the divisor is taken twice: {divisor:number} divides, where the table says {distribution}",
+                in_words(divisor.value_or(std::pow(3.0, 0.25))),
+                at.is.shape_text.empty() ? say("nothing") : Sentence(at.is.shape_text)));
         if (at.is.divisor && at.is.stated) {
             const double u = std::abs(at.is.stated->value) / at.is.divisor->value;
-            finding.expected = "u = " + in_words(u, at.is.unit);
+            finding.expected = equals("u", in_words(u, at.is.unit));
             finding.correct = set_u(at.row, u);
         } else if (at.is.stated) {
             const double u = std::abs(at.is.stated->value) / std::numbers::sqrt3;
-            finding.expected = "u = " + in_words(u, at.is.unit);
+            finding.expected = equals("u", in_words(u, at.is.unit));
             finding.correct = set_u(at.row, u);
         }
-        finding.actual = "u = " + in_words(at.is.used_u, at.is.unit);
-        finding.evidence = {
-            "divisor " + in_words(divisor.value_or(0.0)),
-            "column of divisors: " + (at.is.divisor ? in_words(at.is.divisor->value) : std::string("none"))};
+        finding.actual = equals("u", in_words(at.is.used_u, at.is.unit));
+        finding.evidence = {say("divisor {divisor:number}", in_words(divisor.value_or(0.0))),
+                            say("column of divisors: {divisor:number}",
+                                at.is.divisor ? Sentence(in_words(at.is.divisor->value)) : say("none"))};
         findings.add(std::move(finding));
     });
 }
@@ -142,17 +147,17 @@ void root_taken_twice(const AuditSubject& subject, FindingCollector& findings) {
 
 struct Divisor {
     double value;
-    std::string_view name;
+    Sentence name;
 };
-constexpr std::array<Divisor, 8> k_divisors = {
-    Divisor{1.7320508075688772, "√3 (rectangular)"},
-    Divisor{2.449489742783178, "√6 (triangular)"},
-    Divisor{1.4142135623730951, "√2 (arcsine)"},
-    Divisor{2.0, "2 (normal, k = 2)"},
+const std::array<Divisor, 8> k_divisors = {
+    Divisor{1.7320508075688772, say("√3 (rectangular)")},
+    Divisor{2.449489742783178, say("√6 (triangular)")},
+    Divisor{1.4142135623730951, say("√2 (arcsine)")},
+    Divisor{2.0, say("2 (normal, k = 2)")},
     Divisor{3.0, "3"},
-    Divisor{3.4641016151377544, "√12 (a full step)"},
+    Divisor{3.4641016151377544, say("√12 (a full step)")},
     Divisor{2.23606797749979, "√5"},
-    Divisor{1.3160740129524924, "the root of √3"},
+    Divisor{1.3160740129524924, say("the root of √3")},
 };
 
 std::optional<double> divisor_of_shape(Shape shape) {
@@ -176,7 +181,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const double divisor = at.is.divisor->value;
         const std::optional<double> expected = divisor_of_shape(at.is.shape);
         const double allowed = std::max(at.is.divisor->half_step, 2e-4 * divisor);
-        std::string known;
+        Sentence known;
         for (const Divisor& other : k_divisors) {
             if (std::abs(other.value - divisor) <= allowed) {
                 known = other.name;
@@ -185,23 +190,28 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const bool full_step = at.is.shape == Shape::rectangular && is_about(divisor, std::sqrt(12.0), 2e-4);
         const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
                                         : at.is.shape == Shape::normal && !known.empty() &&
-                                              (known.starts_with("√3") || known.starts_with("√6"));
+                                              (known.english().starts_with("√3") || known.english().starts_with("√6"));
         if (!disagrees) {
             return;
         }
-        AuditFinding finding = finding_at(at, at.is.divisor->place.empty() ? "divisor" : at.is.divisor->place,
-                                          "the divisor " + in_words(divisor) + " is not that of the distribution \"" +
-                                              at.is.shape_text + "\"" + (known.empty() ? "" : ": it is " + known));
-        finding.actual = in_words(divisor);
-        finding.evidence = {"divisor = " + text::shortest(divisor), "distribution: " + at.is.shape_text};
+        AuditFinding finding = finding_at(
+            at, at.is.divisor->place.empty() ? "divisor" : at.is.divisor->place,
+            known.empty()
+                ? say("the divisor {divisor:number} is not that of the distribution \"{distribution}\"",
+                      in_words(divisor), at.is.shape_text)
+                : say("the divisor {divisor:number} is not that of the distribution \"{distribution}\": it is {known}",
+                      in_words(divisor), at.is.shape_text, known));
+        finding.actual = say_number(in_words(divisor));
+        finding.evidence = {equals(say("divisor"), text::shortest(divisor)),
+                            say("distribution: {distribution}", at.is.shape_text)};
         if (expected) {
-            finding.expected = text::significant(*expected, 6);
+            finding.expected = say_number(text::significant(*expected, 6));
             finding.correct = scale_u(at.row, divisor / *expected);
         } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
-            finding.expected = "k = " + in_words(*at.is.certificate_k) + " of the certificate";
+            finding.expected = say("k = {k:number} of the certificate", in_words(*at.is.certificate_k));
             finding.correct = scale_u(at.row, divisor / *at.is.certificate_k);
         } else {
-            finding.expected = "k of the normal distribution, e.g. 2";
+            finding.expected = say("k of the normal distribution, e.g. 2");
         }
         findings.add(std::move(finding));
     });
@@ -216,9 +226,8 @@ void volatile_function(const AuditSubject& subject, FindingCollector& findings) 
             calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
             AuditFinding finding =
                 finding_in(view->place(formula.cell),
-                           "U rests on a function that gives another value each time the file is opened");
-            finding.evidence = {
-                "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
+                           say("U rests on a function that gives another value each time the file is opened"));
+            finding.evidence = {text_of(*view, formula)};
             findings.add(std::move(finding));
         }
     }
@@ -228,7 +237,7 @@ void volatile_function(const AuditSubject& subject, FindingCollector& findings) 
 void tell_limit(const ReadCells& cells, FindingCollector& findings) {
     if (!cells.is_complete()) {
         findings.leave_unchecked(
-            "formulas read more columns than an audit follows; what stands behind was not looked at");
+            say("formulas read more columns than an audit follows; what stands behind was not looked at"));
     }
 }
 
@@ -264,6 +273,13 @@ struct ReadingsRange {
     std::vector<CellRun> runs;
     std::string area;
 };
+Sentence numbers_in_words(const ReadingsRange& range) {
+    return say_count(range.numbers, "{count:number} number", "{count:number} numbers");
+}
+Sentence cells_in_words(const ReadingsRange& range) {
+    return say_count(range.cells, "{count:number} cell", "{count:number} cells");
+}
+
 ReadingsRange readings_of(const WorksheetView& view, ReadCells& cells, const SheetFormula& formula) {
     ReadingsRange range;
     range.runs = cells.runs(formula.cell);
@@ -302,10 +318,9 @@ void tell_texts(const WorksheetView& view, const ReadCells& cells, const SheetFo
         }
         AuditFinding finding =
             finding_in(view.place(cells.cell(run.sheet, at)),
-                       "text among the readings " + range.area + ": mean and standard deviation leave it out");
-        finding.evidence = {view.place(formula.cell) + " reads " + range.area,
-                            text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " of " +
-                                text::count_of(static_cast<std::int64_t>(range.cells), "cell")};
+                       say("text among the readings {area}: mean and standard deviation leave it out", range.area));
+        finding.evidence = {say("{cell} reads {area}", view.place(formula.cell), range.area),
+                            say("{numbers} of {cells}", numbers_in_words(range), cells_in_words(range))};
         findings.add(std::move(finding));
     }
 }
@@ -352,14 +367,13 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
         }
         AuditFinding finding =
             finding_at(at, at.is.divisor->place,
-                       "√" + text::shortest(*n) + " divides a standard deviation of " + range.area + ", which has " +
-                           text::count_of(static_cast<std::int64_t>(range.numbers), "number") + " in " +
-                           text::count_of(static_cast<std::int64_t>(range.cells), "cell"));
-        finding.expected = "√" + text::shortest(numbers);
-        finding.actual = "√" + text::shortest(*n);
-        finding.evidence = {"n of the divisor: " + text::shortest(*n),
-                            "numbers in the range: " + text::shortest(numbers),
-                            "cells of the range: " + std::to_string(range.cells)};
+                       say("√{n:number} divides a standard deviation of {area}, which has {numbers} in {cells}",
+                           text::shortest(*n), range.area, numbers_in_words(range), cells_in_words(range)));
+        finding.expected = say("√{n:number}", text::shortest(numbers));
+        finding.actual = say("√{n:number}", text::shortest(*n));
+        finding.evidence = {say("n of the divisor: {n:number}", text::shortest(*n)),
+                            say("numbers in the range: {count:number}", text::shortest(numbers)),
+                            say("cells of the range: {count:number}", std::to_string(range.cells))};
         finding.correct = both(scale_u(at.row, std::sqrt(*n / numbers)), set_degrees_of_freedom(at.row, numbers - 1.0));
         findings.add(std::move(finding));
     });
@@ -411,12 +425,12 @@ void stray_address(const AuditSubject& subject, FindingCollector& findings) {
             const AuditedRow& other = budget.rows[shared->reader];
             const RowAt at{.budget = b, .row = r, .of = budget, .is = budget.rows[r]};
             AuditFinding finding = finding_at(at, view->place(formula->cell),
-                                              "reads the same cell as the row \"" + other.quantity +
-                                                  "\" by an absolute address: " + view->place(read) +
-                                                  " counts twice, or another cell was meant");
-            finding.evidence = {
-                view->place(read) + " = " + in_words(view->value(read).number),
-                "read by " + view->place(formula->cell) + " and " + view->place(formula_of_row(*view, other)->cell)};
+                                              say("reads the same cell as the row \"{quantity}\" by an absolute "
+                                                  "address: {cell} counts twice, or another cell was meant",
+                                                  other.quantity, view->place(read)));
+            finding.evidence = {equals(view->place(read), in_words(view->value(read).number)),
+                                say("read by {first} and {second}", view->place(formula->cell),
+                                    view->place(formula_of_row(*view, other)->cell))};
             finding.correct = leave_out(r);
             findings.add(std::move(finding));
         }
@@ -465,6 +479,15 @@ std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
     return runs;
 }
 
+/// \param never_read  so many cells are read by no copy
+Sentence second_reading(const std::string& cell, std::size_t count, const Sentence& never_read) {
+    if (count == 0) {
+        return say("reads {cell} a second time", cell);
+    }
+    return count == 1 ? say("reads {cell} a second time, and {cells} is never read", cell, never_read)
+                      : say("reads {cell} a second time, and {cells} are never read", cell, never_read);
+}
+
 void reading_read_twice(const AuditSubject& subject, FindingCollector& findings) {
     constexpr std::size_t k_most_named = 6;
     const std::optional<WorksheetView> view = worksheet_of(subject);
@@ -480,20 +503,18 @@ void reading_read_twice(const AuditSubject& subject, FindingCollector& findings)
                 missing.push_back(view->place(expected));
             }
         }
-        const std::string never_read = missing.empty() ? ""
-                                                       : ", and " + text::listed(missing, k_most_named) +
-                                                             (missing.size() == 1 ? " is" : " are") + " never read";
-        const std::string column = "column of copies " + view->place(run.formulas.front()->cell) + " to " +
-                                   view->place(run.formulas.back()->cell);
+        const Sentence never_read = listed(sentences_of(missing), k_most_named);
+        const Sentence column = say("column of copies {first} to {last}", view->place(run.formulas.front()->cell),
+                                    view->place(run.formulas.back()->cell));
         std::set<CellPlace> seen;
         for (std::size_t i = 0; i < run.read.size(); ++i) {
             if (seen.insert(run.read[i]).second) {
                 continue;
             }
             AuditFinding finding = finding_in(view->place(run.formulas[i]->cell),
-                                              "reads " + view->place(run.read[i]) + " a second time" + never_read);
+                                              second_reading(view->place(run.read[i]), missing.size(), never_read));
             finding.evidence = {column};
-            finding.kind = column + finding.what;
+            finding.kind = column.english() + finding.what.english();
             findings.add(std::move(finding));
         }
     }
@@ -573,9 +594,9 @@ void correction_without_uncertainty(const AuditSubject& subject, FindingCollecto
             };
             if (is_nothing(correction) && is_nothing(U)) {
                 AuditFinding finding = finding_in(
-                    view->place(c), "a correction of 0 with an uncertainty of 0: cells that were never filled in");
-                finding.evidence = {view->place(c) + " = 0", view->place(u) + " = 0"};
-                finding.kind = finding.what;
+                    view->place(c), say("a correction of 0 with an uncertainty of 0: cells that were never filled in"));
+                finding.evidence = {equals(view->place(c), "0"), equals(view->place(u), "0")};
+                finding.kind = finding.what.english();
                 findings.add(std::move(finding));
             }
         });
@@ -588,13 +609,14 @@ void uncertainty_not_positive(const AuditSubject& subject, FindingCollector& fin
             if (U.kind != CellKind::number || U.number > 0.0 || (U.number == 0.0 && correction.number == 0.0)) {
                 return;
             }
-            std::string what = "an expanded uncertainty of " + in_words(U.number);
-            if (correction.kind == CellKind::number && correction.number == U.number) {
-                what += ", the number of the column of corrections";
-            }
-            AuditFinding finding = finding_in(view->place(u), what);
+            const bool copied = correction.kind == CellKind::number && correction.number == U.number;
+            AuditFinding finding = finding_in(
+                view->place(u),
+                copied ? say("an expanded uncertainty of {U:number}, the number of the column of corrections",
+                             in_words(U.number))
+                       : say("an expanded uncertainty of {U:number}", in_words(U.number)));
             finding.expected = "U > 0";
-            finding.actual = in_words(U.number);
+            finding.actual = say_number(in_words(U.number));
             findings.add(std::move(finding));
         });
 }
@@ -606,10 +628,11 @@ void component_left_out(const AuditSubject& subject, FindingCollector& findings)
         if (at.is.in_sum || !at.of.claims.u_c) {
             return;
         }
-        AuditFinding finding =
-            finding_at(at, place_of(at.is.contribution),
-                       "the combined uncertainty in " + at.of.claims.u_c->place + " leaves this contribution out");
-        finding.evidence = {"contribution = " + in_words(std::abs(at.is.used_sensitivity) * at.is.used_u, at.of.unit)};
+        AuditFinding finding = finding_at(
+            at, place_of(at.is.contribution),
+            say("the combined uncertainty in {place} leaves this contribution out", at.of.claims.u_c->place));
+        finding.evidence = {
+            equals(say("contribution"), in_words(std::abs(at.is.used_sensitivity) * at.is.used_u, at.of.unit))};
         finding.correct = put_in(at.row);
         findings.add(std::move(finding));
     });
@@ -627,12 +650,12 @@ void choice_over_text(const AuditSubject& subject, FindingCollector& findings) {
         }
         const std::vector<CellRun> runs = cells.runs(formula.cell);
         std::size_t numbers = 0;
-        std::string where;
+        Sentence where;
         for (const CellRun& run : runs) {
             numbers += cells.numbers(run);
             if (const std::optional<std::uint32_t> at = cells.text(run); at && where.empty()) {
                 const CellPlace text = cells.cell(run.sheet, *at);
-                where = view->place(text) + " = \"" + view->value(text).text + "\"";
+                where = say("{cell} = \"{text}\"", view->place(text), view->value(text).text);
             }
         }
         // One number is left to choose from: the other one, the floor, is no number.
@@ -641,15 +664,16 @@ void choice_over_text(const AuditSubject& subject, FindingCollector& findings) {
         }
         for (const workbook::Area& area : view->areas_read(formula.cell)) {
             if (const std::optional<CellPlace> blank = where.empty() ? cells.blank(area) : std::nullopt) {
-                where = view->place(*blank) + " is empty";
+                where = say("{cell} is empty", view->place(*blank));
             }
         }
         if (where.empty()) {
             continue;
         }
         AuditFinding finding =
-            finding_in(view->place(formula.cell), root.text + " chooses between a number and " + where +
-                                                      ", which it leaves out: the floor is gone");
+            finding_in(view->place(formula.cell),
+                       say("{function} chooses between a number and {cell}, which it leaves out: the floor is gone",
+                           root.text, where));
         finding.evidence = {where};
         findings.add(std::move(finding));
     }
@@ -665,12 +689,21 @@ void value_of_another_workbook(const AuditSubject& subject, FindingCollector& fi
             std::find_if(formula.formula.references.begin(), formula.formula.references.end(),
                          [](const workbook::Reference& reference) { return !reference.workbook.empty(); });
         if (link != formula.formula.references.end()) {
-            AuditFinding finding = finding_in(view->place(formula.cell),
-                                              "the value comes from another workbook, [" + link->workbook + "]");
-            finding.kind = finding.what;
+            AuditFinding finding = finding_in(
+                view->place(formula.cell), say("the value comes from another workbook, [{workbook}]", link->workbook));
+            finding.kind = finding.what.english();
             findings.add(std::move(finding));
         }
     }
+}
+
+Sentence error_in_words(bool hidden, bool under_results) {
+    if (under_results) {
+        return hidden ? say("an error value on a hidden sheet, and U rests on it")
+                      : say("an error value, and U rests on it");
+    }
+    return hidden ? say("an error value on a hidden sheet; no result that we found rests on it")
+                  : say("an error value; no result that we found rests on it");
 }
 
 void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
@@ -690,18 +723,15 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
             if (!broken) {
                 continue;
             }
-            AuditFinding finding = finding_in(
-                view->place(at),
-                std::string("an error value") + (hidden ? " on a hidden sheet" : "") +
-                    (view->stands_under_results(at) ? ", and U rests on it" : "; no result that we found rests on it"));
-            finding.kind = finding.what;
+            AuditFinding finding = finding_in(view->place(at), error_in_words(hidden, view->stands_under_results(at)));
+            finding.kind = finding.what.english();
             findings.add(std::move(finding));
         }
         const bool used = std::any_of(sheet.cells.begin(), sheet.cells.end(), [&](const workbook::Cell& cell) {
             return view->stands_under_results({.sheet = s, .address = cell.address});
         });
         if (hidden && used) {
-            findings.add(finding_in(sheet.name, "U rests on a hidden sheet"));
+            findings.add(finding_in(sheet.name, say("U rests on a hidden sheet")));
         }
     }
 }
@@ -751,11 +781,11 @@ void time_units(const AuditSubject& subject, FindingCollector& findings) {
             }
             const std::string place = view->place(formula.cell);
             AuditFinding finding = finding_in(
-                place, "a rate per year times days divided by " + literal.text + ": the units of time do not close");
-            finding.expected = "days/365";
-            finding.actual = "days/" + literal.text;
-            finding.evidence = {
-                "=" + workbook::find_cell(view->workbook().sheets[formula.cell.sheet], formula.cell.address)->formula};
+                place,
+                say("a rate per year times days divided by {divisor}: the units of time do not close", literal.text));
+            finding.expected = say("days/365");
+            finding.actual = say("days/{divisor}", literal.text);
+            finding.evidence = {text_of(*view, formula)};
             if (const auto row = row_of_place.find(place); row != row_of_place.end()) {
                 finding.budgets = {row->second.first};
                 finding.correct = scale_u(row->second.second, literal.number / 365.0);
@@ -764,7 +794,7 @@ void time_units(const AuditSubject& subject, FindingCollector& findings) {
         }
     }
     if (labels_left == 0) {
-        findings.leave_unchecked("formulas with days read more cells than an audit looks at the labels of");
+        findings.leave_unchecked(say("formulas with days read more cells than an audit looks at the labels of"));
     }
     tell_limit(cells, findings);
 }
@@ -783,8 +813,9 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
         const std::string label = view->label(formula.cell);
         if (says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung", "uncertainty",
                          "unsicherheit"})) {
-            AuditFinding finding = finding_in(view->place(formula.cell), "computed, and never used: \"" + label + "\"");
-            finding.kind = finding.what;
+            AuditFinding finding =
+                finding_in(view->place(formula.cell), say("computed, and never used: \"{label}\"", label));
+            finding.kind = finding.what.english();
             findings.add(std::move(finding));
         }
     }
@@ -798,8 +829,8 @@ void not_protected(const AuditSubject& subject, FindingCollector& findings) {
                      std::any_of(workbook.sheets.begin(), workbook.sheets.end(),
                                  [](const workbook::Sheet& sheet) { return sheet.is_protected; });
     if (!any) {
-        findings.add(finding_in(subject.name,
-                                "no sheet is protected, and nothing says which version of the workbook was validated"));
+        findings.add(finding_in(
+            subject.name, say("no sheet is protected, and nothing says which version of the workbook was validated")));
     }
 }
 

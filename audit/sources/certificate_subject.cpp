@@ -15,7 +15,6 @@
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
 #include "reports/dcc/dcc_certificate_data.h"
-#include "text/lists.h"
 
 namespace gumcert::audit {
 namespace {
@@ -81,7 +80,7 @@ private:
     [[nodiscard]] std::optional<StatedNumber> degrees_of_freedom_of(const ImportedQuantity& quantity) const;
     [[nodiscard]] AuditedBudget budget_of(std::size_t position);
     void state_conformity(const ImportedQuantity& quantity, const LimitsBeside& limits, AuditedBudget& budget);
-    void say(std::string sentence) {
+    void tell(Sentence sentence) {
         if (std::find(subject_.not_read.begin(), subject_.not_read.end(), sentence) == subject_.not_read.end()) {
             subject_.not_read.push_back(std::move(sentence));
         }
@@ -229,9 +228,12 @@ void Results::state_conformity(const ImportedQuantity& quantity, const LimitsBes
         budget.rule = gum::DecisionRule::simple_acceptance;
     }
     if (!budget.rule && (!words.empty() || limits.other_unit)) {
-        say(budget.place + ": the verdict \"" + quantity.conformity + "\" was not decided again, because " +
-            (limits.other_unit ? "its limits are stated in another unit"
-                               : "its decision rule is stated in words only, or without its limits"));
+        tell(limits.other_unit ? say("{result}: the verdict \"{verdict}\" was not decided again, because its limits "
+                                     "are stated in another unit",
+                                     budget.place, quantity.conformity)
+                               : say("{result}: the verdict \"{verdict}\" was not decided again, because its decision "
+                                     "rule is stated in words only, or without its limits",
+                                     budget.place, quantity.conformity));
         return;
     }
     budget.claims.verdict = quantity.conformity == "conditionalPass"   ? "conditional_pass"
@@ -294,11 +296,11 @@ void Results::read() {
         }
     }
     if (left_out > 0) {
-        say(std::to_string(left_out) + " more results are not looked at: an audit takes up to " +
-            std::to_string(k_most_certified_results) + " of a certificate");
+        tell(say("{count:number} more results are not looked at: an audit takes up to {most:number} of a certificate",
+                 std::to_string(left_out), std::to_string(k_most_certified_results)));
     }
     if (subject_.budgets.empty() && without > 0) {
-        say("the results have no uncertainty");
+        tell(say("the results have no uncertainty"));
     }
 }
 
@@ -320,7 +322,8 @@ void take_checks(std::span<const gum::Diagnostic> checks, AuditSubject& subject)
             broken += error ? 1U : 0U;
             first = first == nullptr && error ? &check : first;
         } else if (check.code.starts_with("GC-DCC-002")) {
-            subject.not_read.push_back(check.where + ": " + check.what + ": " + check.rule);
+            subject.not_read.push_back(
+                say("{where}: {what:sentence}: {rule:sentence}", check.where, check.what, check.rule));
         } else if (check.severity != gum::Severity::note && check.code != "GC-DCC-0043") {
             subject.certificate->findings.push_back({.id = check.code,
                                                      .clause = check.rule,
@@ -385,24 +388,24 @@ void take_persons(const reports::XmlElement& root, AuditSubject& subject) {
 
 /// Texts that no rule looks at: silence about them is no judgement.
 void tell_what_is_not_read(std::span<const reports::DccStatement> statements, AuditSubject& subject) {
-    std::vector<std::string> kinds;
+    std::vector<Sentence> kinds;
     for (const reports::DccStatement& statement : statements) {
         const WordLine kind(statement.ref_type);
         if (kind.has_any({"*conformity", "*accreditation", "*draft", "*specimen"})) {
             continue;
         }
-        const std::string name = statement.ref_type.empty() ? "of no stated kind" : statement.ref_type;
+        const Sentence name = statement.ref_type.empty() ? say("of no stated kind") : Sentence(statement.ref_type);
         if (std::find(kinds.begin(), kinds.end(), name) == kinds.end()) {
             kinds.push_back(name);
         }
     }
     constexpr std::size_t k_shown = 6;
     if (!kinds.empty()) {
-        subject.not_read.push_back("statements in words were not read: " + text::listed(kinds, k_shown));
+        subject.not_read.push_back(say("statements in words were not read: {kinds}", listed(kinds, k_shown)));
     }
     if (!subject.certificate->data.method.description.empty()) {
-        subject.not_read.emplace_back(
-            "the description of the method is free text: whether it names deviations was not read");
+        subject.not_read.push_back(
+            say("the description of the method is free text: whether it names deviations was not read"));
     }
 }
 

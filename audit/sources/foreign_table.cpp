@@ -131,7 +131,7 @@ const Cell* cell_in(const std::vector<const Cell*>& row, std::uint32_t column) {
 class RowReader {
 public:
     RowReader(const SheetView& sheet, const Heads& heads, const std::vector<const Cell*>& row,
-              std::vector<std::string>& not_read)
+              std::vector<Sentence>& not_read)
         : sheet_(sheet), heads_(heads), row_(row), not_read_(not_read) {}
 
     [[nodiscard]] AuditedRow read() {
@@ -200,8 +200,8 @@ private:
             if (std::optional<LeadingNumber> leading = read_leading_number(held, sheet_.place(cell->address))) {
                 return std::move(leading->number);
             }
-            not_read_.push_back(sheet_.place(cell->address) + ": " + text::in_quotes(held) +
-                                " is no number; what is meant?");
+            not_read_.push_back(
+                say("{cell}: {text} is no number; what is meant?", sheet_.place(cell->address), text::in_quotes(held)));
         }
         return read;
     }
@@ -209,7 +209,7 @@ private:
     const SheetView& sheet_;
     const Heads& heads_;
     const std::vector<const Cell*>& row_;
-    std::vector<std::string>& not_read_;
+    std::vector<Sentence>& not_read_;
 };
 
 /// Statements on a result, from the rows above and below its table.
@@ -381,9 +381,10 @@ public:
             }
             last = number;
             if (tables_.budgets.size() >= k_most_tables) {
-                tables_.not_read.push_back(sheet_.place({.row = number, .column = row.front()->address.column}) +
-                                           ": what follows is not looked at; an audit takes up to " +
-                                           std::to_string(k_most_tables) + " tables");
+                tables_.not_read.push_back(
+                    say("{cell}: what follows is not looked at; an audit takes up to {most:number} tables",
+                        sheet_.place({.row = number, .column = row.front()->address.column}),
+                        std::to_string(k_most_tables)));
                 break;
             }
             take(number, row);
@@ -449,15 +450,17 @@ private:
 
     void finish() {
         if (is_too_long_) {  // a part of its rows would give another u_c
-            tables_.not_read.push_back(budget_.place + ": the table is not looked at; it has more than the " +
-                                       std::to_string(k_most_rows) + " rows that an audit takes");
+            tables_.not_read.push_back(
+                say("{table}: the table is not looked at; it has more than the {most:number} rows that an audit takes",
+                    budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && !budget_.rows.empty()) {
             budget_.name = name_;
             state_claims(budget_, statements_);
             const std::optional<double> p = budget_.claims.coverage_probability;
             if (p && !(*p > 0.0 && *p < 1.0)) {
-                tables_.not_read.push_back(budget_.place + ": a coverage probability of " + text::shortest(*p) +
-                                           " cannot be; what is meant?");
+                tables_.not_read.push_back(
+                    say("{table}: a coverage probability of {p:number} cannot be; what is meant?", budget_.place,
+                        text::shortest(*p)));
                 budget_.claims.coverage_probability.reset();
             }
             state_coverage(budget_);
@@ -499,11 +502,10 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         TableReader(sheet, name, tables).read();
     }
     if (tables.budgets.empty()) {
-        tables.not_read.push_back(
-            file +
-            ": no uncertainty budget was found — a table begins with a row of heads, of which one names the quantities "
-            "and "
-            "one u, what is divided, or the contributions — name the columns so, in English or German");
+        tables.not_read.push_back(say(
+            "{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
+            "quantities and one u, what is divided, or the contributions — name the columns so, in English or German",
+            file));
     }
     return tables;
 }

@@ -12,7 +12,7 @@ namespace gumcert::audit {
 /// What was found in a workbook, or in the one sheet of a CSV file.
 struct ForeignTables {
     std::vector<AuditedBudget> budgets;  ///< one a table, in the order of the sheets
-    std::vector<std::string> not_read;   ///< cells that belong to a table and could not be understood, as sentences
+    std::vector<Sentence> not_read;      ///< cells that belong to a table and could not be understood, as sentences
 };
 
 /// Finds the uncertainty budgets in a workbook.

@@ -69,9 +69,14 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
         mark_sums(subject.budgets, *held);
         for (const workbook::NotEvaluated& reason : held->evaluation.reasons) {
             const workbook::Sheet& sheet = held->workbook.sheets[reason.sheet];
-            subject.not_read.push_back(workbook::sheet_a1(sheet.name, sheet.cells[reason.cell].address) +
-                                       ": not evaluated here (" + reason.what +
-                                       "); the value that the file stored is taken");
+            const std::string cell = workbook::sheet_a1(sheet.name, sheet.cells[reason.cell].address);
+            const bool names_function = reason.what.find(' ') == std::string::npos;
+            subject.not_read.push_back(
+                names_function
+                    ? say("{cell}: not evaluated here ({function}); the value that the file stored is taken", cell,
+                          reason.what)
+                    : say("{cell}: not evaluated here ({reason:sentence}); the value that the file stored is taken",
+                          cell, reason.what));
         }
         subject.workbook = std::move(held);
     }

@@ -206,7 +206,7 @@ private:
         }
         Rows lines;
         for (const RuleAnswer& one : file_.linearity) {
-            lines.push_back({one.id + " " + words_.sentence(one.title).text, words_.sentence(one.answer).text});
+            lines.push_back({one.id + " " + words_.sentence(one.title).text, words_.said(one.answer).text});
         }
         table("linearity", words_("validation_caption"), {{words_("rule")}, {words_("answer")}}, lines);
     }
@@ -221,9 +221,9 @@ private:
             add_fact(facts, words_.severity(finding.severity) + " · " + finding.id,
                      words_.sentence(finding.title.empty() ? finding.id : finding.title).text);
             add_fact(facts, words_("where"), finding.where);
-            add_fact(facts, words_("what"), words_.sentence(finding.what).text);
-            for (const std::string& evidence : finding.evidence) {
-                add_fact(facts, words_("evidence"), evidence);
+            add_fact(facts, words_("what"), words_.said(finding.what).text);
+            for (const audit::Sentence& evidence : finding.evidence) {
+                add_fact(facts, words_("evidence"), words_.said(evidence).text);
             }
             if (finding.effect) {
                 const EffectView& effect = *finding.effect;
@@ -307,15 +307,15 @@ private:
         if (!file_.not_checked.empty()) {
             Rows lines;
             for (const NotCheckedView& one : file_.not_checked) {
-                lines.push_back({one.id, words_.sentence(one.title).text, words_.sentence(one.because).text});
+                lines.push_back({one.id, words_.sentence(one.title).text, words_.said(one.because).text});
             }
             table("not-checked", words_("not_checked"), {{words_("rule")}, {words_("what")}, {words_("because")}},
                   lines);
         }
         if (!all_is_named_first(file_)) {
             section("not_read");
-            for (const std::string& sentence : file_.not_read) {
-                builder_.paragraph(sentence);
+            for (const audit::Sentence& sentence : file_.not_read) {
+                builder_.paragraph(words_.said(sentence).text);
             }
         }
     }
@@ -325,7 +325,7 @@ private:
 
 std::string audit_as_pdf(const AuditView& view, const RenderAssets& assets) {
     const RenderAssets one_language = in_one_language(assets);
-    const Wording wording = read_wording(one_language);
+    const Wording wording = read_audit_wording(one_language);
     const AuditWords words(wording);
     CertificateBuilder builder(wording);
     if (const std::vector<AuditSentence> unaudited = words.unaudited(view); !unaudited.empty()) {

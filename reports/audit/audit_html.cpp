@@ -36,18 +36,23 @@ json one_text(const std::string& text) {
     return text.empty() ? json::array() : once({{"text", text}});
 }
 
+json marked(const AuditSentence& sentence) {
+    return {{"text", sentence.text}, {"english", once_if(sentence.english)}};
+}
+
 /// A sentence of a rule, once, or not at all where it is empty.
 json said(const std::string& english, const AuditWords& words) {
-    const AuditSentence sentence = words.sentence(english);
-    return sentence.text.empty() ? json::array()
-                                 : once({{"text", sentence.text}, {"english", once_if(sentence.english)}});
+    return english.empty() ? json::array() : once(marked(words.sentence(english)));
+}
+json said(const audit::Sentence& sentence, const AuditWords& words) {
+    return sentence.empty() ? json::array() : once(marked(words.said(sentence)));
 }
 
 /// A list of sentences, once, or not at all where there are none.
 json listed(const std::vector<AuditSentence>& sentences) {
     json lines = json::array();
     for (const AuditSentence& sentence : sentences) {
-        lines.push_back({{"text", sentence.text}, {"english", once_if(sentence.english)}});
+        lines.push_back(marked(sentence));
     }
     return sentences.empty() ? json::array() : once({{"lines", std::move(lines)}});
 }
@@ -447,13 +452,14 @@ private:
             }
             entry["effects"] = effect_lines(finding, largest);
             entry["evidence"] = json::array();
-            for (const std::string& evidence : finding.evidence) {
-                entry["evidence"].push_back({{"text", evidence}});
+            for (const audit::Sentence& evidence : finding.evidence) {
+                entry["evidence"].push_back(marked(words_.said(evidence)));
             }
             entry["has_evidence"] = once_if(!finding.evidence.empty());
             entry["compared"] = finding.expected.empty() && finding.actual.empty()
                                     ? json::array()
-                                    : once({{"expected", finding.expected}, {"actual", finding.actual}});
+                                    : once({{"expected", once(marked(words_.said(finding.expected)))},
+                                            {"actual", once(marked(words_.said(finding.actual)))}});
             entry["correction"] = said(finding.correction, words_);
             entry["question"] = said(finding.question, words_);
             entry["clause"] = one_text(words_.clause(finding));
@@ -580,8 +586,8 @@ private:
             return json::array();
         }
         std::vector<AuditSentence> all;
-        for (const std::string& sentence : file_.not_read) {
-            all.push_back(words_.sentence(sentence));
+        for (const audit::Sentence& sentence : file_.not_read) {
+            all.push_back(words_.said(sentence));
         }
         return listed(all);
     }
@@ -617,7 +623,7 @@ json overview(const AuditView& view, const AuditWords& words) {
 }  // namespace
 
 std::string audit_as_html(const AuditView& view, const RenderAssets& assets) {
-    const Wording wording = read_wording(in_one_language(assets));
+    const Wording wording = read_audit_wording(assets);
     const AuditWords words(wording);
     const std::string script = read_asset(assets.templates / "audit.js");
     json page = {{"language", words.language()},

@@ -66,10 +66,10 @@ json finding(const AuditFindingView& one, const AuditedFileView& file, const Aud
                   {"clause", one.clause},
                   {"clause_verified", one.clause_verified},
                   {"where", one.where},
-                  {"what", one.what},
-                  {"evidence", one.evidence},
-                  {"expected", text_or_null(one.expected)},
-                  {"actual", text_or_null(one.actual)},
+                  {"what", one.what.english()},
+                  {"evidence", english_of(one.evidence)},
+                  {"expected", text_or_null(one.expected.english())},
+                  {"actual", text_or_null(one.actual.english())},
                   {"correction", one.correction},
                   {"question", one.question},
                   {"results", std::move(names)},
@@ -100,11 +100,15 @@ json finding(const AuditFindingView& one, const AuditedFileView& file, const Aud
 }
 
 json file_json(const AuditedFileView& file, const AuditView& view) {
-    json all = {{"file", file.name},         {"kind", file.kind},
-                {"claimed", nullptr},        {"recomputed", nullptr},
-                {"audited", nullptr},        {"results", json::array()},
-                {"findings", json::array()}, {"not_checked", json::array()},
-                {"not_read", file.not_read}};
+    json all = {{"file", file.name},
+                {"kind", file.kind},
+                {"claimed", nullptr},
+                {"recomputed", nullptr},
+                {"audited", nullptr},
+                {"results", json::array()},
+                {"findings", json::array()},
+                {"not_checked", json::array()},
+                {"not_read", english_of(file.not_read)}};
     if (!file.sha256.empty()) {
         all["sha256"] = file.sha256;
     }
@@ -134,7 +138,7 @@ json file_json(const AuditedFileView& file, const AuditView& view) {
         all["findings"].push_back(finding(one, file, view));
     }
     for (const NotCheckedView& one : file.not_checked) {
-        all["not_checked"].push_back({{"id", one.id}, {"because", one.because}});
+        all["not_checked"].push_back({{"id", one.id}, {"because", one.because.english()}});
     }
     return all;
 }

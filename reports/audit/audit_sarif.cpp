@@ -63,9 +63,12 @@ json finite(double number) {
 }
 
 json properties_of(const AuditFindingView& finding) {
-    json all = {
-        {"severity", finding.severity}, {"clause", finding.clause},         {"clauseVerified", finding.clause_verified},
-        {"evidence", finding.evidence}, {"correction", finding.correction}, {"question", finding.question}};
+    json all = {{"severity", finding.severity},
+                {"clause", finding.clause},
+                {"clauseVerified", finding.clause_verified},
+                {"evidence", english_of(finding.evidence)},
+                {"correction", finding.correction},
+                {"question", finding.question}};
     if (finding.effect) {
         const EffectView& effect = *finding.effect;
         all["claimedU"] = finite(effect.claimed.number.U);
@@ -79,7 +82,7 @@ json properties_of(const AuditFindingView& finding) {
 }
 
 std::string sentence_of(const AuditFindingView& finding) {
-    std::string text = finding.title.empty() ? finding.what : finding.title + ": " + finding.what;
+    std::string text = finding.title.empty() ? finding.what.english() : finding.title + ": " + finding.what.english();
     if (finding.effect) {
         const EffectView& effect = *finding.effect;
         text += ". Corrected alone, U " + effect.claimed.U + " -> " + effect.alone.U + " (" +
@@ -160,12 +163,13 @@ std::string audit_as_sarif(const AuditView& view, std::span<const audit::Rule> r
             results.push_back(result_json(finding, i, view, rules));
         }
         for (const NotCheckedView& one : file.not_checked) {
-            notes.push_back({{"associatedRule", {{"id", one.id}}},
-                             {"level", "note"},
-                             {"message", message(file.name + ": " + one.id + " was not checked: " + one.because)}});
+            notes.push_back(
+                {{"associatedRule", {{"id", one.id}}},
+                 {"level", "note"},
+                 {"message", message(file.name + ": " + one.id + " was not checked: " + one.because.english())}});
         }
-        for (const std::string& sentence : file.not_read) {
-            notes.push_back({{"level", "warning"}, {"message", message(file.name + ": " + sentence)}});
+        for (const audit::Sentence& sentence : file.not_read) {
+            notes.push_back({{"level", "warning"}, {"message", message(file.name + ": " + sentence.english())}});
         }
         if (file.sampled_shares) {
             notes.push_back({{"level", "note"},

@@ -86,7 +86,7 @@ std::string finding_text(const AuditFindingView& finding, std::size_t position, 
         paragraph_of(padded(std::to_string(position), 3, true) + " ",
                      words.severity(finding.severity) + ": " + finding.id + " " + words.sentence(finding.title).text);
     out += labelled(words("where"), finding.where);
-    out += labelled(words("what"), words.sentence(finding.what).text);
+    out += labelled(words("what"), words.said(finding.what).text);
     if (finding.effect) {
         const EffectView& effect = *finding.effect;
         out += labelled(words("alone"), words.effect_alone(effect, file));
@@ -99,8 +99,8 @@ std::string finding_text(const AuditFindingView& finding, std::size_t position, 
     if (finding.missing_term) {
         out += labelled(words("bound"), words.missing_term(*finding.missing_term));
     }
-    for (const std::string& evidence : finding.evidence) {
-        out += labelled(words("evidence"), evidence);
+    for (const audit::Sentence& evidence : finding.evidence) {
+        out += labelled(words("evidence"), words.said(evidence).text);
     }
     out += labelled(words("correction"), words.sentence(finding.correction).text);
     out += labelled(words("clause"), words.clause(finding));
@@ -141,7 +141,7 @@ std::string not_checked_of(const AuditedFileView& file, const AuditWords& words,
     for (const NotCheckedView& one : file.not_checked) {
         if (verbose) {
             out += paragraph_of("  " + padded(one.id, 5, false) + " ",
-                                words.sentence(one.title).text + ": " + words.sentence(one.because).text);
+                                words.sentence(one.title).text + ": " + words.said(one.because).text);
         }
     }
     return out;
@@ -180,8 +180,8 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
     out += questions_of(file, words);
     if (!all_is_named_first(file)) {
         out += "\n" + words("not_read") + "\n";
-        for (const std::string& sentence : file.not_read) {
-            out += paragraph_of("  ", sentence);
+        for (const audit::Sentence& sentence : file.not_read) {
+            out += paragraph_of("  ", words.said(sentence).text);
         }
     }
     return out + not_checked_of(file, words, verbose);

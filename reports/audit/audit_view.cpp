@@ -341,6 +341,10 @@ const audit::Rule* rule_of(const std::string& id, std::span<const audit::Rule> r
     return found == rules.end() ? nullptr : &*found;
 }
 
+audit::Sentence printable_sentence(const audit::Sentence& sentence) {
+    return sentence.with_texts(printable);
+}
+
 PrintedWaiver printed_waiver(const certificate::Waiver& waiver) {
     return {.rule = printable(waiver.finding),
             .where = printable(waiver.where),
@@ -396,13 +400,13 @@ AuditFindingView finding_view(const audit::AuditFinding& finding, const audit::A
     }
     view.severity = name_of(finding.severity);
     view.where = printable(finding.where);
-    view.what = printable(finding.what);
-    view.expected = printable(finding.expected);
-    view.actual = printable(finding.actual);
+    view.what = printable_sentence(finding.what);
+    view.expected = printable_sentence(finding.expected);
+    view.actual = printable_sentence(finding.actual);
     view.correction = printable(finding.correction);
     view.question = printable(finding.question);
-    for (const std::string& evidence : finding.evidence) {
-        view.evidence.push_back(printable(evidence));
+    for (const audit::Sentence& evidence : finding.evidence) {
+        view.evidence.push_back(printable_sentence(evidence));
     }
     std::unordered_set<std::size_t> named;
     for (const std::size_t budget : finding.budgets) {
@@ -460,8 +464,9 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file, const audit::A
         }
         for (const audit::RuleNote& note : report.notes) {
             if (const audit::Rule* of = note.rule == rule ? rule_of(note.rule, rules) : nullptr) {
-                answers.push_back(
-                    {.id = printable(note.rule), .title = std::string(of->title), .answer = printable(note.what)});
+                answers.push_back({.id = printable(note.rule),
+                                   .title = std::string(of->title),
+                                   .answer = printable_sentence(note.what)});
             }
         }
     }
@@ -494,6 +499,15 @@ std::size_t add_waiver(PrintedWaiver waiver, std::vector<PrintedWaiver>& waivers
 std::size_t AuditedFileView::own_results() const {
     return static_cast<std::size_t>(
         std::count_if(results.begin(), results.end(), [](const AuditedResultView& one) { return !one.is_nested; }));
+}
+
+std::vector<std::string> english_of(const std::vector<audit::Sentence>& sentences) {
+    std::vector<std::string> all;
+    all.reserve(sentences.size());
+    for (const audit::Sentence& sentence : sentences) {
+        all.push_back(sentence.english());
+    }
+    return all;
 }
 
 Change change_of(const BudgetOutcome& before, const BudgetOutcome& after) {
@@ -577,11 +591,11 @@ AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const
         const audit::Rule* rule = rule_of(one.rule, rules);
         file.not_checked.push_back({.id = printable(one.rule),
                                     .title = rule == nullptr ? "" : std::string(rule->title),
-                                    .because = printable(one.because)});
+                                    .because = printable_sentence(one.because)});
     }
     file.linearity = linearity_of(file, report, rules);
-    for (const std::string& sentence : report.subject.not_read) {
-        file.not_read.push_back(printable(sentence));
+    for (const audit::Sentence& sentence : report.subject.not_read) {
+        file.not_read.push_back(printable_sentence(sentence));
     }
     return file;
 }

@@ -10,6 +10,7 @@
 
 #include "audit/audit.h"
 #include "audit/rule.h"
+#include "audit/sentence.h"
 
 namespace gumcert::reports {
 
@@ -134,8 +135,9 @@ struct AuditFindingView {
     std::string severity;  ///< "critical", "major", "minor", "information"
     std::string clause;
     bool clause_verified = false;
-    std::string where, what, expected, actual, correction, question;
-    std::vector<std::string> evidence;
+    std::string where, correction, question;
+    audit::Sentence what, expected, actual;
+    std::vector<audit::Sentence> evidence;
     std::vector<std::size_t> results;  ///< that it touches: positions in AuditedFileView::results
     std::optional<EffectView> effect;
     std::optional<EffectView>
@@ -145,12 +147,14 @@ struct AuditFindingView {
 };
 
 struct NotCheckedView {
-    std::string id, title, because;
+    std::string id, title;
+    audit::Sentence because;
 };
 
 /// What a rule found, or why it was not applied.
 struct RuleAnswer {
-    std::string id, title, answer;
+    std::string id, title;
+    audit::Sentence answer;
 };
 
 /// One question to the laboratory, and the findings that ask it.
@@ -176,7 +180,7 @@ struct AuditedFileView {
     std::array<std::size_t, 4> counts{};     ///< of findings: critical, major, minor, information
     std::vector<RuleAnswer> linearity;       ///< of the rules on the linear model and on Monte Carlo
     std::vector<NotCheckedView> not_checked;
-    std::vector<std::string> not_read;
+    std::vector<audit::Sentence> not_read;
     std::vector<QuestionView> questions;
     std::vector<PrintedWaiver> waivers;  ///< of this file; in a view of several those of all stand in AuditView
     bool sampled_shares = false;         ///< of one of its results
@@ -189,6 +193,9 @@ struct AuditView {
     std::vector<PrintedWaiver> waivers;  ///< of all files, each once
     std::vector<UnauditedFile> unaudited;
 };
+
+/// Sentences as files for programs hold them.
+[[nodiscard]] std::vector<std::string> english_of(const std::vector<audit::Sentence>& sentences);
 
 /// "critical", "major", "minor", "information": the order of AuditedFileView::counts.
 inline constexpr std::array<const char*, 4> k_audit_severities{"critical", "major", "minor", "information"};

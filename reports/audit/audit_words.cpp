@@ -1,6 +1,8 @@
 #include "reports/audit/audit_words.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace gumcert::reports {
 namespace {
@@ -135,12 +137,62 @@ std::string AuditWords::coverage(const AuditedResultView& result) const {
 }
 
 std::string AuditWords::method(const AuditedFileView& file, const AuditedResultView& result) const {
-    return !file.method.empty() ? file.method : !result.method.empty() ? result.method : (*this)("not_stated");
+    if (!file.method.empty() || result.method.empty()) {
+        return file.method.empty() ? (*this)("not_stated") : file.method;
+    }
+    return wording_.pattern(result.method).value_or(result.method);  // the title of a checklist has a translation
 }
 
 AuditSentence AuditWords::sentence(const std::string& english) const {
     const std::string worded = wording_.sentence(english).first();
     return {.text = worded, .english = !english.empty() && language() != "en" && worded == english};
+}
+
+AuditSentence AuditWords::said(const audit::Sentence& sentence) const {
+    const bool same = language() == "en" || sentence.pattern().empty();
+    std::optional<std::string> worded = same ? sentence.english() : by_pattern(sentence);
+    return worded ? AuditSentence{.text = std::move(*worded)}
+                  : AuditSentence{.text = sentence.english(), .english = true};
+}
+
+std::optional<std::string> AuditWords::by_pattern(const audit::Sentence& sentence) const {
+    const std::optional<std::string> translation = wording_.pattern(sentence.pattern());
+    if (!translation) {
+        return std::nullopt;
+    }
+    const audit::PatternPieces english = audit::pattern_pieces(sentence.pattern()),
+                               own = audit::pattern_pieces(*translation);
+    std::string text(own.literals.front());
+    for (std::size_t i = 0; i < own.places.size(); ++i) {
+        const auto place = std::find_if(english.places.begin(), english.places.end(),
+                                        [&](const auto& one) { return one.name == own.places[i].name; });
+        if (place == english.places.end()) {
+            return std::nullopt;
+        }
+        const audit::Sentence& argument =
+            sentence.arguments()[static_cast<std::size_t>(place - english.places.begin())];
+        const std::optional<std::string> value = !argument.pattern().empty() ? by_pattern(argument)
+                                                 : place->is_number          ? shown_number(argument.english())
+                                                 : place->is_sentence        ? of_program(argument.english())
+                                                                             : argument.english();
+        if (!value) {
+            return std::nullopt;
+        }
+        text += *value;
+        text += own.literals[i + 1];
+    }
+    return text;
+}
+
+std::optional<std::string> AuditWords::of_program(const std::string& english) const {
+    AuditSentence worded = sentence(english);
+    return worded.english ? std::nullopt : std::optional(std::move(worded.text));
+}
+
+/// "infinite" is the one word that stands for a number.
+std::string AuditWords::shown_number(const std::string& shown) const {
+    const std::string infinite = "infinite";
+    return shown.starts_with(infinite) ? "∞" + shown.substr(infinite.size()) : wording_.number(shown).first();
 }
 
 std::string AuditWords::contributor_text(const ContributorView& contributor, const std::string& unit) const {
@@ -157,7 +209,7 @@ std::string AuditWords::contributor_text(const ContributorView& contributor, con
 std::vector<AuditSentence> AuditWords::limits(const AuditedFileView& file) const {
     std::vector<AuditSentence> all;
     for (std::size_t i = 0; i < std::min(file.not_read.size(), k_named_first); ++i) {
-        all.push_back(sentence(file.not_read[i]));
+        all.push_back(said(file.not_read[i]));
     }
     if (!all_is_named_first(file)) {
         all.push_back(

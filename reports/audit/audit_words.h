@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "audit/sentence.h"
 #include "reports/audit/audit_view.h"
 #include "reports/wording.h"
 
@@ -63,6 +65,9 @@ public:
     [[nodiscard]] std::string method(const AuditedFileView& file, const AuditedResultView& result) const;
     /// A sentence of a rule: in the language where the catalogue of sentences has it.
     [[nodiscard]] AuditSentence sentence(const std::string& english) const;
+    /// What the audit says of a file: by the translation of its pattern, and of those in its places. Where one of them has
+    /// none, the whole of it is English. A text without a pattern is the same in every language.
+    [[nodiscard]] AuditSentence said(const audit::Sentence& sentence) const;
     /// What of a file the audit did not look at, for the place where a form begins: what could not be understood, as far as
     /// all_is_named_first() says, rules that were not checked, shares that are sampled.
     [[nodiscard]] std::vector<AuditSentence> limits(const AuditedFileView& file) const;
@@ -72,6 +77,10 @@ public:
     [[nodiscard]] std::string contributor_text(const ContributorView& contributor, const std::string& unit) const;
 
 private:
+    [[nodiscard]] std::optional<std::string> by_pattern(const audit::Sentence& sentence) const;
+    [[nodiscard]] std::string shown_number(const std::string& shown) const;
+    [[nodiscard]] std::optional<std::string> of_program(const std::string& english) const;
+
     const Wording& wording_;
 };
 

@@ -198,4 +198,16 @@ Wording read_wording(const RenderAssets& assets) {
     return read_wording(assets, assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, {});
 }
 
+Wording read_audit_wording(const RenderAssets& assets) {
+    const std::vector<std::string> languages{assets.languages.empty() ? "en" : assets.languages.front()};
+    return assets.wordings->find_or_read({assets.templates.string(), languages.front(), "audit"}, [&] {
+        nlohmann::json all = wording_of(languages, assets);
+        if (languages.front() != "en") {
+            all.front()[Wording::k_patterns_key] =
+                read_json_asset(assets.templates / "wording" / "audit_sentences.json");
+        }
+        return Wording(std::move(all));
+    });
+}
+
 }  // namespace gumcert::reports

@@ -34,5 +34,7 @@ namespace gumcert::reports {
 [[nodiscard]] Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record);
 /// The wording of the languages that the assets ask for, else of English.
 [[nodiscard]] Wording read_wording(const RenderAssets& assets);
+/// The wording of an audit, in the first of the languages: with what audits say of files.
+[[nodiscard]] Wording read_audit_wording(const RenderAssets& assets);
 
 }  // namespace gumcert::reports

@@ -1,12 +1,15 @@
 """Every sentence that the program writes into a record has its wording in four languages, and every text of the wording
 is used.
 
-Three laws:
+Four laws:
 1. A text of words in the sources that make findings, remarks and messages, every gate among them, stands in an English pattern of
    templates/wording/sentences.json. Texts that are put together of several literals are found literal by literal.
 2. Every entry of sentences.json has a text in each language, with the same placeholders, and the languages have the same
    keys in the wording files.
 3. Every key of a wording file is asked for by a source or a template.
+4. Every pattern that the audit says (say(), say_count()) has its translations in templates/wording/audit_sentences.json, with
+   the same places, each once, and the same numbers; no other entry stands there, and no source of the audit has a
+   sentence of words that is no pattern.
 """
 
 import json
@@ -189,6 +192,103 @@ def unused_keys(root: pathlib.Path) -> list[str]:
     return problems
 
 
+# The audit -------------------------------------------------------------------------------------------------------------
+
+AUDIT = ("audit/*.cpp", "audit/rules/*.cpp", "audit/sources/*.cpp", "app/audit_files.cpp")
+# Words to look for in the files of others, pages of our documentation, and messages of the program.
+NO_SENTENCES_OF_AUDIT = (
+    "row_meaning.cpp",
+    "row_facts.cpp",
+    "checklists.cpp",
+    "rules_page.cpp",
+    "left_out.cpp",
+    "budget_words.cpp",
+    "gate_findings.cpp",
+    "audit_files.cpp",
+)
+NOT_SAID_BY_AUDIT = (
+    "terms of second order",  # name of a row that a correction adds
+    "terms of second order: ",
+    "displacement of the contact point",  # name of a result
+)
+OF_A_RULE = re.compile(r"\.(?:title|detection|correction|question|text|source)\s*=\s*(?:\"(?:[^\"\\]|\\.)*\"\s*)+")
+SAID = re.compile(r"\bsay(_count)?\(")
+WORDS_TO_LOOK_FOR = re.compile(r"\b(?:has_any|has_word|mentions|says|is_one_of)\(")
+
+
+def behind(source: str, at: int) -> int:
+    """The place behind the bracket that opens at a place."""
+    depth = 0
+    while True:
+        if source[at] == '"':
+            at = LITERAL.match(source, at).end() - 1
+        depth += {"(": 1, "{": 1, "[": 1, ")": -1, "}": -1, "]": -1}.get(source[at], 0)
+        at += 1
+        if depth == 0:
+            return at
+
+
+def said_in(source: str) -> tuple[set[str], str]:
+    """The patterns that a source says, and the source without them."""
+    joined = re.sub(r'"\s*\n\s*"', "", without_comments(source))
+    patterns, rest, at = set(), "", 0
+    for call in SAID.finditer(joined):
+        inside = joined[call.end() : behind(joined, call.end() - 1) - 1]
+        found = LITERAL.findall(inside) if call[1] else [m[1] for m in [LITERAL.match(inside.lstrip())] if m]
+        patterns |= {text.replace('\\"', '"') for text in found}
+        rest += joined[at : call.end()]
+        at = call.end() + (len(inside) if call[1] else len(inside) - len(without_first(inside)))
+    return patterns, rest + joined[at:]
+
+
+def without_first(arguments: str) -> str:
+    return re.sub(r'^\s*"(?:[^"\\]|\\.)*"', "", arguments)
+
+
+def without_words_to_look_for(source: str) -> str:
+    kept, at = "", 0
+    for call in WORDS_TO_LOOK_FOR.finditer(source):
+        if call.start() >= at:
+            kept += source[at : call.start()]
+            at = behind(source, call.end() - 1)
+    return kept + source[at:]
+
+
+def numbers(text: str) -> list[str]:
+    return sorted(re.findall(r"\d+(?:[.,]\d+)?", re.sub(r"\{[^}]*\}", "", text).replace(",", ".")))
+
+
+def places(pattern: str) -> list[str]:
+    return sorted(re.findall(r"\{(\w+)(?::\w+)?\}", pattern))
+
+
+def unworded_audit(root: pathlib.Path, of_program: dict) -> list[str]:
+    known = [part for entry in of_program.values() for part in literals(entry["en"])]
+    catalogue = json.loads((root / "templates/wording/audit_sentences.json").read_text(encoding="utf-8"))
+    problems, said = [], set()
+    for path in sorted(path for pattern in AUDIT for path in root.glob(pattern)):
+        patterns, rest = said_in(path.read_text(encoding="utf-8"))
+        said |= patterns
+        if path.name in NO_SENTENCES_OF_AUDIT:
+            continue
+        for text in LITERAL.findall(without_words_to_look_for(OF_A_RULE.sub("", rest))):
+            worded = text in NOT_SAID_BY_AUDIT or any(text.strip(" ,;:()") in one for one in known)
+            if is_sentence(text) and not worded:
+                problems.append(f"{path.relative_to(root)}: say() does not say: {text!r}")
+    name = "audit_sentences.json"
+    problems += [f"{name}: no translations of {pattern!r}" for pattern in sorted(said - set(catalogue))]
+    problems += [f"{name}: no source says {pattern!r}" for pattern in sorted(set(catalogue) - said)]
+    for pattern, texts in catalogue.items():
+        if set(texts) != set(LANGUAGES[1:]):
+            problems.append(f"{name}#/{pattern}: languages {sorted(texts)}, not {sorted(LANGUAGES[1:])}")
+        for language, text in texts.items():
+            if places(text) != places(pattern) or ":" in "".join(re.findall(r"\{[^}]*\}", text)):
+                problems.append(f"{name}#/{pattern}/{language}: other places than in English")
+            if numbers(text) != numbers(pattern):
+                problems.append(f"{name}#/{pattern}/{language}: other numbers than in English")
+    return problems
+
+
 def main(root: pathlib.Path) -> int:
     catalogue = json.loads((root / "templates/wording/sentences.json").read_text(encoding="utf-8"))
     problems = (
@@ -197,6 +297,7 @@ def main(root: pathlib.Path) -> int:
         + missing_keys(root)
         + unused_keys(root)
         + unknown_sentences(root, catalogue)
+        + unworded_audit(root, catalogue)
     )
     for problem in problems:
         print(problem)

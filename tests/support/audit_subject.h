@@ -77,7 +77,7 @@ inline std::string found_by(const std::vector<audit::Rule>& family, std::string_
                             const audit::AuditSubject& subject) {
     std::string all;
     for (const audit::AuditFinding& finding : findings_of(family, id, subject)) {
-        all += (all.empty() ? "" : "\n") + finding.what;
+        all += (all.empty() ? "" : "\n") + finding.what.english();
     }
     return all;
 }

@@ -19,7 +19,7 @@ TEST(Checklists, have_ids_and_contributors_that_a_row_can_be) {
         EXPECT_FALSE(checklist.source.empty()) << checklist.method;
         EXPECT_FALSE(checklist.required.empty());
         for (const RequiredContributor& required : checklist.required) {
-            EXPECT_FALSE(required.by.empty() && required.words.empty()) << required.name;
+            EXPECT_FALSE(required.by.empty() && required.words.empty()) << required.name.english();
         }
         EXPECT_EQ(checklist_of(checklist.method), &checklist);
     }
@@ -63,7 +63,7 @@ TEST(Checklists, know_the_rows_of_everyday_budgets_by_their_words) {
                 row.contributor = named.second;
                 return stands_for(row, required);
             });
-            names += there ? "" : std::string(required.name) + "; ";
+            names += there ? "" : required.name.english() + "; ";
         }
         return names;
     };

@@ -65,8 +65,8 @@ TEST(Rule, AnswersAndSaysWhatItLeftUnchecked) {
     FindingCollector collector(rule);
     collector.note("bounded");
     collector.leave_unchecked("y: a kink");
-    EXPECT_EQ(collector.notes(), std::vector<std::string>{"bounded"});
-    EXPECT_EQ(collector.unchecked(), std::vector<std::string>{"y: a kink"});
+    EXPECT_EQ(collector.notes(), std::vector<Sentence>{"bounded"});
+    EXPECT_EQ(collector.unchecked(), std::vector<Sentence>{"y: a kink"});
     EXPECT_TRUE(collector.take().empty());
 }
 

@@ -47,8 +47,8 @@ TEST(CertifiedBound, AnswersWhereNothingIsLost) {
     EXPECT_TRUE(report.not_checked.empty());
     ASSERT_EQ(report.notes.size(), 1U);
     EXPECT_EQ(report.notes.front().rule, "S19");
-    EXPECT_THAT(report.notes.front().what, HasSubstr("bounded by 8.005e-05"));
-    EXPECT_THAT(report.notes.front().what, HasSubstr("half a unit of the last digit of U is 0.0005"));
+    EXPECT_THAT(report.notes.front().what.english(), HasSubstr("bounded by 8.005e-05"));
+    EXPECT_THAT(report.notes.front().what.english(), HasSubstr("half a unit of the last digit of U is 0.0005"));
 }
 
 TEST(CertifiedBound, IsMajorWhereTheEquationCertainlyLeavesItsTangent) {
@@ -58,7 +58,7 @@ TEST(CertifiedBound, IsMajorWhereTheEquationCertainlyLeavesItsTangent) {
     const AuditReport report = bounded(subject_of_equation("y = a^2", rows));
     ASSERT_EQ(report.findings.size(), 1U);
     EXPECT_EQ(report.findings.front().severity, FindingSeverity::major);
-    EXPECT_THAT(report.findings.front().what, HasSubstr("leaves its tangent by 0.03998 at least"));
+    EXPECT_THAT(report.findings.front().what.english(), HasSubstr("leaves its tangent by 0.03998 at least"));
     EXPECT_TRUE(report.notes.empty());
 }
 
@@ -74,7 +74,7 @@ TEST(CertifiedBound, LooksAtBoundedQuantitiesWithinTheirLimits) {
     const auto evidence = [](Shape shape) {
         std::vector<AuditedRow> rows{row_of_number("a", 0.1, 0.1, shape)};
         rows[0].used_sensitivity = 0.2;
-        return bounded(subject_of_equation("y = a^2", rows)).findings.front().evidence.front();
+        return bounded(subject_of_equation("y = a^2", rows)).findings.front().evidence.front().english();
     };
     EXPECT_THAT(evidence(Shape::normal), HasSubstr("to 0.04"));
     EXPECT_THAT(evidence(Shape::rectangular), HasSubstr("to 0.03"));
@@ -87,7 +87,7 @@ TEST(CertifiedBound, SaysWhatItCannotLookAt) {
         const AuditReport report = bounded(subject_of_equation(equation, std::move(rows)));
         EXPECT_TRUE(report.findings.empty() && report.notes.empty()) << equation;
         EXPECT_EQ(report.not_checked.size(), 1U) << equation;
-        return report.not_checked.empty() ? "" : report.not_checked.front().because;
+        return report.not_checked.empty() ? "" : report.not_checked.front().because.english();
     };
     EXPECT_EQ(because("y = 1/a", {row_of_number("a", 0.1, 0.1)}), "y: \"1/a\": the divisor may be 0 there");
     EXPECT_EQ(because("y = abs(a)", {row_of_number("a", 0.1, 0.1)}), "y: \"abs(a)\": a kink may lie there");

@@ -91,7 +91,7 @@ TEST(ConformityRules, D08_follows_from_findings_on_the_same_budget) {
         std::vector<std::string> found;
         for (const AuditFinding& finding : audit(subject, rules).findings) {
             if (finding.rule == "D08") {
-                found.push_back(finding.what);
+                found.push_back(finding.what.english());
             }
         }
         return found;

@@ -215,7 +215,7 @@ TEST(CoverageRules, K01HoldsContributionsAndNuAgainstTheRows) {
     std::vector<AuditFinding> findings = findings_of("K01", subject_of(of_contributions));
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.6, 0.01), 1e-12);
-    EXPECT_NE(findings[0].evidence.back().find("twice"), std::string::npos);
+    EXPECT_NE(findings[0].evidence.back().english().find("twice"), std::string::npos);
 
     AuditedBudget budget = budget_of({row("a", 0.300, 1.0, 4.0), row("b", 0.100)});
     const double u_c = evaluate(budget).u_c, nu = evaluate(budget).nu_eff;

@@ -85,7 +85,7 @@ TEST(CriticisedBudgets, IndicatorInMeasureMode) {
     for (const AuditFinding& finding : report.findings) {
         ASSERT_TRUE(finding.effect);
         if (finding.rule == "U08") {
-            EXPECT_NE(finding.what.find("the root was taken twice"), std::string::npos);
+            EXPECT_NE(finding.what.english().find("the root was taken twice"), std::string::npos);
             expect_after(
                 claimed, finding.effect->alone,
                 {0.34132617179986274, 5.55766139011921, 2.494904616449044, 0.851576241738357, -0.1334732551848905});

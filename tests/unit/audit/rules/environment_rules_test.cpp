@@ -35,7 +35,7 @@ TEST(EnvironmentRules, E02_takes_the_recorded_range_into_the_budget) {
     EXPECT_EQ(found_by(environment_rules(), "E02", subject_at(19.6, 20.6)), "");
     const auto findings = test::findings_of(environment_rules(), "E02", subject_at(19.0, 21.0));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_THAT(findings[0].what, HasSubstr("±1 K about its middle, and the budget has ±0.5 K"));
+    EXPECT_THAT(findings[0].what.english(), HasSubstr("±1 K about its middle, and the budget has ±0.5 K"));
     AuditedBudget corrected = test::sound_budget();
     findings[0].correct(corrected);
     EXPECT_NEAR(corrected.rows[5].used_u, 0.10, 1e-12);

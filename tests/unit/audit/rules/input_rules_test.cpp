@@ -43,8 +43,9 @@ TEST(InputRules, U08ClassifiesTheDivisor) {
         ASSERT_EQ(findings.size(), 1U) << ratio;
         EXPECT_NEAR(findings[0].effect->alone.u_c, beside(0.6 / k_root_of_3), 1e-12) << ratio;
     }
-    EXPECT_NE(findings_of("U08", subject_of(limit(std::pow(3.0, -0.25), Shape::rectangular)))[0].what.find("twice"),
-              std::string::npos);
+    EXPECT_NE(
+        findings_of("U08", subject_of(limit(std::pow(3.0, -0.25), Shape::rectangular)))[0].what.english().find("twice"),
+        std::string::npos);
     EXPECT_TRUE(fires("U08", limit(1.0 / k_root_of_3, Shape::triangular)));
     AuditedRow half = limit(1.0 / std::sqrt(12.0), Shape::rectangular);
     half.comment = "\u00B1 0.6";

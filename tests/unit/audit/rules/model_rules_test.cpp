@@ -76,7 +76,7 @@ TEST(ModelRules, S02KnowsUnits) {
     EXPECT_TRUE(findings_of("S02", subject_of(budget)).empty());
     budget.rows[2].used_sensitivity = 0.115;
     ASSERT_EQ(findings_of("S02", subject_of(budget)).size(), 1U);
-    EXPECT_NE(findings_of("S02", subject_of(budget))[0].what.find("1.15"), std::string::npos);
+    EXPECT_NE(findings_of("S02", subject_of(budget))[0].what.english().find("1.15"), std::string::npos);
     // Units that do not balance say nothing about numbers.
     budget.rows[2].unit = "mm";
     EXPECT_TRUE(findings_of("S02", subject_of(budget)).empty());
@@ -91,7 +91,7 @@ TEST(ModelRules, S03ComparesNames) {
     incomplete.equation = "y = a + b + c";
     const std::vector<AuditFinding> findings = findings_of("S03", subject_of(incomplete));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_NE(findings[0].what.find("has c"), std::string::npos);
+    EXPECT_NE(findings[0].what.english().find("has c"), std::string::npos);
     EXPECT_TRUE(findings[0].missing_term);
     AuditedBudget extra = complete;
     extra.rows[2].quantity = "d";
@@ -249,7 +249,7 @@ TEST(ModelRules, S15FindsSlipsOfAPowerOfTen) {
     steel.estimate = test::printed("11.5e-5");
     const std::vector<AuditFinding> findings = findings_of("S15", subject_of(steel));
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_NE(findings[0].evidence[1].find("10^-1"), std::string::npos);
+    EXPECT_NE(findings[0].evidence[1].english().find("10^-1"), std::string::npos);
     steel.unit = "um/m/K";
     steel.estimate = test::printed("11.5");
     EXPECT_TRUE(findings_of("S15", subject_of(steel)).empty());

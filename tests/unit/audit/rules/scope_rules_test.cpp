@@ -52,7 +52,7 @@ TEST(ScopeRules, X03_and_X07_tell_a_copied_capability_from_a_floor) {
     const auto findings = test::findings_of(scope_rules(), "X07", subject_with({floor, floor}));
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].severity, FindingSeverity::information);
-    EXPECT_THAT(findings[0].evidence[0], HasSubstr("k·u_c/CMC = 0.997"));
+    EXPECT_THAT(findings[0].evidence[0].english(), HasSubstr("k·u_c/CMC = 0.997"));
     EXPECT_EQ(found_by(scope_rules(), "X03", subject_with({copied})), "");  // one point shows nothing
 }
 

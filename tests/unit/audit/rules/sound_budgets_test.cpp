@@ -147,12 +147,12 @@ TEST(SoundBudgets, AreNeverAccusedOfAnythingCritical) {
         EXPECT_EQ(budget.U_over_k_u_c, 1.0) << "budget " << i;
         for (const AuditFinding& finding : report.findings) {
             EXPECT_NE(finding.severity, FindingSeverity::critical)
-                << "budget " << i << ": " << finding.rule << " " << finding.where << ": " << finding.what;
+                << "budget " << i << ": " << finding.rule << " " << finding.where << ": " << finding.what.english();
             // Beyond what is worth knowing, only dominance and the GUM's own choice may be remarked.
             const bool remark = finding.rule == "U02" || finding.rule == "K04" || finding.rule == "K05" ||
                                 finding.rule == "K06" || finding.rule == "K11";
             EXPECT_TRUE(remark) << "budget " << i << ": " << finding.rule << " " << finding.where << ": "
-                                << finding.what;
+                                << finding.what.english();
         }
     }
 }
@@ -260,7 +260,7 @@ TEST(SoundBudgets, ShowPlantedErrorsWithTheirEffects) {
         for (const AuditFinding& finding : report.findings) {
             const bool remark = finding.rule == error.rule || finding.rule == "U02" || finding.rule == "K04" ||
                                 finding.rule == "K05" || finding.rule == "K06" || finding.rule == "K11";
-            EXPECT_TRUE(remark) << error.rule << " is also seen by " << finding.rule << ": " << finding.what;
+            EXPECT_TRUE(remark) << error.rule << " is also seen by " << finding.rule << ": " << finding.what.english();
         }
     }
     EXPECT_EQ(planted, 150);

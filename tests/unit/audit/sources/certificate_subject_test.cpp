@@ -159,7 +159,7 @@ TEST(SubjectOfCertificate, AsksForARuleAndSaysWhatItCannotDecide) {
         subject_of_text(document(stated, "<dcc:conformity>pass</dcc:conformity>", rule_statement("As agreed.")));
     EXPECT_FALSE(finds(words, "D01"));
     ASSERT_EQ(words.not_read.size(), 1U);
-    EXPECT_NE(words.not_read.front().find("was not decided again"), std::string::npos);
+    EXPECT_NE(words.not_read.front().english().find("was not decided again"), std::string::npos);
 }
 
 TEST(SubjectOfCertificate, TakesChecksOfTheDocument) {
@@ -239,7 +239,7 @@ TEST(SubjectOfCertificate, SeesPersonsAndSaysWhichTextsItDoesNotRead) {
     EXPECT_FALSE(finds(sound, "P04"));
     EXPECT_FALSE(finds(sound, "R07"));
     EXPECT_EQ(sound.not_read,
-              std::vector<std::string>{"statements in words were not read: basic_recalibration, gumcert_opinion"});
+              std::vector<Sentence>{"statements in words were not read: basic_recalibration, gumcert_opinion"});
     EXPECT_TRUE(finds(with_persons(person("A. N.", "calibration") + person("A.N.", "review")), "P04"));
     EXPECT_TRUE(finds(with_persons(person("A. N.", "") + person("B. M.", "")), "R07")) << "who authorised it?";
     EXPECT_FALSE(finds(with_persons(person("A. N.", "")), "R07")) << "the only one";

@@ -105,8 +105,10 @@ TEST(BudgetsIn, SaysWhatCouldNotBeRead) {
         "a,um,see annex,1\n"
         "b,um,0.2,1\n");
     ASSERT_EQ(tables.not_read.size(), 1U);
-    EXPECT_NE(tables.not_read.front().find("\"see annex\""), std::string::npos) << tables.not_read.front();
-    EXPECT_NE(tables.not_read.front().find("budget!C2"), std::string::npos) << tables.not_read.front();
+    EXPECT_NE(tables.not_read.front().english().find("\"see annex\""), std::string::npos)
+        << tables.not_read.front().english();
+    EXPECT_NE(tables.not_read.front().english().find("budget!C2"), std::string::npos)
+        << tables.not_read.front().english();
 
     const ForeignTables none = tables_of("date,operator\n2026-01-01,A\n");
     EXPECT_TRUE(none.budgets.empty());
@@ -148,7 +150,7 @@ TEST(BudgetsIn, AsksForACoverageProbabilityThatCannotBe) {
     ASSERT_EQ(tables.budgets.size(), 1U);
     EXPECT_FALSE(tables.budgets[0].claims.coverage_probability);
     ASSERT_EQ(tables.not_read.size(), 1U);
-    EXPECT_NE(tables.not_read[0].find("coverage probability of 9.5"), std::string::npos);
+    EXPECT_NE(tables.not_read[0].english().find("coverage probability of 9.5"), std::string::npos);
 }
 
 /// A part of a table gives another u_c than the table: it is read whole, or not, and then that is said.
@@ -168,7 +170,7 @@ TEST(BudgetsIn, SaysWhereATableIsTooLong) {
     ASSERT_EQ(too_long.budgets.size(), 1U) << "the next table is read";
     EXPECT_EQ(too_long.budgets.front().rows.size(), 2U);
     ASSERT_EQ(too_long.not_read.size(), 1U);
-    EXPECT_NE(too_long.not_read.front().find("2000 rows"), std::string::npos);
+    EXPECT_NE(too_long.not_read.front().english().find("2000 rows"), std::string::npos);
 }
 
 TEST(BudgetsIn, SaysWhereTablesAreTooMany) {
@@ -179,7 +181,7 @@ TEST(BudgetsIn, SaysWhereTablesAreTooMany) {
     const ForeignTables tables = tables_of(csv);
     EXPECT_EQ(tables.budgets.size(), 10'000U);
     ASSERT_EQ(tables.not_read.size(), 1U);
-    EXPECT_NE(tables.not_read.front().find("what follows is not looked at"), std::string::npos);
+    EXPECT_NE(tables.not_read.front().english().find("what follows is not looked at"), std::string::npos);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::string terminal_text(const std::vector<audit::AuditReport>& reports, const 
                           bool verbose = false) {
     RenderAssets in = assets();
     in.languages = {language};
-    const Wording wording = read_wording(in);
+    const Wording wording = read_audit_wording(in);
     return audit_as_text(make_audit_view(reports, test::sample_rules(), {.program = "gumcert 0.1.0"}), wording,
                          verbose);
 }

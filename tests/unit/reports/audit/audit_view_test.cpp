@@ -255,7 +255,7 @@ TEST(AuditViewOfHostileNames, TakesNoHiddenCharacterOver) {
         EXPECT_EQ(file.results[0].name, printable(hostile));
         EXPECT_TRUE(std::any_of(file.results[0].rows.begin(), file.results[0].rows.end(),
                                 [&](const AuditedRowView& row) { return row.quantity == printable(hostile); }));
-        EXPECT_EQ(file.findings[0].what, printable(file.findings[0].what));
+        EXPECT_EQ(file.findings[0].what.english(), printable(file.findings[0].what.english()));
         EXPECT_EQ(file.findings[0].where, printable(file.findings[0].where));
     }
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "audit/checklists.h"
 #include "audit/rules/registry.h"
 #include "reports/forms/asset_files.h"
 #include "tests/unit/reports/document_text.h"
@@ -21,7 +22,7 @@ protected:
     AuditWords in(const std::string& language) {
         RenderAssets from = assets();
         from.languages = {language};
-        wording_ = std::make_unique<Wording>(read_wording(from));
+        wording_ = std::make_unique<Wording>(read_audit_wording(from));
         return AuditWords(*wording_);
     }
 
@@ -92,6 +93,67 @@ TEST_F(AuditWordsIn, WordWhatAFindingSaysInPlaceOfItsRule) {
                                 "Which exponent does the data sheet of the machine state, and in which unit is L?",
                                 "Is the age of the calibration meant in days, months or years?"}) {
             EXPECT_FALSE(words.sentence(own).english) << language << ": " << own;
+        }
+    }
+}
+
+TEST_F(AuditWordsIn, SayASentenceByItsPattern) {
+    const audit::Sentence said = audit::say("{done}; the certificate states k = {k:number}",
+                                            audit::say("U is divided by {divisor:number}", "1.732"), "2.5");
+    EXPECT_EQ(in("en").said(said).text, "U is divided by 1.732; the certificate states k = 2.5");
+    EXPECT_EQ(in("de").said(said).text, "U ist durch 1,732 geteilt; der Kalibrierschein gibt k = 2,5 an");
+    EXPECT_EQ(in("es").said(said).text, "U se divide por 1,732; el certificado declara k = 2,5");
+    EXPECT_EQ(in("zh-Hant").said(said).text, "U 除以 1.732；校正報告載明 k = 2.5");
+    EXPECT_FALSE(in("zh-Hant").said(said).english);
+}
+
+TEST_F(AuditWordsIn, ShowNumbersOfASentenceAsTheLanguageDoes) {
+    EXPECT_EQ(in("de").said(audit::equals("ν", "infinite")).text, "ν = ∞");
+    EXPECT_EQ(in("de").said(audit::equals("c", "-0.5 µm/K")).text, "c = −0,5 µm/K");
+    EXPECT_EQ(in("en").said(audit::equals("ν", "infinite")).text, "ν = infinite");
+    EXPECT_EQ(in("de").said(audit::say("source {name}", "version 1.2")).text, "Quelle version 1.2")
+        << "a name is no number";
+}
+
+TEST_F(AuditWordsIn, SayItInEnglishAsAWholeWhereAPartHasNoTranslation) {
+    const audit::Sentence unknown("no such pattern {a}", {audit::Sentence("x")});
+    for (const audit::Sentence& sentence :
+         {unknown, audit::say("{said}, ν = {nu:number}", unknown, "4.5"),
+          audit::say("{cell}: not evaluated here ({reason:sentence}); the value that the file stored is taken", "B2",
+                     "for a reason of its own")}) {
+        const AuditSentence german = in("de").said(sentence);
+        EXPECT_TRUE(german.english);
+        EXPECT_EQ(german.text, sentence.english());
+        EXPECT_FALSE(in("en").said(sentence).english);
+    }
+    EXPECT_EQ(
+        in("de")
+            .said(audit::say("{cell}: not evaluated here ({reason:sentence}); the value that the file stored is taken",
+                             "B2", "a circular reference"))
+            .text,
+        "B2: hier nicht ausgewertet (ein Zirkelbezug); es gilt der Wert, den die Datei gespeichert hat");
+}
+
+TEST_F(AuditWordsIn, SayWhatGatesFoundByTheCatalogueOfTheProgram) {
+    const AuditSentence said = in("de").said(audit::say("{finding:sentence}", "Let another person review."));
+    EXPECT_EQ(said.text, "Lassen Sie eine andere Person prüfen.");
+    EXPECT_FALSE(said.english);
+    const AuditSentence name = in("de").said(audit::Sentence("=A1/12"));
+    EXPECT_EQ(name.text, "=A1/12");
+    EXPECT_FALSE(name.english) << "a text without a pattern is no English sentence";
+}
+
+TEST_F(AuditWordsIn, NameEveryContributorOfTheChecklists) {
+    for (const char* language : {"de", "es", "zh-Hant"}) {
+        const AuditWords words = in(language);
+        for (const audit::MethodChecklist& checklist : audit::method_checklists()) {
+            EXPECT_FALSE(words.said(checklist.title).english) << checklist.method;
+            for (const audit::RequiredContributor& required : checklist.required) {
+                EXPECT_FALSE(words.said(required.name).english) << required.name.english();
+            }
+        }
+        for (const audit::RequiredContributor& required : audit::minimum_contributors()) {
+            EXPECT_FALSE(words.said(required.name).english) << required.name.english();
         }
     }
 }
@@ -187,8 +249,11 @@ TEST_F(AuditWordsIn, NameCoverageAndMethod) {
     EXPECT_EQ(words.method(file, result), "not stated");
     result.method = "micrometer";
     EXPECT_EQ(words.method(file, result), "micrometer");
+    result.method = "Digital multimeter";
+    EXPECT_EQ(words.method(file, result), "Digital multimeter");
     file.method = "QM-7 (3)";
     EXPECT_EQ(words.method(file, result), "QM-7 (3)");
+    EXPECT_EQ(in("de").method({}, result), "Digitalmultimeter");
 }
 
 TEST(Enumerated, SeparatesBySemicolons) {
