@@ -76,7 +76,7 @@ bool StatementReader::read_observations() {
     for (const double observation : *observations) {
         quantity_.observations.push_back(to_si(observation));
     }
-    quantity_.observation_decimals = keys_.decimals_in_table("observations");
+    quantity_.observation_decimals = keys_.decimals_as_written("observations");
     const double s = pooled_s.value_or(moments.standard_deviation);
     const double u = gum::u_of_mean(std::isfinite(s) ? s : 0.0, observations->size());
     if (pooled_s) {
