@@ -3,7 +3,6 @@
 #include "text/visible_text.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace gumcert::jobs {
@@ -152,17 +151,16 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
 }
 
 std::vector<std::string> keys_in_order(const JsonDocument& document, const std::string& pointer) {
-    std::vector<std::tuple<std::size_t, std::size_t, std::string>> keys;
+    std::vector<std::pair<std::size_t, std::string>> keys;
     for (const auto& [key, value] : document.value.at(nlohmann::json::json_pointer(pointer)).items()) {
         const auto place = document.places.find(child_pointer(pointer, key));
-        const text::Place at = place == document.places.end() ? text::Place{} : place->second;
-        keys.emplace_back(at.line, at.column, key);
+        keys.emplace_back(place == document.places.end() ? 0 : place->second.offset, key);
     }
     std::sort(keys.begin(), keys.end());
     std::vector<std::string> names;
     names.reserve(keys.size());
     for (auto& key : keys) {
-        names.push_back(std::move(std::get<2>(key)));
+        names.push_back(std::move(key.second));
     }
     return names;
 }

@@ -259,9 +259,12 @@ std::optional<std::vector<double>> StatementKeys::numbers(std::string_view key) 
     return numbers.size() == elements->size() ? std::optional{std::move(numbers)} : std::nullopt;
 }
 
-int StatementKeys::decimals_in_table(std::string_view key) const {
+int StatementKeys::decimals_as_written(std::string_view key) const {
     const Entry* entry = find(key);
-    return entry == nullptr ? 0 : entry->decimals;
+    if (entry == nullptr) {
+        return 0;
+    }
+    return entry->origin->document == nullptr ? entry->decimals : document(key).decimals_as_written(pointer(key));
 }
 
 const json* StatementKeys::array(std::string_view key) const {

@@ -54,8 +54,8 @@ public:
     /// Degrees of freedom: a number above 0 or "inf".
     [[nodiscard]] std::optional<double> degrees_of_freedom(std::string_view key) const;
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key) const;
-    /// The most decimals with which one of the numbers under a key is written, where they stand in a table; else 0.
-    [[nodiscard]] int decimals_in_table(std::string_view key) const;
+    /// The most decimals with which one of the numbers under a key is written, in the document or in a table.
+    [[nodiscard]] int decimals_as_written(std::string_view key) const;
     /// An object or an array of the document under a key; refused when it is something else.
     [[nodiscard]] std::optional<JsonObject> object(std::string_view key, std::span<const std::string_view> keys) const;
     [[nodiscard]] const nlohmann::json* array(std::string_view key) const;

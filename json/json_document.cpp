@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
+#include "json/json_pointer.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -24,17 +26,21 @@ std::string JsonDocument::number_as_written(const std::string& pointer) const {
     if (place == places.end()) {
         return "";
     }
-    std::size_t line_start = 0;
-    for (std::size_t line = 1; line < place->second.line; ++line) {
-        line_start = text.find('\n', line_start) + 1;
-    }
-    std::size_t begin = line_start;
-    text::PlaceFinder finder(std::string_view{text}.substr(line_start));
-    while (finder.at(begin - line_start).column < place->second.column && begin < text.size()) {
-        ++begin;
-    }
+    const std::size_t begin = std::min(place->second.offset, text.size());
     const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE", begin), text.size());
     return text.substr(begin, end - begin);
+}
+
+int JsonDocument::decimals_as_written(const std::string& pointer) const {
+    std::vector<std::string> numbers{number_as_written(pointer)};
+    if (numbers.front().empty()) {
+        numbers.front() = number_as_written(child_pointer(pointer, 0));
+        while (!numbers.back().empty()) {
+            numbers.push_back(number_as_written(child_pointer(pointer, numbers.size())));
+        }
+        numbers.pop_back();
+    }
+    return text::most_decimals(numbers);
 }
 
 std::string described(const nlohmann::json& value) {

@@ -21,9 +21,12 @@ struct JsonDocument {
     /// Its values come from a table: a message names the cell, and not the pointer, which no reader of the table knows.
     bool is_table = false;
 
-    /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there. One pass of the
-    /// text.
+    /// A number as the text has it, "0.50"; "" where the pointer has no place, or none stands there.
     [[nodiscard]] std::string number_as_written(const std::string& pointer) const;
+
+    /// The most decimals of a number, or of those of an array, as the text has them (text::most_decimals): [1.0, 2.50]
+    /// has 2. 0 where something else stands there.
+    [[nodiscard]] int decimals_as_written(const std::string& pointer) const;
 };
 
 /// A JSON value in a few words for a message: `"axis_line"`, `-2.5`, `an object`.

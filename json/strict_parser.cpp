@@ -126,7 +126,7 @@ private:
         constexpr std::size_t k_pointer_bytes = std::size_t{64} << 20U;
         if (places_ != nullptr && pointer_.size() <= k_pointer_bytes - pointer_bytes_) {
             pointer_bytes_ += pointer_.size();
-            places_->emplace(pointer_, finder_.at(offset_));
+            places_->emplace(pointer_, ValuePlace{finder_.at(offset_), offset_});
         }
         const char c = here();
         if (c == '{' || c == '[') {

@@ -54,8 +54,15 @@ struct ParserOptions {
     bool long_integers = false;
 };
 
+/// Where a value begins.
+struct ValuePlace : text::Place {
+    std::size_t offset = 0;  ///< [byte] in the text
+
+    friend bool operator==(const ValuePlace&, const ValuePlace&) = default;
+};
+
 /// JSON pointer (RFC 6901) → first character of the value.
-using Places = std::unordered_map<std::string, text::Place>;
+using Places = std::unordered_map<std::string, ValuePlace>;
 
 /// Reads a text strictly as JSON: UTF-8 only, no duplicate keys, no NaN, no numbers that double precision cannot hold,
 /// no integer that it would change, no NUL.

@@ -1,5 +1,6 @@
 #include "text/numbers.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -20,6 +21,21 @@ std::string written(double value, Form... form) {
     return {buffer.data(), end};
 }
 
+/// Nobody writes more: the others are traces of a conversion, 0.30000000000000004.
+constexpr int k_digits_of_a_person = 15;
+
+double value_of(const std::string& number) {
+    double value = 0.0;
+    std::from_chars(number.data(), number.data() + number.size(), value);
+    return value;
+}
+
+/// Significant digits of a number without an exponent.
+int digits_of(const std::string& number) {
+    const auto first = std::find_if(number.begin(), number.end(), [](char c) { return c >= '1' && c <= '9'; });
+    return static_cast<int>(std::count_if(first, number.end(), [](char c) { return c >= '0' && c <= '9'; }));
+}
+
 }  // namespace
 
 std::string shortest(double value) {
@@ -37,6 +53,22 @@ std::string significant(double value, int digits) {
 
 std::string fixed(double value, int decimals) {
     return written(value, std::chars_format::fixed, decimals);
+}
+
+int most_decimals(std::span<const std::string> numbers) {
+    int most = 0;
+    for (const std::string& number : numbers) {
+        std::string plain = number;
+        if (number.find_first_of("eE") != std::string::npos || digits_of(number) > k_digits_of_a_person) {
+            plain = shortest_plain(value_of(significant(value_of(number), k_digits_of_a_person)));
+        }
+        if (plain.find('e') != std::string::npos) {
+            return 0;
+        }
+        const std::size_t point = plain.find('.');
+        most = std::max(most, point == std::string::npos ? 0 : static_cast<int>(plain.size() - point - 1));
+    }
+    return most;
 }
 
 std::string without_trailing_zeros(std::string number) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 namespace gumcert::text {
@@ -17,6 +18,11 @@ namespace gumcert::text {
 [[nodiscard]] std::string significant(double value, int digits);
 /// `decimals` digits behind the point: "1.50".
 [[nodiscard]] std::string fixed(double value, int decimals);
+
+/// The most decimals with which one of some numbers is written: "1.50" has 2, "7" has 0. One with an exponent has those of its
+/// shortest text without, "1.5e-3" 4, and one with more digits than a person writes those of 15 digits. 0 where a number is
+/// too small or large for that, or there is none.
+[[nodiscard]] int most_decimals(std::span<const std::string> numbers);
 
 /// "1.50" as "1.5", "2.0" as "2"; a text without a point, or with an exponent, as it is.
 [[nodiscard]] std::string without_trailing_zeros(std::string number);

@@ -60,6 +60,8 @@ struct BudgetFit {
     Eigen::VectorXd y;              ///< n, coherent SI
     Eigen::MatrixXd y_uncertainty;  ///< empty, n×1 standard uncertainties or n×n covariance, coherent SI
     Eigen::MatrixXd x_uncertainty;  ///< the same of the only regressor
+    /// With which the data are written: of each regressor, then of the ordinate; empty where nobody knows.
+    std::vector<int> decimals = {};
     bool scale_by_residuals = false;
     std::string where;
 };

@@ -477,7 +477,7 @@ std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::option
 
 }  // namespace
 
-BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
+BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector<InputSymbol>& symbols,
                          std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities,
                          std::vector<std::size_t> results)
     : system_(std::move(system)),
@@ -599,14 +599,14 @@ void BudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Ei
     }
 }
 
-std::vector<BudgetSymbol> budget_symbols(const Budget& budget) {
-    std::vector<BudgetSymbol> symbols;
+std::vector<InputSymbol> budget_symbols(const Budget& budget) {
+    std::vector<InputSymbol> symbols;
     for (const BudgetInput& input : budget.inputs) {
-        symbols.push_back({input.name, input.unit});
+        symbols.push_back({input.name, input.unit, std::nullopt});
     }
     for (const BudgetFit& fit : budget.fits) {
         for (const BudgetFit::Parameter& parameter : fit.parameters) {
-            symbols.push_back({parameter.name, parameter.unit});
+            symbols.push_back({parameter.name, parameter.unit, std::nullopt});
         }
     }
     return symbols;

@@ -15,12 +15,6 @@
 
 namespace gumcert::gum {
 
-/// What the symbols of a model stand for: the inputs of the budget, then the parameters of its fits.
-struct BudgetSymbol {
-    std::string name;
-    Unit unit;
-};
-
 /// One quantity that the law of propagation and Monte Carlo treat as one: a component of an input, or a parameter of a
 /// fit.
 struct BudgetQuantity {
@@ -35,7 +29,7 @@ public:
     /// \param system      nothing: the symbols themselves are the outputs
     /// \param quantities  one for each quantity of the groups, in their order
     /// \param results     without a system: the symbols that are the outputs; empty: all
-    BudgetModel(std::optional<EquationSystem> system, const std::vector<BudgetSymbol>& symbols,
+    BudgetModel(std::optional<EquationSystem> system, const std::vector<InputSymbol>& symbols,
                 std::vector<InputGroup> groups, std::vector<BudgetQuantity> quantities,
                 std::vector<std::size_t> results = {});
 
@@ -78,8 +72,9 @@ struct BudgetInputs {
     std::vector<Diagnostic> notes;       ///< choices that a person should know of
 };
 
-/// Symbols of a budget, in the order of its inputs and fits.
-[[nodiscard]] std::vector<BudgetSymbol> budget_symbols(const Budget& budget);
+/// What the symbols of a model stand for: the inputs of the budget, then the parameters of its fits; none is a constant
+/// here.
+[[nodiscard]] std::vector<InputSymbol> budget_symbols(const Budget& budget);
 
 /// Puts the components of the inputs into groups: those of inputs tied by correlations form one, and those with samples
 /// of one file; every other component is one of its own. An input that is one statement counts as one component.

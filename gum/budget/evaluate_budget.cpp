@@ -377,7 +377,7 @@ BudgetPointResult evaluate_point(const Part& part, std::optional<std::size_t> at
 }
 
 /// What the equations give, or the symbols themselves: of a section those that it asks for.
-void set_outputs(const std::vector<BudgetSymbol>& symbols, Part& part) {
+void set_outputs(const std::vector<InputSymbol>& symbols, Part& part) {
     const auto add = [&](const std::string& name, const Unit& unit) {
         BudgetOutputResult& output = part.outputs.emplace_back();
         output.name = name;

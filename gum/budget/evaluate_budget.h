@@ -61,7 +61,7 @@ struct BudgetPointResult {
 };
 
 struct BudgetResult {
-    std::vector<BudgetSymbol> symbols;
+    std::vector<InputSymbol> symbols;
     std::vector<engine::CurveFit> fits;
     std::vector<BudgetPointResult> points;  ///< one without a table of points; those of all sections in their order
     std::vector<Diagnostic> notes;

@@ -99,7 +99,7 @@ std::string reason_in_words(const std::string& reason) {
 }
 
 PointPropagation propagate_where_possible(const Budget& budget, const std::optional<EquationSystem>& system,
-                                          const BudgetModel& model, const std::vector<BudgetSymbol>& symbols) {
+                                          const BudgetModel& model, const std::vector<InputSymbol>& symbols) {
     try {
         return {.propagation = propagate(model, budget.coverage_probability), .without_derivative = {}};
     } catch (const NoResultError& refused) {

@@ -34,7 +34,7 @@ struct PointPropagation {
 [[nodiscard]] PointPropagation propagate_where_possible(const Budget& budget,
                                                         const std::optional<EquationSystem>& system,
                                                         const BudgetModel& model,
-                                                        const std::vector<BudgetSymbol>& symbols);
+                                                        const std::vector<InputSymbol>& symbols);
 
 /// What speaks against the law of propagation before any trial is drawn, one reason an output; "" where nothing does.
 /// \param linear_model  every output is an affine function of all inputs

@@ -43,7 +43,7 @@ std::set<std::string> names_behind(const Budget& budget, const std::string& outp
 
 bool is_exact_by_definition(const Budget& budget, const BudgetPointResult& point, const std::string& output) {
     const std::set<std::string> names = names_behind(budget, output);
-    const std::vector<BudgetSymbol> symbols = budget_symbols(budget);
+    const std::vector<InputSymbol> symbols = budget_symbols(budget);
     std::size_t quantity = 0;
     for (const InputGroup& group : point.model->inputs()) {
         for (Eigen::Index i = 0; i < group.size(); ++i, ++quantity) {

@@ -264,6 +264,7 @@ private:
             }
             const json* array = data.optional_array(columns_[i]);
             is_read = array != nullptr && numbers(*array, data.pointer(columns_[i]), values[i]) && is_read;
+            fit_.decimals.push_back(document_.decimals_as_written(data.pointer(columns_[i])));
         }
         return is_read;
     }
@@ -296,11 +297,16 @@ private:
         }
         bool is_read = table->is_complete();
         for (std::size_t column = 0; column < values.size(); ++column) {
+            std::vector<std::string> written;
             for (std::size_t row = 0; table->has_column(column) && row < table->rows(); ++row) {
                 const auto number =
                     table->number(row, column, column < columns_.size() ? NumberRange{} : above_zero(""));
                 is_read = is_read && number;
                 values[column].push_back(number.value_or(0.0));
+                written.push_back(table->number_text(row, column));
+            }
+            if (column < columns_.size()) {
+                fit_.decimals.push_back(text::most_decimals(written));
             }
         }
         return is_read;

@@ -53,12 +53,6 @@ std::string plain_text(const std::string& written, double value) {
     return written.find_first_not_of("0123456789.-") == std::string::npos ? written : text::shortest_plain(value);
 }
 
-/// Decimals of a number as it was written.
-int decimals_as_written(const std::string& plain) {
-    const std::size_t point = plain.find('.');
-    return point == std::string::npos ? 0 : static_cast<int>(plain.size() - point - 1);
-}
-
 std::string small_letters(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
@@ -875,20 +869,15 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
             }
             const StatementKeys& base = *stated_[*index].keys;
             if (value.is_number()) {
-                note_decimals(*index, job.points.size(),
-                              decimals_as_written(text::shortest_plain(value.get<double>())));
+                note_decimals(*index, job.points.size(), document_.decimals_as_written(at));
                 overrides.emplace(*index, base.with("value", value.get<double>(), document_, at, problems_));
                 ++stated_[*index].overridden["value"];
             } else if (value.is_object()) {
                 const JsonObject object(document_, at, keys_of<OverrideStatement>(), problems_);
                 if (const json* readings = object.find("observations"); readings != nullptr && readings->is_array()) {
-                    int most = 0;
-                    for (const json& reading : *readings) {
-                        most = std::max(most, reading.is_number()
-                                                  ? decimals_as_written(text::shortest_plain(reading.get<double>()))
-                                                  : 0);
-                    }
-                    note_decimals(*index, job.points.size(), most + (readings->size() > 1 ? 1 : 0));
+                    note_decimals(
+                        *index, job.points.size(),
+                        document_.decimals_as_written(object.pointer("observations")) + (readings->size() > 1 ? 1 : 0));
                 }
                 const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
                 overrides.emplace(*index, base.with(own));
@@ -1044,7 +1033,8 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
                 continue;
             }
             if (const auto number = table->number(row, c, {})) {
-                const int decimals = decimals_as_written(plain_text(table->number_text(row, c), *number));
+                const std::string written = table->number_text(row, c);
+                const int decimals = text::most_decimals({&written, 1});
                 if (column.is_reading) {
                     FileReadings& of_input = readings[*column.input];
                     of_input.first = of_input.numbers.empty() ? c : of_input.first;

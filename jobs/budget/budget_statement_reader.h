@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gum/coverage.h"
+#include "gum/type_a.h"
 #include "jobs/budget/budget_statement.h"
 #include "jobs/budget/budget_statement_fields.h"
 #include "text/numbers.h"
@@ -165,6 +166,9 @@ private:
 
     bool set_type_a(std::string_view key, double u, double nu);
 
+    /// Mean and scatter of readings, at least one; refused where they are too large for a result.
+    [[nodiscard]] std::optional<gum::ObservationSummary> summary_of(std::string_view key,
+                                                                    const std::vector<double>& readings) const;
     bool count_fits(std::string_view key, std::size_t count, std::size_t least, const std::string& rule) const;
 
     /// Readings in groups, valid with or without an effect between the groups: u = s(x̄_j)/√J with J − 1 degrees of

@@ -21,34 +21,25 @@ using gum::Distribution;
 using gum::DistributionKind;
 using nlohmann::json;
 
-struct SampleMoments {
-    double mean = 0.0;
-    double standard_deviation = 0.0;  ///< divisor n − 1
-};
-
-/// Arithmetic mean and experimental standard deviation (JCGM 100:2008, 4.2.1 and 4.2.2), n ≥ 1.
-SampleMoments sample_moments(const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    // Deviations from the first value keep the digits of readings that differ little.
-    double sum = 0.0;
-    for (const double value : values) {
-        sum += value - values.front();
-    }
-    const double mean_deviation = sum / n;
-    double squares = 0.0;
-    double rest = 0.0;  // what rounding leaves of a sum that is 0 by definition
-    for (const double value : values) {
-        const double deviation = (value - values.front()) - mean_deviation;
-        squares += deviation * deviation;
-        rest += deviation;
-    }
-    const double s = values.size() > 1 ? std::sqrt(std::max(0.0, squares - rest * rest / n) / (n - 1.0)) : 0.0;
-    return {values.front() + (mean_deviation + rest / n), s};
-}
-
 }  // namespace
 
 // ---- Type A -----------------------------------------------------------------------------------------------------
+
+std::optional<gum::ObservationSummary> StatementReader::summary_of(std::string_view key,
+                                                                   const std::vector<double>& readings) const {
+    if (readings.size() == 1) {
+        return gum::ObservationSummary{.observations = 1, .mean = readings.front()};
+    }
+    try {
+        return gum::evaluate_type_a(readings);
+    } catch (const gum::NoResultError& error) {
+        for (const gum::Diagnostic& found : error.diagnostics()) {
+            keys_.refuse(k_number_out_of_range, key, found.what, found.rule,
+                         "state the values in a unit nearer to their size");
+        }
+        return std::nullopt;
+    }
+}
 
 bool StatementReader::read_observations() {
     const auto observations = keys_.numbers("observations");
@@ -71,14 +62,16 @@ bool StatementReader::read_observations() {
                                               : "a standard deviation needs at least 2 observations")) {
         return false;
     }
-    const SampleMoments moments = sample_moments(*observations);
-    set_value(moments.mean);
+    const auto summary = summary_of("observations", *observations);
+    if (!summary) {
+        return false;
+    }
+    set_value(summary->mean);
     for (const double observation : *observations) {
         quantity_.observations.push_back(to_si(observation));
     }
-    quantity_.observation_decimals = keys_.decimals_in_table("observations");
-    const double s = pooled_s.value_or(moments.standard_deviation);
-    const double u = gum::u_of_mean(std::isfinite(s) ? s : 0.0, observations->size());
+    quantity_.observation_decimals = keys_.decimals_as_written("observations");
+    const double u = pooled_s ? gum::u_of_mean(*pooled_s, observations->size()) : summary->standard_deviation_of_mean;
     if (pooled_s) {
         quantity_.pooled_standard_deviation = difference_to_si(*pooled_s);
     }
@@ -127,11 +120,11 @@ bool StatementReader::read_groups() {
     if (!is_read || !count_fits("groups", groups.means.size(), 2, "an evaluation of groups needs at least 2 groups")) {
         return false;
     }
-    const SampleMoments moments = sample_moments(groups.means);
-    set_value(moments.mean);
-    const double u = gum::u_of_mean(std::isfinite(moments.standard_deviation) ? moments.standard_deviation : 0.0,
-                                    groups.means.size());
-    const double nu = static_cast<double>(groups.means.size()) - 1.0;
+    const auto summary = summary_of("groups", groups.means);
+    if (!summary) {
+        return false;
+    }
+    set_value(summary->mean);
     for (std::vector<double>& group : groups.readings) {
         std::transform(group.begin(), group.end(), group.begin(), [&](double x) { return to_si(x); });
     }
@@ -139,7 +132,7 @@ bool StatementReader::read_groups() {
     std::transform(groups.standard_deviations.begin(), groups.standard_deviations.end(),
                    groups.standard_deviations.begin(), [&](double s) { return difference_to_si(s); });
     quantity_.groups = std::move(groups);
-    return set_type_a("groups", u, nu);
+    return set_type_a("groups", summary->standard_deviation_of_mean, summary->degrees_of_freedom);
 }
 
 bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
@@ -172,9 +165,12 @@ bool StatementReader::read_lists_of(gum::GroupedReadings& groups) const {
             fits = false;
             continue;
         }
-        const SampleMoments moments = sample_moments(readings);
-        groups.means.push_back(moments.mean);
-        groups.standard_deviations.push_back(moments.standard_deviation);
+        const auto summary = summary_of("groups", readings);
+        if (!summary) {
+            return false;
+        }
+        groups.means.push_back(summary->mean);
+        groups.standard_deviations.push_back(summary->standard_deviation);
         groups.sizes.push_back(readings.size());
         groups.readings.push_back(std::move(readings));
     }
@@ -254,12 +250,15 @@ bool StatementReader::read_samples() {
     // u of n samples is known as well as that of n observations              (JCGM 100:2008, G.3.3: ν = n − 1)
     quantity_.degrees_of_freedom = static_cast<double>(samples->size()) - 1.0;
     std::sort(samples->begin(), samples->end());
-    const double mean = sample_moments(*samples).mean;
+    const auto summary = summary_of("samples", *samples);
+    if (!summary) {
+        return false;
+    }
     quantity_.distribution = {.kind = DistributionKind::empirical,
                               .location = 0.0,
                               .scale = 1.0,
                               .samples = std::make_shared<const std::vector<double>>(std::move(*samples))};
-    set_value_in_si(mean);
+    set_value_in_si(summary->mean);
     quantity_.u = gum::standard_deviation(quantity_.distribution);
     if (quantity_.u == 0.0) {
         keys_.refuse(k_no_uncertainty, "samples", "all samples are equal: u would be 0", "a distribution has a width",

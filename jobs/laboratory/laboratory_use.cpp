@@ -340,7 +340,7 @@ void LaboratoryUse::fill_row(const JsonDocument& job, const CsvTable& table, std
         if (cell.text.empty()) {
             continue;  // says nothing
         }
-        document.places[child_pointer(pointer, word)] = here;
+        document.places[child_pointer(pointer, word)] = {here};
         if (word == "at") {
             const std::optional<double> number = table.number(row, c, {});
             is_read = is_read && number;
@@ -351,7 +351,7 @@ void LaboratoryUse::fill_row(const JsonDocument& job, const CsvTable& table, std
             statement[std::string(word)] = std::string(name.value_or(""));
         }
     }
-    document.places[pointer] = of_standard ? *of_standard : first.value_or(text::Place{});
+    document.places[pointer] = {of_standard ? *of_standard : first.value_or(text::Place{})};
     if (const auto once = once_.find(input); once != once_.end() && !of_standard) {
         for (const auto& [key, value] : once->second.items()) {
             if (!statement.contains(key)) {

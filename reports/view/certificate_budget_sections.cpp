@@ -165,8 +165,8 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     }
     Text k = "k";
     if (k_low) {
-        const Text low = words.number(text::fixed(*k_low, 2));
-        const Text high = words.number(text::fixed(*k_high, 2));
+        const Text low = words.number(certificate::printed_coverage_factor(*k_low));
+        const Text high = words.number(certificate::printed_coverage_factor(*k_high));
         k = low == high ? words.fill("k_one", {{"k", low}}) : words.fill("k_between", {{"low", low}, {"high", high}});
     }
     if (group.kind == "monte_carlo") {
@@ -301,7 +301,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
             row.push_back(r->printed.unit);
         }
         if (with_U) {
-            row.push_back(of.k ? text::fixed(*of.k, 2) : "");
+            row.push_back(of.k ? certificate::printed_coverage_factor(*of.k) : "");
             row.push_back(of.method == "monte_carlo"                      ? Text()
                           : coverage_kind(*r) == "student_t" || r->nu_eff ? degrees_of_freedom(r->nu_eff, words)
                                                                           : Text());

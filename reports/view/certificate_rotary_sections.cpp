@@ -1,5 +1,6 @@
 #include "reports/view/certificate_rotary_sections.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/plots/rotary_plots.h"
@@ -79,9 +80,9 @@ bool by_monte_carlo(const StatedValue& q) {
 
 std::string printed_k(const StatedValue& q) {
     if (!by_monte_carlo(q)) {
-        return text::fixed(q.k, 2);
+        return certificate::printed_coverage_factor(q.k);
     }
-    return q.reported->k ? text::fixed(*q.reported->k, 2) : "";
+    return q.reported->k ? certificate::printed_coverage_factor(*q.reported->k) : "";
 }
 
 void parameter_table(CertificateBuilder& builder, const Wording& words, const std::string& id, const Text& caption,

@@ -1,5 +1,6 @@
 #include "reports/view/document_kinds.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "reports/plots/certificate_plots.h"
 #include "reports/plots/svg_plot.h"
@@ -15,7 +16,6 @@
 #include "reports/view/circle_closure_sections.h"
 #include "reports/view/comparison_sections.h"
 #include "reports/wording.h"
-#include "text/numbers.h"
 
 #include <nlohmann/json.hpp>
 
@@ -96,10 +96,10 @@ std::pair<Text, Text> uncertainty_of_set_up(const EvaluationRecord& record, cons
     for (const Result& result : record.results) {
         if (result.name == name && result.reported.method == "monte_carlo") {
             return {stated_uncertainty(result.reported, words),
-                    result.reported.k ? text::fixed(*result.reported.k, 2) : ""};
+                    result.reported.k ? certificate::printed_coverage_factor(*result.reported.k) : ""};
         }
     }
-    return {printed.U, text::fixed(record.rotary->set_up.k, 2)};
+    return {printed.U, certificate::printed_coverage_factor(record.rotary->set_up.k)};
 }
 
 void set_up(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
@@ -264,8 +264,8 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
         }
     }
     if (coverage.any) {
-        const std::string low = text::fixed(coverage.k_low, 2);
-        const std::string high = text::fixed(coverage.k_high, 2);
+        const std::string low = certificate::printed_coverage_factor(coverage.k_low);
+        const std::string high = certificate::printed_coverage_factor(coverage.k_high);
         const Text nu_low = degrees_of_freedom(coverage.nu_low, words);
         const Text nu_high = degrees_of_freedom(coverage.nu_high, words);
         const Text k = low == high

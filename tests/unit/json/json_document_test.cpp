@@ -33,6 +33,19 @@ TEST(JsonDocument, KeepsNumbersAsTheyWereWritten) {
     EXPECT_EQ(read.number_as_written("/d"), "");
 }
 
+TEST(JsonDocument, KnowsWithHowManyDecimalsNumbersAreWritten) {
+    const JsonDocument read = document(
+        R"({"a": 0.50, "b": [1.10, 2.0, 3], "c": [1, 2], "d": 1.5e-3, "e": [0.10, 1e-30], "f": [], "g": "1.0", "h": 7})");
+    EXPECT_EQ(read.decimals_as_written("/a"), 2);
+    EXPECT_EQ(read.decimals_as_written("/b"), 2);
+    EXPECT_EQ(read.decimals_as_written("/c"), 0);
+    EXPECT_EQ(read.decimals_as_written("/d"), 4);
+    EXPECT_EQ(read.decimals_as_written("/e"), 0) << "nobody writes the second one without an exponent";
+    for (const char* nothing : {"/f", "/g", "/h", "/i", ""}) {
+        EXPECT_EQ(read.decimals_as_written(nothing), 0) << nothing;
+    }
+}
+
 TEST(JsonDocument, DescribesValues) {
     const auto words = [](const char* text) { return described(nlohmann::json::parse(text)); };
     EXPECT_EQ(words("null"), "null");

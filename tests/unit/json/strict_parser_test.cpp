@@ -62,8 +62,11 @@ TEST(StrictParser, TellsWhereValuesStand) {
     const auto value = parse(
         "// a\r\n{\"ä\": 1,\n \"x/y~\": [true, {}]}", k_with_comments, [](const ParsingProblem&) {}, &places);
     ASSERT_TRUE(value);
-    const Places expected{
-        {"", {2, 1}}, {"/ä", {2, 7}}, {"/x~1y~0", {3, 10}}, {"/x~1y~0/0", {3, 11}}, {"/x~1y~0/1", {3, 17}}};
+    const Places expected{{"", {{2, 1}, 6}},
+                          {"/ä", {{2, 7}, 13}},
+                          {"/x~1y~0", {{3, 10}, 25}},
+                          {"/x~1y~0/0", {{3, 11}, 26}},
+                          {"/x~1y~0/1", {{3, 17}, 32}}};
     EXPECT_EQ(places, expected);
 }
 

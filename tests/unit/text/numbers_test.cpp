@@ -41,6 +41,18 @@ TEST(Numbers, SignificantAndFixedDigits) {
     EXPECT_EQ(fixed(std::numeric_limits<double>::max(), 700).size(), 309U + 1U + 700U);
 }
 
+TEST(Numbers, DecimalsAreCountedAsTheyAreWritten) {
+    const auto most = [](const std::vector<std::string>& numbers) { return most_decimals(numbers); };
+    EXPECT_EQ(most({"1.50"}), 2);
+    EXPECT_EQ(most({"1.0", "-2.500", "3"}), 3);
+    EXPECT_EQ(most({"7", "8"}), 0);
+    EXPECT_EQ(most({"1.5e-3"}), 4);
+    EXPECT_EQ(most({"0.1", "0.30000000000000004"}), 1) << "traces of a conversion";
+    EXPECT_EQ(most({"-0.000100000"}), 9);
+    EXPECT_EQ(most({"0.10", "1e-30"}), 0) << "nobody writes the second one without an exponent";
+    EXPECT_EQ(most({}), 0);
+}
+
 TEST(Numbers, TrailingZerosGo) {
     EXPECT_EQ(without_trailing_zeros("1.50"), "1.5");
     EXPECT_EQ(without_trailing_zeros("2.000"), "2");

@@ -57,9 +57,9 @@ Shown<std::vector<double>> shown(std::vector<double> numbers, const Print& print
     return {std::move(numbers), std::move(texts)};
 }
 
-/// Data of one column, with equal decimals.
-Shown<std::vector<double>> shown_series(std::vector<double> numbers) {
-    std::vector<std::string> texts = series_as_stated(numbers);
+/// Data of one column of a fit, with equal decimals.
+Shown<std::vector<double>> shown_series(std::vector<double> numbers, const gum::BudgetFit& fit, std::size_t column) {
+    std::vector<std::string> texts = series_as_stated(numbers, column < fit.decimals.size() ? fit.decimals[column] : 0);
     return {std::move(numbers), std::move(texts)};
 }
 
@@ -115,21 +115,23 @@ void add_data(const gum::BudgetFit& fit, const engine::CurveFit& solved, FitSumm
     if (fit.regressors.size() == 1) {
         summary.x_name = fit.regressors.front();
         summary.x_unit = fit.regressor_units.front().text();
-        summary.x = shown_series(column(0));
+        summary.x = shown_series(column(0), fit, 0);
         summary.u_x = shown(standard_uncertainties(fit.x_uncertainty, fit.regressor_units.front()), printed_u);
     } else {
         for (std::size_t q = 0; q < fit.regressors.size(); ++q) {
-            summary.regressors.push_back(
-                {.name = fit.regressors[q], .unit = fit.regressor_units[q].text(), .values = shown_series(column(q))});
+            summary.regressors.push_back({.name = fit.regressors[q],
+                                          .unit = fit.regressor_units[q].text(),
+                                          .values = shown_series(column(q), fit, q)});
         }
     }
+    std::vector<double> y;
     for (Eigen::Index i = 0; i < fit.y.size(); ++i) {
-        summary.y.number.push_back(fit.ordinate_unit.from_si(fit.y(i)));
+        y.push_back(fit.ordinate_unit.from_si(fit.y(i)));
         summary.fitted.push_back(fit.ordinate_unit.from_si(fit.y(i) - solved.residuals(i)));
         summary.residual.number.push_back(fit.ordinate_unit.difference_from_si(solved.residuals(i)));
         summary.residual.text.push_back(rounded(summary.residual.number.back(), k_digits_of_residual));
     }
-    summary.y.text = series_as_stated(summary.y.number);
+    summary.y = shown_series(std::move(y), fit, fit.regressors.size());
     summary.u_y = shown(standard_uncertainties(fit.y_uncertainty, fit.ordinate_unit), printed_u);
 }
 

@@ -87,7 +87,10 @@ reports::ReadingsSummary readings_summary(const Stated& stated) {
         const gum::ObservationSummary of = gum::evaluate_type_a(readings);
         summary.mean.number = of.mean;
         summary.standard_deviation.number = of.standard_deviation;
-        summary.standard_deviation_of_mean.number = of.standard_deviation_of_mean;
+        // Where nothing is pooled, s/√n is what entered the budget.
+        summary.standard_deviation_of_mean.number = stated.quantity.pooled_standard_deviation
+                                                        ? of.standard_deviation_of_mean
+                                                        : stated.input.unit.difference_from_si(stated.quantity.u);
         if (of.standard_deviation > 0.0) {
             const std::size_t lags = std::min(k_longest_lag_list, readings.size() / 4 + 1);
             summary.autocorrelation = gum::autocorrelation(readings, std::min(lags, readings.size() - 1));

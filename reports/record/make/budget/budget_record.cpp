@@ -67,13 +67,10 @@ double held_digits(double value, double lost) {
     return held;
 }
 
-/// Numbers of a budget row in the units of its input and of the result.
-struct RowNumbers {
-    double value = 0.0, u = 0.0, nu = gum::k_infinity, sensitivity = 0.0;  ///< coherent SI
-};
-
-BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers& si, const Unit& result_unit,
-                     double result_u) {
+/// \param si           of the input or of one of its components
+/// \param sensitivity  coherent SI
+BudgetRow budget_row(const std::string& name, const Unit& unit, const gum::InputTotal& si, double sensitivity,
+                     const Unit& result_unit, double result_u) {
     BudgetRow row;
     row.input = name;
     row.unit = unit.text();
@@ -81,11 +78,11 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const RowNumbers
     const double u = unit.difference_from_si(si.u);
     row.value = {value, printed_estimate(value, u)};
     row.u = shown_significant(u, reports::k_digits_of_u);
-    row.nu = shown_degrees_of_freedom(si.nu);
-    row.sensitivity = shown_significant(result_unit.difference_from_si(si.sensitivity * unit.difference_to_si(1.0)), 4);
+    row.nu = shown_degrees_of_freedom(si.degrees_of_freedom);
+    row.sensitivity = shown_significant(result_unit.difference_from_si(sensitivity * unit.difference_to_si(1.0)), 4);
     row.contribution =
-        shown_significant(result_unit.difference_from_si(std::abs(si.sensitivity) * si.u), reports::k_digits_of_u);
-    const double ratio = result_u > 0.0 ? std::abs(si.sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
+        shown_significant(result_unit.difference_from_si(std::abs(sensitivity) * si.u), reports::k_digits_of_u);
+    const double ratio = result_u > 0.0 ? std::abs(sensitivity) * si.u / result_u : 0.0;  // nothing to share of 0
     row.share = shown_share(ratio * ratio);
     return row;
 }
@@ -113,9 +110,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         const BudgetInput& input = gum::input_at(job, i, point.point);
         const gum::InputTotal total = gum::input_total(input);
         const StatedQuantity& first = input.components.front();
-        RowNumbers numbers{
-            .value = total.value, .u = total.u, .nu = total.degrees_of_freedom, .sensitivity = sensitivity[i]};
-        BudgetRow row = budget_row(input.name, input.unit, numbers, unit, u);
+        BudgetRow row = budget_row(input.name, input.unit, total, sensitivity[i], unit, u);
         row.type = reports::type_letter(first.evaluation);
         row.source = first.source;
         row.distribution = std::string(gum::distribution_name(first.distribution.kind));
@@ -124,11 +119,8 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         } else {
             row.distribution = "sum";
             for (const StatedQuantity& component : input.components) {
-                numbers = {.value = component.value,
-                           .u = component.u,
-                           .nu = component.degrees_of_freedom,
-                           .sensitivity = sensitivity[i]};
-                BudgetRow part = budget_row(component.name, input.unit, numbers, unit, u);
+                const gum::InputTotal alone{component.value, component.u, component.degrees_of_freedom};
+                BudgetRow part = budget_row(component.name, input.unit, alone, sensitivity[i], unit, u);
                 part.value = {component.stated_value, printed_estimate(component.stated_value, part.u.number)};
                 part.type = reports::type_letter(component.evaluation);
                 part.source = component.source;

@@ -148,6 +148,15 @@ TEST(BudgetJob, EvaluatesEveryStatement) {
     }
 }
 
+TEST(BudgetJob, RemembersWithHowManyDecimalsReadingsAreWritten) {
+    const auto decimals = [](const std::string& input) {
+        return read_one_input(input).components.front().observation_decimals;
+    };
+    EXPECT_EQ(decimals(R"j({"observations": [10.10, 10.20, 10.10]})j"), 2) << "each ends in 0";
+    EXPECT_EQ(decimals(R"j({"observations": [10.0, 11, 10.5]})j"), 1);
+    EXPECT_EQ(decimals(R"j({"observations": [7, 8, 8]})j"), 0);
+}
+
 TEST(BudgetJob, ConvertsTemperaturesAsScalesAndTheirUncertaintiesAsDifferences) {
     const gum::StatedQuantity q =
         read_one_input(R"j({"unit": "degF", "observations": [50, 68, 59]})j").components.front();

@@ -1,3 +1,4 @@
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/render.h"
 #include "reports/record/reported_result.h"
@@ -184,6 +185,16 @@ TEST(BudgetCertificate, PointsOfDifferentMethodsStandInTheirColumns) {
                 ElementsAre("Point", "Value", "U", "u", "Lower end", "Upper end", "k", "ν_eff", "Coverage"));
     EXPECT_THAT(cells(table(view, "results-0"), 1),
                 ElementsAre("2 mm", "5.2", "–", "1.4", "4.0", "8.3", "–", "–", "(b)"));
+}
+
+/// Half of the last printed digit of k: the sentence says what the certified tables say.
+TEST(BudgetCertificate, PrintsCoverageFactorsAsCertifiedTablesDo) {
+    EvaluationRecord r = test::sample_budget_record();
+    for (int i = 0; i < 40; ++i) {
+        r.results[0].k = std::stod(std::to_string(165 + i) + "5e-3");
+        const std::string printed = certificate::printed_coverage_factor(*r.results[0].k);
+        EXPECT_THAT(text_of(r), HasSubstr("the coverage factor k = " + printed + ","));
+    }
 }
 
 TEST(BudgetCertificate, MarksResultsOfDifferentCoverage) {

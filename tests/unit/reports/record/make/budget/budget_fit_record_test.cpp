@@ -65,7 +65,9 @@ TEST(BudgetFitRecord, PrintsTheDataWithTheirUncertainties) {
     const reports::FitSummary fit =
         record_of_fit(jobs::test::read_budget(line(0.1, "", R"("u_y": 0.1, "u_x": 0.05)"))).fits.at(0);
     EXPECT_EQ(fit.x.text, (std::vector<std::string>{"0", "1", "2", "3", "4", "5"}));
-    EXPECT_EQ(fit.y.text, (std::vector<std::string>{"0.1", "0.9", "1.9", "3.1", "4.1", "4.9"}));
+    EXPECT_EQ(fit.y.text,
+              (std::vector<std::string>{"0.100000", "0.900000", "1.900000", "3.100000", "4.100000", "4.900000"}))
+        << "as they are written";
     EXPECT_EQ(fit.u_x.text, std::vector<std::string>(6, "0.050"));
     EXPECT_EQ(fit.u_y.text, std::vector<std::string>(6, "0.10"));
     EXPECT_EQ(fit.residual.text.size(), 6U);
