@@ -287,6 +287,71 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
     return draft;
 }
 
+/// A record with the corrected standard among the files of its job, and what comes of it.
+struct Recalculated {
+    Recalculation result;
+    reports::EvaluationRecord corrected;
+};
+
+Recalculated recalculated(const std::string& number, const std::string& through, const std::string& original,
+                          const Correction& correction) {
+    Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
+    RerunRecord& rerun = done.result.rerun;
+    reports::EvaluationRecord& record = done.corrected;
+    try {
+        record = reports::record_from_json(original, number);
+        rerun.made_by = record.software;
+        rerun.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
+            rerun.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            rerun.not_evaluated =
+                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
+                                                   : "it rests on " + through + ", which is to be amended first");
+        } else {
+            const nlohmann::json before = nlohmann::json::parse(original);
+            const nlohmann::json now = nlohmann::json::parse(
+                reports::to_canonical_json(evaluated_again(record, number, 1, correction.templates)));
+            tell_changes(before, now, rerun);
+            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
+            done.result.shift = largest_shift(before, now);
+        }
+    } catch (const gum::DiagnosedError& error) {
+        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
+    }
+    return done;
+}
+
+bool needs_amendment(const AffectedCertificate& one) {
+    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->rerun.is_negative() &&
+           one.certificate.state == "issued";
+}
+
+/// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
+void work_out(AffectedCertificate& one, const std::string& original, const Correction& correction,
+              const DraftSink& drafts) {
+    std::optional<reports::EvaluationRecord> corrected;
+    if (!one.recalculated) {
+        Recalculated done = recalculated(one.certificate.number, one.through, original, correction);
+        one.recalculated = std::move(done.result);
+        corrected = std::move(done.corrected);
+    }
+    if (!needs_amendment(one)) {
+        return;
+    }
+    if (!corrected) {  // another machine has calculated it
+        corrected = reports::record_from_json(original, one.certificate.number);
+        (void)correct_files(*corrected, correction);
+    }
+    const std::vector<OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
+    if (!draft.empty()) {
+        one.draft_folder = folder_of_number(one.draft_number);
+        if (drafts.write) {
+            drafts.write(draft);
+        }
+    }
+}
+
 /// Of which a person reads first.
 auto rank_of(const AffectedCertificate& one) {
     static const RerunRecord k_none;
@@ -370,45 +435,26 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
 
 Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
                                const Correction& correction) {
-    Recalculation result{.rerun = {.name = number}};
-    RerunRecord& rerun = result.rerun;
-    try {
-        reports::EvaluationRecord record = reports::record_from_json(original, number);
-        rerun.made_by = record.software;
-        rerun.kind = record.kind;
-        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
-            rerun.not_evaluated = cannot_say(number, missing->what);
-        } else if (!correct_files(record, correction)) {
-            rerun.not_evaluated =
-                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
-                                                   : "it rests on " + through + ", which is to be amended first");
-        } else {
-            const nlohmann::json before = nlohmann::json::parse(original);
-            const nlohmann::json now = nlohmann::json::parse(
-                reports::to_canonical_json(evaluated_again(record, number, 1, correction.templates)));
-            tell_changes(before, now, rerun);
-            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
-            result.shift = largest_shift(before, now);
-        }
-    } catch (const gum::DiagnosedError& error) {
-        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
-    }
-    return result;
+    return recalculated(number, through, original, correction).result;
 }
 
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
-                 unsigned threads, const gum::Progress& progress) {
+                 unsigned threads, const DraftSink& drafts, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
     for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
         const std::size_t count = std::min(k_records_at_once, affected.size() - first);
         std::vector<std::string> originals;  // the archive is asked by one thread
         for (std::size_t i = first; i < first + count; ++i) {
-            originals.push_back(archive.content(affected[i].certificate.record).value_or(""));
+            const AffectedCertificate& one = affected[i];
+            originals.push_back(
+                !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
         }
         workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
-            AffectedCertificate& one = affected[first + task];
-            one.recalculated = recalculation_of(one.certificate.number, one.through, originals[task], correction);
+            work_out(affected[first + task], originals[task], correction, drafts);
         });
+        if (drafts.finish) {
+            drafts.finish();
+        }
         if (progress) {
             progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
         }
@@ -419,26 +465,6 @@ void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& a
 void rank(std::vector<AffectedCertificate>& affected) {
     std::sort(affected.begin(), affected.end(),
               [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
-}
-
-void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
-                      const Correction& correction, const std::function<void(const std::vector<OutputFile>&)>& write) {
-    for (AffectedCertificate& one : affected) {
-        if (!one.recalculated || one.recalculated->rerun.not_evaluated || !one.recalculated->rerun.is_negative() ||
-            one.certificate.state != "issued") {
-            continue;
-        }
-        const std::string original = archive.content(one.certificate.record).value_or("");
-        reports::EvaluationRecord record = reports::record_from_json(original, one.certificate.number);
-        (void)correct_files(record, correction);
-        if (const std::vector<OutputFile> draft = drafted_amendment(one, original, record, correction);
-            !draft.empty()) {
-            one.draft_folder = folder_of_number(one.draft_number);
-            if (write) {
-                write(draft);
-            }
-        }
-    }
 }
 
 std::string affected_text(const std::vector<AffectedCertificate>& affected) {
