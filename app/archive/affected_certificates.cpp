@@ -13,6 +13,7 @@
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
+#include "reports/record/record_value.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -299,7 +300,8 @@ Recalculated recalculated(const std::string& number, const std::string& through,
     RerunRecord& rerun = done.result.rerun;
     reports::EvaluationRecord& record = done.corrected;
     try {
-        record = reports::record_from_json(original, number);
+        reports::ReadRecord read = reports::read_record(original, number);
+        record = std::move(read.record);
         rerun.made_by = record.software;
         rerun.kind = record.kind;
         if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
@@ -309,12 +311,10 @@ Recalculated recalculated(const std::string& number, const std::string& through,
                 cannot_say(number, through.empty() ? "its job does not take the standard from the register"
                                                    : "it rests on " + through + ", which is to be amended first");
         } else {
-            const nlohmann::json before = nlohmann::json::parse(original);
-            const nlohmann::json now = nlohmann::json::parse(
-                reports::to_canonical_json(evaluated_again(record, number, 1, correction.templates)));
-            tell_changes(before, now, rerun);
+            const nlohmann::json now = reports::to_json_value(evaluated_again(record, number, 1, correction.templates));
+            tell_changes(read.value, now, rerun);
             std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
-            done.result.shift = largest_shift(before, now);
+            done.result.shift = largest_shift(read.value, now);
         }
     } catch (const gum::DiagnosedError& error) {
         rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
