@@ -115,17 +115,20 @@ void WholeFolders::fill(const std::string& name, const std::vector<File>& files)
 }
 
 void WholeFolders::put_in_place() {
-    const std::lock_guard lock(mutex_);
-    if (filled_.empty()) {
+    std::set<std::string> names;
+    {
+        const std::lock_guard lock(mutex_);
+        names.swap(filled_);
+    }
+    if (names.empty()) {
         return;
     }
     if (::syncfs(descriptor_) != 0) {
         fail_whole(errno);
     }
-    for (const std::string& name : filled_) {
+    for (const std::string& name : names) {
         rename_new(work_->path() / name, parent_ / name);
     }
-    filled_.clear();
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS) {
         fail_whole(errno);
     }

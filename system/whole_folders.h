@@ -33,7 +33,8 @@ public:
     /// \throws std::system_error  of the system
     void fill(const std::string& name, const std::vector<File>& files);
 
-    /// Brings to the disk what was filled since the last time, and puts it in place, in the order of the names.
+    /// Brings to the disk what was filled since the last time, and puts it in place, in the order of the names. Meanwhile
+    /// other threads may fill more.
     /// \throws std::system_error  of the system; EEXIST where something stands in the place. Folders that are in place stay
     ///                            there, whole.
     void put_in_place();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -47,14 +48,15 @@ public:
                 found_.push_back({certificate, std::nullopt});
                 waiting_.push_back(std::move(bytes));
                 if (waiting_.size() == k_records_at_once) {
-                    look_at_waiting();
+                    begin_to_look();
                     if (progress_) {
                         progress_(std::to_string(found_.size()) + " of " + std::to_string(numbers_.size()) +
                                   " certificates searched");
                     }
                 }
             });
-        look_at_waiting();
+        begin_to_look();
+        end_to_look();
         return std::move(found_);
     }
     /// Of an amendment, when all records are read.
@@ -71,14 +73,30 @@ private:
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
-    std::vector<std::string> waiting_;
+    std::size_t done_ = 0;  // so many of them have been looked at
+    std::vector<std::string> waiting_, looked_at_;
+    std::vector<std::optional<RecordReferences>> references_;
+    std::future<void> looking_;  // the last member: it ends before the others are gone
 
-    void look_at_waiting() {
-        const std::size_t first = found_.size() - waiting_.size();
-        threads_.run(waiting_.size(), [&](unsigned /*worker*/, std::size_t task) {
-            found_[first + task].references = references_of(waiting_[task]);
-        });
+    /// While the next records are read from the archive.
+    void begin_to_look() {
+        end_to_look();
+        looked_at_ = std::move(waiting_);
         waiting_.clear();
+        references_.assign(looked_at_.size(), std::nullopt);
+        looking_ = std::async(std::launch::async, [this] {
+            threads_.run(looked_at_.size(), [this](unsigned /*worker*/, std::size_t task) {
+                references_[task] = references_of(looked_at_[task]);
+            });
+        });
+    }
+    void end_to_look() {
+        if (looking_.valid()) {
+            looking_.get();
+            for (std::optional<RecordReferences>& one : references_) {
+                found_[done_++].references = std::move(one);
+            }
+        }
     }
 };
 
@@ -159,7 +177,7 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
                 std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
         }
         for (const auto& [key, item] : before.items()) {
-            if (const auto other = now.find(key); other != now.end()) {
+            if (const auto other = item.is_structured() ? now.find(key) : now.end(); other != now.end()) {
                 largest = std::max(largest, largest_shift(item, *other));
             }
         }
@@ -352,6 +370,18 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
 }
 
+/// Records of some certificates, "" where nothing is to be done with one.
+std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
+                                      std::size_t to, archive::Archive& archive) {
+    std::vector<std::string> originals;
+    for (std::size_t i = from; i < to; ++i) {
+        const AffectedCertificate& one = affected[i];
+        originals.push_back(
+            !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
+    }
+    return originals;
+}
+
 /// Of which a person reads first.
 auto rank_of(const AffectedCertificate& one) {
     static const RerunRecord k_none;
@@ -441,24 +471,26 @@ Recalculation recalculation_of(const std::string& number, const std::string& thr
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
                  unsigned threads, const DraftSink& drafts, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
-    for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
-        const std::size_t count = std::min(k_records_at_once, affected.size() - first);
-        std::vector<std::string> originals;  // the archive is asked by one thread
-        for (std::size_t i = first; i < first + count; ++i) {
-            const AffectedCertificate& one = affected[i];
-            originals.push_back(
-                !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
-        }
-        workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
+    const auto finish = drafts.finish ? drafts.finish : [] {};
+    const auto end_of = [&](std::size_t first) { return std::min(first + k_records_at_once, affected.size()); };
+    std::vector<std::string> originals = originals_of(affected, 0, end_of(0), archive);
+    for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
+        // Beside the calculation: the drafts before come to the disk, and the records after are read.
+        std::vector<std::string> next;
+        std::future<void> disk = std::async(std::launch::async, [&, after = end_of(first)] {
+            finish();
+            next = originals_of(affected, after, end_of(after), archive);
+        });
+        workers.run(originals.size(), [&](unsigned /*worker*/, std::size_t task) {
             work_out(affected[first + task], originals[task], correction, drafts);
         });
-        if (drafts.finish) {
-            drafts.finish();
-        }
+        disk.get();
+        originals = std::move(next);
         if (progress) {
-            progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
+            progress(std::to_string(end_of(first)) + " of " + std::to_string(affected.size()) + " calculated");
         }
     }
+    finish();
     rank(affected);
 }
 
