@@ -24,7 +24,13 @@ namespace gumcert::app {
 
 namespace {
 
-constexpr std::size_t k_records_at_once = 256;  // bounds the memory of the search
+// Bounds the memory: so many are worked at, and as many are read meanwhile.
+constexpr std::size_t k_records_at_once = 256;
+
+/// How something is done beside the work of some threads: where one alone is wanted, afterwards.
+std::launch beside(const gum::WorkerThreads& threads) {
+    return threads.size() > 1 ? std::launch::async : std::launch::deferred;
+}
 
 /// A record that was read, without its bytes.
 struct SearchedRecord {
@@ -84,7 +90,7 @@ private:
         looked_at_ = std::move(waiting_);
         waiting_.clear();
         references_.assign(looked_at_.size(), std::nullopt);
-        looking_ = std::async(std::launch::async, [this] {
+        looking_ = std::async(beside(threads_), [this] {
             threads_.run(looked_at_.size(), [this](unsigned /*worker*/, std::size_t task) {
                 references_[task] = references_of(looked_at_[task]);
             });
@@ -477,7 +483,7 @@ void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& a
     for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
         // Beside the calculation: the drafts before come to the disk, and the records after are read.
         std::vector<std::string> next;
-        std::future<void> disk = std::async(std::launch::async, [&, after = end_of(first)] {
+        std::future<void> disk = std::async(beside(workers), [&, after = end_of(first)] {
             finish();
             next = originals_of(affected, after, end_of(after), archive);
         });
