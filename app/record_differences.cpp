@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "json/canonical_json.h"
-#include "json/json_pointer.h"
+#include "json/step.h"
 #include "text/utf8.h"
 
 namespace gumcert::app {
 
 namespace {
 
+using gumcert::json::Step;
 using nlohmann::json;
 
 constexpr double k_same_number = 1e-9;
@@ -41,56 +42,55 @@ public:
     explicit Comparison(const DifferenceSink& tell) : tell_(tell) {}
 
     /// \param scale  of the list that the values stand in; 0 outside of one
-    void compare(const json& stated, const json& evaluated, const std::string& pointer, double scale = 0.0) {
+    void compare(const json& stated, const json& evaluated, const Step& at, double scale = 0.0) {
         if (stated.is_number() && evaluated.is_number()) {
             const double a = stated.get<double>();
             const double b = evaluated.get<double>();
             const double allowed =
                 std::max(k_same_number * std::max(std::abs(a), std::abs(b)), k_nothing_beside * scale);
             if (!(std::abs(a - b) <= allowed)) {
-                tell_(pointer, &stated, &evaluated);
+                tell_(at.pointer(), &stated, &evaluated);
             }
         } else if (stated.is_object() && evaluated.is_object()) {
             for (const auto& [key, item] : stated.items()) {
-                const std::string at = pointer + "/" + gumcert::json::pointer_token(key);
                 if (const auto other = evaluated.find(key); other != evaluated.end()) {
-                    compare(item, *other, at);
+                    compare(item, *other, at.child(key));
                 } else {
-                    tell_(at, &item, nullptr);
+                    tell_(at.child(key).pointer(), &item, nullptr);
                 }
             }
             for (const auto& [key, item] : evaluated.items()) {
                 if (!stated.contains(key)) {
-                    tell_(pointer + "/" + gumcert::json::pointer_token(key), nullptr, &item);
+                    tell_(at.child(key).pointer(), nullptr, &item);
                 }
             }
         } else if (stated.is_array() && evaluated.is_array() && stated.size() == evaluated.size()) {
             if (is_covariance(evaluated)) {
-                compare_covariance(stated, evaluated, pointer);
+                compare_covariance(stated, evaluated, at);
                 return;
             }
             const double within = largest_in(evaluated);
             for (std::size_t i = 0; i < stated.size(); ++i) {
-                compare(stated[i], evaluated[i], pointer + "/" + std::to_string(i), within);
+                compare(stated[i], evaluated[i], at.child(i), within);
             }
         } else if (stated != evaluated) {
-            tell_(pointer, &stated, &evaluated);
+            tell_(at.pointer(), &stated, &evaluated);
         }
     }
 
 private:
     const DifferenceSink& tell_;
 
-    void compare_covariance(const json& stated, const json& evaluated, const std::string& pointer) {
+    void compare_covariance(const json& stated, const json& evaluated, const Step& at) {
         for (std::size_t i = 0; i < stated.size(); ++i) {
-            const std::string row = pointer + "/" + std::to_string(i);
+            const Step row = at.child(i);
             if (!stated[i].is_array() || stated[i].size() != stated.size()) {
-                tell_(row, &stated[i], &evaluated[i]);
+                tell_(row.pointer(), &stated[i], &evaluated[i]);
                 continue;
             }
             for (std::size_t j = 0; j < stated.size(); ++j) {
                 const double u = std::sqrt(evaluated[i][i].get<double>() * evaluated[j][j].get<double>());
-                compare(stated[i][j], evaluated[i][j], row + "/" + std::to_string(j), u);
+                compare(stated[i][j], evaluated[i][j], row.child(j), u);
             }
         }
     }
@@ -99,7 +99,7 @@ private:
 }  // namespace
 
 void tell_differences(const json& stated, const json& evaluated, const DifferenceSink& tell) {
-    Comparison(tell).compare(stated, evaluated, "");
+    Comparison(tell).compare(stated, evaluated, {});
 }
 
 std::string shown_value(const json& value) {

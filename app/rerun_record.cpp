@@ -11,6 +11,7 @@
 #include "app/recompute_record.h"
 #include "app/record_differences.h"
 #include "json/canonical_json.h"
+#include "reports/record/record_value.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
@@ -189,7 +190,7 @@ void tell_changes(const json& before, const json& now, RerunRecord& rerun) {
 RerunRecord rerun_record(const std::string& text, const std::string& name, unsigned threads,
                          const std::filesystem::path& templates, const gum::Progress& progress,
                          std::span<const Kind> kinds) {
-    const reports::EvaluationRecord record = reports::record_from_json(text, name);
+    const auto [record, before] = reports::read_record(text, name);
     RerunRecord rerun{.name = name, .made_by = record.software, .kind = record.kind};
     rerun.not_evaluated = files_not_held(record, name);
     if (rerun.not_evaluated) {
@@ -205,7 +206,7 @@ RerunRecord rerun_record(const std::string& text, const std::string& name, unsig
         rerun.not_evaluated = error.diagnostics().front();
         return rerun;
     }
-    tell_changes(json::parse(text), json::parse(reports::to_canonical_json(evaluated)), rerun);
+    tell_changes(before, reports::to_json_value(evaluated), rerun);
     return rerun;
 }
 

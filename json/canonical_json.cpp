@@ -102,45 +102,56 @@ private:
     }
 
     void string(std::string_view s, const Step& at) {
-        static constexpr char k_hex[] = "0123456789abcdef";
         if (!text::is_utf8(s)) {
             refuse("GC-RECORD-0002", at, "text that is not valid UTF-8", "texts of a record are UTF-8");
         }
         text += '"';
-        for (const char c : s) {
-            switch (c) {
-                case '"':
-                    text += "\\\"";
-                    break;
-                case '\\':
-                    text += "\\\\";
-                    break;
-                case '\b':
-                    text += "\\b";
-                    break;
-                case '\f':
-                    text += "\\f";
-                    break;
-                case '\n':
-                    text += "\\n";
-                    break;
-                case '\r':
-                    text += "\\r";
-                    break;
-                case '\t':
-                    text += "\\t";
-                    break;
-                default:
-                    if (const auto byte = static_cast<unsigned char>(c); byte < 0x20 || byte == 0x7F) {
-                        text += "\\u00";
-                        text += k_hex[byte >> 4U];
-                        text += k_hex[byte & 0xFU];
-                    } else {
-                        text += c;
-                    }
+        std::size_t written = 0;  // most texts have nothing to escape
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (is_escaped(s[i])) {
+                text.append(s, written, i - written);
+                escape(s[i]);
+                written = i + 1;
             }
         }
+        text.append(s, written, s.size() - written);
         text += '"';
+    }
+
+    static bool is_escaped(char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x20 || byte == 0x7F || c == '"' || c == '\\';
+    }
+
+    void escape(char c) {
+        static constexpr char k_hex[] = "0123456789abcdef";
+        switch (c) {
+            case '"':
+                text += "\\\"";
+                break;
+            case '\\':
+                text += "\\\\";
+                break;
+            case '\b':
+                text += "\\b";
+                break;
+            case '\f':
+                text += "\\f";
+                break;
+            case '\n':
+                text += "\\n";
+                break;
+            case '\r':
+                text += "\\r";
+                break;
+            case '\t':
+                text += "\\t";
+                break;
+            default:
+                text += "\\u00";
+                text += k_hex[static_cast<unsigned char>(c) >> 4U];
+                text += k_hex[static_cast<unsigned char>(c) & 0xFU];
+        }
     }
 
     void new_line(std::size_t depth) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,6 +14,7 @@
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
+#include "reports/record/record_value.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
 #include "text/numbers.h"
@@ -22,7 +24,13 @@ namespace gumcert::app {
 
 namespace {
 
-constexpr std::size_t k_records_at_once = 256;  // bounds the memory of the search
+// Bounds the memory: so many are worked at, and as many are read meanwhile.
+constexpr std::size_t k_records_at_once = 256;
+
+/// How something is done beside the work of some threads: where one alone is wanted, afterwards.
+std::launch beside(const gum::WorkerThreads& threads) {
+    return threads.size() > 1 ? std::launch::async : std::launch::deferred;
+}
 
 /// A record that was read, without its bytes.
 struct SearchedRecord {
@@ -46,14 +54,15 @@ public:
                 found_.push_back({certificate, std::nullopt});
                 waiting_.push_back(std::move(bytes));
                 if (waiting_.size() == k_records_at_once) {
-                    look_at_waiting();
+                    begin_to_look();
                     if (progress_) {
                         progress_(std::to_string(found_.size()) + " of " + std::to_string(numbers_.size()) +
                                   " certificates searched");
                     }
                 }
             });
-        look_at_waiting();
+        begin_to_look();
+        end_to_look();
         return std::move(found_);
     }
     /// Of an amendment, when all records are read.
@@ -70,14 +79,30 @@ private:
     gum::WorkerThreads threads_;
     const gum::Progress& progress_;
     std::vector<SearchedRecord> found_;
-    std::vector<std::string> waiting_;
+    std::size_t done_ = 0;  // so many of them have been looked at
+    std::vector<std::string> waiting_, looked_at_;
+    std::vector<std::optional<RecordReferences>> references_;
+    std::future<void> looking_;  // the last member: it ends before the others are gone
 
-    void look_at_waiting() {
-        const std::size_t first = found_.size() - waiting_.size();
-        threads_.run(waiting_.size(), [&](unsigned /*worker*/, std::size_t task) {
-            found_[first + task].references = references_of(waiting_[task]);
-        });
+    /// While the next records are read from the archive.
+    void begin_to_look() {
+        end_to_look();
+        looked_at_ = std::move(waiting_);
         waiting_.clear();
+        references_.assign(looked_at_.size(), std::nullopt);
+        looking_ = std::async(beside(threads_), [this] {
+            threads_.run(looked_at_.size(), [this](unsigned /*worker*/, std::size_t task) {
+                references_[task] = references_of(looked_at_[task]);
+            });
+        });
+    }
+    void end_to_look() {
+        if (looking_.valid()) {
+            looking_.get();
+            for (std::optional<RecordReferences>& one : references_) {
+                found_[done_++].references = std::move(one);
+            }
+        }
     }
 };
 
@@ -158,7 +183,7 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
                 std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
         }
         for (const auto& [key, item] : before.items()) {
-            if (const auto other = now.find(key); other != now.end()) {
+            if (const auto other = item.is_structured() ? now.find(key) : now.end(); other != now.end()) {
                 largest = std::max(largest, largest_shift(item, *other));
             }
         }
@@ -287,6 +312,82 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
     return draft;
 }
 
+/// A record with the corrected standard among the files of its job, and what comes of it.
+struct Recalculated {
+    Recalculation result;
+    reports::EvaluationRecord corrected;
+};
+
+Recalculated recalculated(const std::string& number, const std::string& through, const std::string& original,
+                          const Correction& correction) {
+    Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
+    RerunRecord& rerun = done.result.rerun;
+    reports::EvaluationRecord& record = done.corrected;
+    try {
+        reports::ReadRecord read = reports::read_record(original, number);
+        record = std::move(read.record);
+        rerun.made_by = record.software;
+        rerun.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
+            rerun.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            rerun.not_evaluated =
+                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
+                                                   : "it rests on " + through + ", which is to be amended first");
+        } else {
+            const nlohmann::json now = reports::to_json_value(evaluated_again(record, number, 1, correction.templates));
+            tell_changes(read.value, now, rerun);
+            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
+            done.result.shift = largest_shift(read.value, now);
+        }
+    } catch (const gum::DiagnosedError& error) {
+        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
+    }
+    return done;
+}
+
+bool needs_amendment(const AffectedCertificate& one) {
+    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->rerun.is_negative() &&
+           one.certificate.state == "issued";
+}
+
+/// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
+void work_out(AffectedCertificate& one, const std::string& original, const Correction& correction,
+              const DraftSink& drafts) {
+    std::optional<reports::EvaluationRecord> corrected;
+    if (!one.recalculated) {
+        Recalculated done = recalculated(one.certificate.number, one.through, original, correction);
+        one.recalculated = std::move(done.result);
+        corrected = std::move(done.corrected);
+    }
+    if (!needs_amendment(one)) {
+        return;
+    }
+    if (!corrected) {  // another machine has calculated it
+        corrected = reports::record_from_json(original, one.certificate.number);
+        (void)correct_files(*corrected, correction);
+    }
+    const std::vector<OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
+    if (!draft.empty()) {
+        one.draft_folder = folder_of_number(one.draft_number);
+        if (drafts.write) {
+            drafts.write(draft);
+        }
+    }
+}
+
+/// Records of some certificates, "" where nothing is to be done with one.
+std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
+                                      std::size_t to, archive::Archive& archive) {
+    std::vector<std::string> originals;
+    for (std::size_t i = from; i < to; ++i) {
+        const AffectedCertificate& one = affected[i];
+        originals.push_back(
+            !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
+    }
+    return originals;
+}
+
 /// Of which a person reads first.
 auto rank_of(const AffectedCertificate& one) {
     static const RerunRecord k_none;
@@ -370,75 +471,38 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
 
 Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
                                const Correction& correction) {
-    Recalculation result{.rerun = {.name = number}};
-    RerunRecord& rerun = result.rerun;
-    try {
-        reports::EvaluationRecord record = reports::record_from_json(original, number);
-        rerun.made_by = record.software;
-        rerun.kind = record.kind;
-        if (const std::optional<gum::Diagnostic> missing = files_not_held(record, number)) {
-            rerun.not_evaluated = cannot_say(number, missing->what);
-        } else if (!correct_files(record, correction)) {
-            rerun.not_evaluated =
-                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
-                                                   : "it rests on " + through + ", which is to be amended first");
-        } else {
-            const nlohmann::json before = nlohmann::json::parse(original);
-            const nlohmann::json now = nlohmann::json::parse(
-                reports::to_canonical_json(evaluated_again(record, number, 1, correction.templates)));
-            tell_changes(before, now, rerun);
-            std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
-            result.shift = largest_shift(before, now);
-        }
-    } catch (const gum::DiagnosedError& error) {
-        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
-    }
-    return result;
+    return recalculated(number, through, original, correction).result;
 }
 
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
-                 unsigned threads, const gum::Progress& progress) {
+                 unsigned threads, const DraftSink& drafts, const gum::Progress& progress) {
     gum::WorkerThreads workers(threads);
-    for (std::size_t first = 0; first < affected.size(); first += k_records_at_once) {
-        const std::size_t count = std::min(k_records_at_once, affected.size() - first);
-        std::vector<std::string> originals;  // the archive is asked by one thread
-        for (std::size_t i = first; i < first + count; ++i) {
-            originals.push_back(archive.content(affected[i].certificate.record).value_or(""));
-        }
-        workers.run(count, [&](unsigned /*worker*/, std::size_t task) {
-            AffectedCertificate& one = affected[first + task];
-            one.recalculated = recalculation_of(one.certificate.number, one.through, originals[task], correction);
+    const auto finish = drafts.finish ? drafts.finish : [] {};
+    const auto end_of = [&](std::size_t first) { return std::min(first + k_records_at_once, affected.size()); };
+    std::vector<std::string> originals = originals_of(affected, 0, end_of(0), archive);
+    for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
+        // Beside the calculation: the drafts before come to the disk, and the records after are read.
+        std::vector<std::string> next;
+        std::future<void> disk = std::async(beside(workers), [&, after = end_of(first)] {
+            finish();
+            next = originals_of(affected, after, end_of(after), archive);
         });
+        workers.run(originals.size(), [&](unsigned /*worker*/, std::size_t task) {
+            work_out(affected[first + task], originals[task], correction, drafts);
+        });
+        disk.get();
+        originals = std::move(next);
         if (progress) {
-            progress(std::to_string(first + count) + " of " + std::to_string(affected.size()) + " calculated");
+            progress(std::to_string(end_of(first)) + " of " + std::to_string(affected.size()) + " calculated");
         }
     }
+    finish();
     rank(affected);
 }
 
 void rank(std::vector<AffectedCertificate>& affected) {
     std::sort(affected.begin(), affected.end(),
               [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
-}
-
-void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
-                      const Correction& correction, const std::function<void(const std::vector<OutputFile>&)>& write) {
-    for (AffectedCertificate& one : affected) {
-        if (!one.recalculated || one.recalculated->rerun.not_evaluated || !one.recalculated->rerun.is_negative() ||
-            one.certificate.state != "issued") {
-            continue;
-        }
-        const std::string original = archive.content(one.certificate.record).value_or("");
-        reports::EvaluationRecord record = reports::record_from_json(original, one.certificate.number);
-        (void)correct_files(record, correction);
-        if (const std::vector<OutputFile> draft = drafted_amendment(one, original, record, correction);
-            !draft.empty()) {
-            one.draft_folder = folder_of_number(one.draft_number);
-            if (write) {
-                write(draft);
-            }
-        }
-    }
 }
 
 std::string affected_text(const std::vector<AffectedCertificate>& affected) {

@@ -39,7 +39,7 @@ struct AffectedCertificate {
     std::string draft_number;  ///< the next free number of an amendment of it
 
     std::optional<Recalculation> recalculated = {};
-    std::string draft_folder = {};  ///< of the amendment, after draft_amendments(); "" where none is needed
+    std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed
 };
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
@@ -62,20 +62,23 @@ struct Correction {
 [[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& through,
                                              const std::string& original, const Correction& correction);
 
-/// The same of all certificates, on several cores.
+/// Where drafts of amendments go.
+struct DraftSink {
+    /// Gets the files of a draft, below a folder of its own. Several threads call it at the same time.
+    std::function<void(const std::vector<OutputFile>&)> write = {};
+    /// Makes what was written since the last time last.
+    std::function<void()> finish = {};
+};
+
+/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit or
+/// a verdict changes, and ranks them; on several cores, with the same result for any number of threads.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
-                 unsigned threads, const gum::Progress& progress = {});
+                 unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});
 
 /// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then those of which
 /// nothing can be said, before those that stay.
 void rank(std::vector<AffectedCertificate>& affected);
-
-/// Drafts an amendment of each issued certificate of which a printed digit or a verdict changes, one after the other.
-/// \param write  gets the files of a draft, below a folder of its own
-void draft_amendments(std::vector<AffectedCertificate>& affected, archive::Archive& archive,
-                      const Correction& correction,
-                      const std::function<void(const std::vector<OutputFile>&)>& write = {});
 
 /// For people, for programs (schema gumcert/archive-affected/1), as a table.
 [[nodiscard]] std::string affected_text(const std::vector<AffectedCertificate>& affected);

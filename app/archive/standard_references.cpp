@@ -15,6 +15,87 @@ namespace {
 
 using ReferenceKind = StandardReference::Kind;
 
+/// Whether everything below a key is looked at: what names standards, files of the job, days of the work.
+bool is_looked_at(std::string_view key) {
+    static constexpr std::array<std::string_view, 6> k_keys{"dates",  "files",    "sensor",
+                                                            "source", "standard", "standards"};
+    return std::find(k_keys.begin(), k_keys.end(), key) != k_keys.end();
+}
+
+/// Makes the value of a text without what nobody looks at: it has the texts below such keys, in their places, and nothing
+/// else. Most of a record is numbers and names of members, and to make values of them takes five times as long as to read
+/// over them. Callbacks of nlohmann::json::sax_parse().
+class TextsOfRecord {
+public:
+    using number_integer_t = nlohmann::json::number_integer_t;
+    using number_unsigned_t = nlohmann::json::number_unsigned_t;
+    using number_float_t = nlohmann::json::number_float_t;
+    using string_t = nlohmann::json::string_t;
+    using binary_t = nlohmann::json::binary_t;
+
+    [[nodiscard]] bool is_object() const { return is_object_; }
+    [[nodiscard]] const nlohmann::json& value() const { return value_; }
+
+    bool null() { return true; }
+    bool boolean(bool) { return true; }
+    bool number_integer(number_integer_t) { return true; }
+    bool number_unsigned(number_unsigned_t) { return true; }
+    bool number_float(number_float_t, const string_t&) { return true; }
+    bool binary(binary_t&) { return true; }
+    bool string(string_t& text) {
+        if (!open_.empty() && (open_.back().is_kept || is_looked_at(open_.back().key))) {
+            add(std::move(text));
+        }
+        return true;
+    }
+    bool key(string_t& key) {
+        open_.back().key = std::move(key);
+        return true;
+    }
+    bool start_object(std::size_t) { return start(true); }
+    bool start_array(std::size_t) { return start(false); }
+    bool end_object() { return end(); }
+    bool end_array() { return end(); }
+    bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) { return false; }
+
+private:
+    /// An object or array that is being read.
+    struct Open {
+        bool is_object = false;
+        bool is_kept = false;       ///< it stands below a key that is looked at
+        string_t key = {};          ///< of an object, the last one
+        nlohmann::json value = {};  ///< null while nothing of it is kept
+    };
+    std::vector<Open> open_;
+    nlohmann::json value_;
+    bool is_object_ = false;
+
+    bool start(bool is_object) {
+        is_object_ = open_.empty() ? is_object : is_object_;
+        const bool is_kept = !open_.empty() && (open_.back().is_kept || is_looked_at(open_.back().key));
+        open_.push_back({.is_object = is_object, .is_kept = is_kept});
+        return true;
+    }
+    bool end() {
+        nlohmann::json whole = std::move(open_.back().value);
+        open_.pop_back();
+        if (open_.empty()) {
+            value_ = std::move(whole);
+        } else if (!whole.is_null()) {
+            add(std::move(whole));
+        }
+        return true;
+    }
+    void add(nlohmann::json part) {
+        Open& to = open_.back();
+        if (to.is_object) {
+            to.value[to.key] = std::move(part);
+        } else {
+            to.value.push_back(std::move(part));
+        }
+    }
+};
+
 class ReferenceCollector {
 public:
     void walk(const nlohmann::json& value) {
@@ -125,10 +206,11 @@ const char* word_of(StandardReference::Kind kind) {
 }
 
 std::optional<RecordReferences> references_of(std::string_view record) {
-    const nlohmann::json value = nlohmann::json::parse(record, nullptr, false);
-    if (!value.is_object()) {
+    TextsOfRecord texts;
+    if (!nlohmann::json::sax_parse(record, &texts) || !texts.is_object()) {
         return std::nullopt;
     }
+    const nlohmann::json& value = texts.value();
     ReferenceCollector collector;
     const nlohmann::json& files = part_of(part_of(value, "job"), "files");
     for (const nlohmann::json& file : files.is_array() ? files : nlohmann::json::array()) {

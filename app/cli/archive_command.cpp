@@ -16,6 +16,7 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -40,6 +41,7 @@
 #include "signing/ed25519.h"
 #include "signing/verify.h"
 #include "system/temporary.h"
+#include "system/whole_folders.h"
 #include "text/small_letters.h"
 
 namespace gumcert::cli {
@@ -743,24 +745,51 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     return same == records.size() ? done : negative_answer;
 }
 
-/// Writes drafts of amendments, each into a folder of its own that is not there yet.
-void write_draft(const std::vector<app::OutputFile>& draft, const ArchiveOptions& options) {
-    const fs::path output = options.output;
-    const fs::path own = output / *draft.front().path.begin();
-    std::error_code error;
-    if (fs::exists(own, error) || error) {
-        refuse_usage(own.string(), "is there already", "a draft is written into a new folder",
-                     "choose another folder with -o");
+/// Drafts of amendments on the disk, each in a folder of its own that is not there yet.
+class DraftFolders {
+public:
+    explicit DraftFolders(const fs::path& output) : output_(output), folders_(output) {
+        if (!output.empty()) {
+            app::require_writable(output / "draft");
+        }
     }
-    std::map<fs::path, std::vector<app::OutputFile>> by_folder;
-    for (const app::OutputFile& file : draft) {
-        const fs::path place = output / file.path;
-        by_folder[place.parent_path()].push_back({place, file.bytes});
+
+    [[nodiscard]] app::DraftSink sink() {
+        if (output_.empty()) {
+            return {};
+        }
+        return {.write = [this](const std::vector<app::OutputFile>& draft) { told([&] { write(draft); }); },
+                .finish = [this] { told([&] { folders_.put_in_place(); }); }};
     }
-    for (const auto& [folder, files] : by_folder) {
-        app::write_files(files, {options.store}, {}, false);
+
+private:
+    fs::path output_;
+    system::WholeFolders folders_;
+
+    void write(const std::vector<app::OutputFile>& draft) {
+        const fs::path name = *draft.front().path.begin();
+        std::error_code error;
+        if (fs::exists(output_ / name, error) || error) {
+            refuse_usage((output_ / name).string(), "is there already", "a draft is written into a new folder",
+                         "choose another folder with -o");
+        }
+        std::vector<system::WholeFolders::File> files;
+        for (const app::OutputFile& file : draft) {
+            files.emplace_back(file.path.lexically_relative(name), file.bytes);
+        }
+        folders_.fill(name.string(), files);
     }
-}
+
+    void told(const std::function<void()>& work) const {
+        try {
+            work();
+        } catch (const std::system_error& error) {
+            throw gum::StorageError(gum::Diagnostic{
+                "GC-STORE-0002", output_.string(), "drafts cannot be written: " + error.code().message(),
+                "output files appear whole or not at all", "choose another folder with -o, or free the disk"});
+        }
+    }
+};
 
 void require_query(const ArchiveOptions& options) {
     for (const auto& [name, value] : {std::pair("--source", &options.source), std::pair("--since", &options.since)}) {
@@ -807,14 +836,9 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
             app::ArchiveWorker(archive, *table, threads, correction.templates).finish(shared, wait_for_others, tell);
             app::take_results(affected, *table, shared);
             work = shared.work.id;
-        } else {
-            app::recalculate(affected, archive, correction, threads, tell);
         }
-        app::draft_amendments(affected, archive, correction, [&](const std::vector<app::OutputFile>& draft) {
-            if (!options.output.empty()) {
-                write_draft(draft, options);
-            }
-        });
+        DraftFolders drafts(options.output);
+        app::recalculate(affected, archive, correction, threads, drafts.sink(), tell);
     }
     progress.clear();
     write_to_stdout(options.format == "json"  ? app::affected_json(affected, standard)

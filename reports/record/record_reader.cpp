@@ -28,6 +28,7 @@
 #include "reports/record/record_kinds.h"
 #include "reports/record/record_problems.h"
 #include "reports/record/record_rules.h"
+#include "reports/record/record_value.h"
 #include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
@@ -535,14 +536,7 @@ std::optional<json> value_of(const std::string& text, RecordProblems& problems) 
                                 [&](const gumcert::json::ParsingProblem& problem) { refuse_text(problem, problems); });
 }
 
-}  // namespace
-
-EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
-    return record_from_json(text, where, k_record_kinds);
-}
-
-EvaluationRecord record_from_json(const std::string& text, const std::string& where,
-                                  std::span<const std::string_view> kinds) {
+ReadRecord read_record_of(const std::string& text, const std::string& where, std::span<const std::string_view> kinds) {
     RecordProblems problems(where);
     if (text.size() > k_max_record_bytes) {
         problems.add("GC-RECORD-0010", "", std::to_string(text.size()) + " bytes",
@@ -588,8 +582,8 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
         problems.add("GC-RECORD-0017", at, std::move(what), std::move(rule), k_restore);
     });
     problems.throw_if_any();
+    root.erase(k_digest_key);
     if (!record.digest.empty()) {
-        root.erase(k_digest_key);
         if (const std::string own = encoding::sha256(canonical_json(root)); own != record.digest) {
             problems.add("GC-RECORD-0021", std::string("/") + k_digest_key,
                          "SHA-256 of the record is " + own + ", and it states " + record.digest,
@@ -598,6 +592,22 @@ EvaluationRecord record_from_json(const std::string& text, const std::string& wh
             problems.throw_if_any();
         }
     }
-    return record;
+    return {std::move(record), std::move(root)};
 }
+
+}  // namespace
+
+EvaluationRecord record_from_json(const std::string& text, const std::string& where) {
+    return record_from_json(text, where, k_record_kinds);
+}
+
+EvaluationRecord record_from_json(const std::string& text, const std::string& where,
+                                  std::span<const std::string_view> kinds) {
+    return read_record_of(text, where, kinds).record;
+}
+
+ReadRecord read_record(const std::string& text, const std::string& where) {
+    return read_record_of(text, where, k_record_kinds);
+}
+
 }  // namespace gumcert::reports

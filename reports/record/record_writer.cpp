@@ -16,6 +16,7 @@
 #include "reports/record/record_check.h"
 #include "reports/record/record_fields.h"
 #include "reports/record/record_rules.h"
+#include "reports/record/record_value.h"
 #include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
@@ -327,21 +328,35 @@ private:
     }
 };
 
-}  // namespace
-
-std::string to_canonical_json(const EvaluationRecord& record) {
+json checked_value(const EvaluationRecord& record) {
     check_record(record, [](const std::string& at, std::string what, std::string rule) {
         refuse_record(at, std::move(what), std::move(rule));
     });
     Writer writer(Step{});
     describe(writer, record);
-    std::string text = with_digest(std::move(writer.object));
+    return std::move(writer.object);
+}
+
+void require_size(const std::string& text) {
     if (text.size() > k_max_record_bytes) {
         refuse_record("", std::to_string(text.size()) + " bytes",
                       "a record has at most " + std::to_string(k_max_record_bytes) + " bytes",
                       "nothing was written; split the job into several");
     }
+}
+
+}  // namespace
+
+std::string to_canonical_json(const EvaluationRecord& record) {
+    std::string text = with_digest(checked_value(record));
+    require_size(text);
     return text;
+}
+
+json to_json_value(const EvaluationRecord& record) {
+    json value = checked_value(record);
+    require_size(canonical_json(value));  // which refuses what no text can hold
+    return value;
 }
 
 std::string with_digest(json record) {

@@ -298,6 +298,10 @@ TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment
                                "The certificate of STD-017 was withdrawn by its issuer."});
     const Ended ended = archive(again);
     EXPECT_EQ(ended.code, 1) << ended.err;
+    const Ended repeated = archive(again);
+    EXPECT_EQ(repeated.code, 2);
+    EXPECT_TRUE(tells(repeated, "EX-2026-0042_A1 — is there already")) << repeated.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "drafts"), {}), 1) << "nothing else is left";
     EXPECT_TRUE(tells(archive({"number", "--amend", "EX-2026-0042"}, "R. Lin"), "EX-2026-0042/A1 numbered"));
     const json found = json::parse(ended.out, nullptr, false);
     ASSERT_EQ(found["certificates"].size(), 1U) << ended.out;

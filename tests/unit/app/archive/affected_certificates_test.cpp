@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
@@ -167,9 +169,6 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
             affected, archive_,
             {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
             2);
-        draft_amendments(
-            affected, archive_,
-            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"});
         return affected;
     };
     std::vector<AffectedCertificate> same = calculated(registered);
@@ -197,6 +196,70 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
     EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
               std::string::npos);
+}
+
+TEST_F(ArchiveOfStandards, GiveTheSameDraftsWithAnyNumberOfThreads) {
+    const std::filesystem::path folder = k_affected_tree / "examples" / "laboratory";
+    const std::string record = reports::to_canonical_json(
+        evaluate_job(folder / "end_gauge.json", CovarianceFile::none, 1, k_affected_tree / "templates").record);
+    constexpr int k_certificates = 300;  // more than are read at once
+    std::set<std::string> expected;
+    for (int i = 0; i < k_certificates; ++i) {
+        const std::string number = "EX-" + std::to_string(i);
+        const bool is_evaluated = i % 7 == 0;
+        const bool is_issued = is_evaluated && i % 3 > 0;
+        add(number,
+            is_evaluated ? record + std::string(static_cast<std::size_t>(i), '\n')
+                         : R"({"source": "STD-017", "title": ")" + number + R"("})",
+            is_issued);
+        if (is_issued) {
+            expected.insert(number + "_A1");
+        }
+    }
+    std::string corrected = read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    corrected.replace(corrected.find("50.000623"), 9, "50.001623");
+    const WrongStandard wrong{"STD-017", "2026-03-02", ""};
+    const Correction correction{
+        .standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"};
+    struct Drafted {
+        std::map<std::filesystem::path, std::string> files;
+        std::set<std::string> folders;
+        std::string report;
+        std::vector<AffectedCertificate> affected;
+    };
+    const auto drafted = [&](unsigned threads, std::vector<AffectedCertificate> affected) {
+        Drafted all;
+        std::mutex mutex;
+        std::size_t unfinished = 0;
+        recalculate(affected, archive_, correction, threads,
+                    {.write =
+                         [&](const std::vector<OutputFile>& draft) {
+                             const std::lock_guard lock(mutex);
+                             ++unfinished;
+                             all.folders.insert(draft.front().path.begin()->string());
+                             for (const OutputFile& file : draft) {
+                                 EXPECT_TRUE(all.files.emplace(file.path, file.bytes).second) << file.path;
+                             }
+                         },
+                     .finish = [&] { unfinished = 0; }});
+        EXPECT_EQ(unfinished, 0U);
+        all.report = affected_json(affected, wrong);
+        all.affected = std::move(affected);
+        return all;
+    };
+    const Drafted one = drafted(1, find_affected(archive_, wrong, 1));
+    const Drafted several = drafted(4, find_affected(archive_, wrong, 4));
+    EXPECT_EQ(one.folders, expected);
+    EXPECT_EQ(several.files, one.files);
+    EXPECT_EQ(several.report, one.report);
+    // What another machine has calculated is drafted alike.
+    std::vector<AffectedCertificate> calculated = one.affected;
+    for (AffectedCertificate& certificate : calculated) {
+        certificate.draft_folder = "";
+    }
+    const Drafted later = drafted(2, std::move(calculated));
+    EXPECT_EQ(later.files, one.files);
+    EXPECT_EQ(later.report, one.report);
 }
 
 }  // namespace

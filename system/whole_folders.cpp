@@ -1,0 +1,137 @@
+#include "system/whole_folders.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "system/cleanup.h"
+
+namespace gumcert::system {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_whole(int error) {
+    throw std::system_error(error, std::generic_category());
+}
+
+/// A new file with some bytes; not on the disk yet.
+void write_new(const fs::path& file, std::string_view bytes) {
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+        fail_whole(errno);
+    }
+    int error = 0;
+    while (!bytes.empty() && error == 0) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        } else if (count == 0 || errno != EINTR) {
+            error = count == 0 ? ENOSPC : errno;
+        }
+    }
+    if (::close(descriptor) != 0 && error == 0) {
+        error = errno;
+    }
+    if (error != 0) {
+        fail_whole(error);
+    }
+}
+
+/// Gives a folder its place, where nothing is.
+void rename_new(const fs::path& from, const fs::path& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
+        return;
+    }
+    if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) {
+        fail_whole(errno);
+    }
+    // A file system that cannot tell: a folder takes the place of an empty folder alone.
+    struct stat status = {};
+    if (::lstat(to.c_str(), &status) == 0) {
+        fail_whole(EEXIST);
+    }
+    if (::rename(from.c_str(), to.c_str()) != 0) {
+        fail_whole(errno);
+    }
+}
+
+}  // namespace
+
+WholeFolders::WholeFolders(fs::path parent) : parent_(std::move(parent)) {}
+
+WholeFolders::~WholeFolders() {
+    work_.reset();
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+    for (const fs::path& folder : made_) {  // never one that holds something
+        (void)::rmdir(folder.c_str());
+        forget_folder(folder);
+    }
+}
+
+void WholeFolders::make_parent() {
+    std::error_code error;
+    const CleanupLock lock = hold_cleanup();
+    for (fs::path missing = fs::absolute(parent_).lexically_normal(); !missing.empty() && !fs::exists(missing, error);
+         missing = missing.parent_path()) {
+        made_.push_back(missing);
+        remember_new_folder(missing);
+    }
+    fs::create_directories(parent_);
+}
+
+fs::path WholeFolders::begun() {
+    const std::lock_guard lock(mutex_);
+    if (!work_) {
+        make_parent();
+        descriptor_ = ::open(parent_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor_ < 0) {
+            fail_whole(errno);
+        }
+        work_.emplace(parent_);
+    }
+    return work_->path();
+}
+
+void WholeFolders::fill(const std::string& name, const std::vector<File>& files) {
+    const fs::path folder = begun() / name;
+    std::set<fs::path> made;
+    for (const auto& [place, bytes] : files) {
+        const fs::path file = folder / place;
+        if (made.insert(file.parent_path()).second) {
+            fs::create_directories(file.parent_path());
+        }
+        write_new(file, bytes);
+    }
+    const std::lock_guard lock(mutex_);
+    filled_.insert(name);
+}
+
+void WholeFolders::put_in_place() {
+    std::set<std::string> names;
+    {
+        const std::lock_guard lock(mutex_);
+        names.swap(filled_);
+    }
+    if (names.empty()) {
+        return;
+    }
+    if (::syncfs(descriptor_) != 0) {
+        fail_whole(errno);
+    }
+    for (const std::string& name : names) {
+        rename_new(work_->path() / name, parent_ / name);
+    }
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS) {
+        fail_whole(errno);
+    }
+}
+
+}  // namespace gumcert::system
