@@ -114,7 +114,7 @@ void WholeFolders::fill(const std::string& name, const std::vector<File>& files)
     filled_.insert(name);
 }
 
-void WholeFolders::put_in_place() {
+void WholeFolders::put_in_place(const std::function<void(const std::string&)>& told) {
     std::set<std::string> names;
     {
         const std::lock_guard lock(mutex_);
@@ -128,6 +128,9 @@ void WholeFolders::put_in_place() {
     }
     for (const std::string& name : names) {
         rename_new(work_->path() / name, parent_ / name);
+        if (told) {
+            told(name);
+        }
     }
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS) {
         fail_whole(errno);

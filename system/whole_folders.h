@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -35,9 +36,10 @@ public:
 
     /// Brings to the disk what was filled since the last time, and puts it in place, in the order of the names. Meanwhile
     /// other threads may fill more.
+    /// \param told  gets the name of each folder that is in place
     /// \throws std::system_error  of the system; EEXIST where something stands in the place. Folders that are in place stay
     ///                            there, whole.
-    void put_in_place();
+    void put_in_place(const std::function<void(const std::string& name)>& told = {});
 
 private:
     std::filesystem::path parent_;

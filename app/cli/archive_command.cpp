@@ -27,6 +27,7 @@
 #include "app/archive/record_parts.h"
 #include "app/archive/shared_work.h"
 #include "app/cli/clock.h"
+#include "app/cli/interruption.h"
 #include "app/cli/output_places.h"
 #include "app/cli/share_folder.h"
 #include "app/laboratory_overview.h"
@@ -745,7 +746,8 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     return same == records.size() ? done : negative_answer;
 }
 
-/// Drafts of amendments on the disk, each in a folder of its own that is not there yet.
+/// Drafts of amendments on the disk, each in a folder of its own. One that a command that was ended has left there is whole,
+/// and stays.
 class DraftFolders {
 public:
     explicit DraftFolders(const fs::path& output) : output_(output), folders_(output) {
@@ -759,7 +761,12 @@ public:
             return {};
         }
         return {.write = [this](const std::vector<app::OutputFile>& draft) { told([&] { write(draft); }); },
-                .finish = [this] { told([&] { folders_.put_in_place(); }); }};
+                .finish =
+                    [this] {
+                        told([&] {
+                            folders_.put_in_place([&](const std::string& name) { tell_written(output_ / name); });
+                        });
+                    }};
     }
 
 private:
@@ -770,14 +777,22 @@ private:
         const fs::path name = *draft.front().path.begin();
         std::error_code error;
         if (fs::exists(output_ / name, error) || error) {
-            refuse_usage((output_ / name).string(), "is there already", "a draft is written into a new folder",
-                         "choose another folder with -o");
+            if (std::all_of(draft.begin(), draft.end(), [&](const auto& file) { return is_there(file); })) {
+                return;
+            }
+            refuse_usage((output_ / name).string(), "is there already, with other files than those of the draft",
+                         "a draft is written into a new folder", "choose another folder with -o");
         }
         std::vector<system::WholeFolders::File> files;
         for (const app::OutputFile& file : draft) {
             files.emplace_back(file.path.lexically_relative(name), file.bytes);
         }
         folders_.fill(name.string(), files);
+    }
+
+    [[nodiscard]] bool is_there(const app::OutputFile& file) const {
+        std::error_code error;
+        return fs::is_regular_file(output_ / file.path, error) && app::read_file(output_ / file.path) == file.bytes;
     }
 
     void told(const std::function<void()>& work) const {

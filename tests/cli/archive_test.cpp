@@ -299,8 +299,15 @@ TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment
     const Ended ended = archive(again);
     EXPECT_EQ(ended.code, 1) << ended.err;
     const Ended repeated = archive(again);
-    EXPECT_EQ(repeated.code, 2);
-    EXPECT_TRUE(tells(repeated, "EX-2026-0042_A1 — is there already")) << repeated.err;
+    EXPECT_EQ(repeated.code, 1) << "what is there whole stays: a command that was ended is given again";
+    EXPECT_EQ(repeated.out, ended.out) << repeated.err;
+    const fs::path change = folder() / "drafts" / "EX-2026-0042_A1" / "changes.json";
+    const std::string written = bytes_of(change);
+    std::ofstream(change, std::ios::app) << " ";
+    const Ended refused = archive(again);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(tells(refused, "EX-2026-0042_A1 — is there already, with other files")) << refused.err;
+    std::ofstream(change) << written;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder() / "drafts"), {}), 1) << "nothing else is left";
     EXPECT_TRUE(tells(archive({"number", "--amend", "EX-2026-0042"}, "R. Lin"), "EX-2026-0042/A1 numbered"));
     const json found = json::parse(ended.out, nullptr, false);

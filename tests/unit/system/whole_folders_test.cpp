@@ -54,7 +54,9 @@ TEST_F(WholeFoldersTest, AppearTogetherWithAllFiles) {
         folders.fill("a", {{"x", "1"}, {"sub/deeper/y", ""}, {"sub/z", "3"}});
         folders.fill("b", {{"x", std::string_view("\0\n", 2)}});
         EXPECT_FALSE(fs::exists(deep / "a"));
-        folders.put_in_place();
+        Names told;
+        folders.put_in_place([&](const std::string& name) { told.push_back(name); });
+        EXPECT_EQ(told, (Names{"a", "b"}));
         EXPECT_EQ(bytes_of(deep / "a" / "x"), "1");
         EXPECT_EQ(bytes_of(deep / "a" / "sub" / "z"), "3");
         EXPECT_TRUE(fs::is_regular_file(deep / "a" / "sub" / "deeper" / "y"));
