@@ -18,8 +18,7 @@ namespace {
 
 /// Largest change of ln U, for the order of findings and the choice among points.
 double size_of(const Effect& effect) {
-    return std::max(std::abs(std::log(effect.alone.U / effect.claimed.U)),
-                    std::abs(std::log(effect.audited.U / effect.last.U)));
+    return std::max(size_of_change(effect.claimed.U, effect.alone.U), size_of_change(effect.last.U, effect.audited.U));
 }
 
 /// Claims as they are stated; where a number is not stated, what the rows give.
@@ -92,7 +91,7 @@ void put_effects(const AuditedBudget& budget, std::size_t position, std::vector<
             corrections.push_back(correction_of(findings[finding], position));
         }
         effects = effects_of(budget, corrections);
-        result.sampled_shares = corrections.size() > k_exact_shares;
+        result.sampled_shares = !share_division(corrections.size(), budget.rows.size()).is_exact;
     }
     for (std::size_t i = 0; i < effects.size(); ++i) {
         effects[i].budget = position;

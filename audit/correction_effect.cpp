@@ -159,6 +159,12 @@ std::vector<Effect> effects_of(std::size_t n, const ShareDivision& division,
     return effects;
 }
 
+double size_of_change(double U_from, double U_to) {
+    constexpr double k_same = 1e-9;
+    const double ratio = U_to / U_from;
+    return ratio > 0.0 && std::isfinite(ratio) ? k_same * std::round(std::abs(std::log(ratio)) / k_same) : 0.0;
+}
+
 std::vector<Effect> effects_of(const AuditedBudget& budget, const std::vector<const Correction*>& corrections) {
     const AuditedBudget bare = without_texts(budget);
     BudgetOutcome itself;

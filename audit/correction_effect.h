@@ -21,6 +21,10 @@ namespace gumcert::audit {
 [[nodiscard]] std::vector<Effect> effects_of(const AuditedBudget& budget,
                                              const std::vector<const Correction*>& corrections);
 
+/// How much U changes, |ln(U_to/U_from)|, to 1e-9: which of equal changes is taken for the largest must not depend on last
+/// bits. 0 where one of both is not above 0.
+[[nodiscard]] double size_of_change(double U_from, double U_to);
+
 /// A set of corrections: true at i where the i-th one is made.
 using ChosenCorrections = std::vector<bool>;
 

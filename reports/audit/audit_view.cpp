@@ -1,5 +1,7 @@
 #include "reports/audit/audit_view.h"
 
+#include "audit/correction_effect.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -309,8 +311,8 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
 
 /// How much the corrections change a result: a result of the file before a nested one, a decision before U.
 std::tuple<bool, bool, double> rank_of(const AuditedResultView& result) {
-    const double ratio = result.audited.number.U / result.claimed.number.U;
-    return {!result.is_nested, result.change.decision_turns(), ratio > 0.0 ? std::abs(std::log(ratio)) : 0.0};
+    return {!result.is_nested, result.change.decision_turns(),
+            audit::size_of_change(result.claimed.number.U, result.audited.number.U)};
 }
 
 std::string form_of(const certificate::ScopeEntry& entry) {

@@ -110,6 +110,19 @@ TEST(CorrectionEffect, SampledSharesAreNearExactOnes) {
     EXPECT_NEAR(sampled.back().share, 0.0, 1e-12);
 }
 
+/// Results whose corrections change them alike, but for the last bits: none is larger than another.
+TEST(CorrectionEffect, EqualChangesAreEqualWhateverTheirLastBitsAre) {
+    for (int i = 1; i < 200; ++i) {
+        const double U = 0.37 * i;
+        EXPECT_EQ(size_of_change(U, 1.25 * U), size_of_change(3.1 * U, 3.1 * (1.25 * U))) << i;
+        EXPECT_EQ(size_of_change(U, 1.25 * U), size_of_change(1.25 * U, U)) << i;
+    }
+    EXPECT_NEAR(size_of_change(2.0, 3.0), std::log(1.5), 1e-9);
+    EXPECT_LT(size_of_change(2.0, 3.0), size_of_change(2.0, 3.00000001));
+    EXPECT_EQ(size_of_change(2.0, 0.0), 0.0);
+    EXPECT_EQ(size_of_change(0.0, 2.0), 0.0);
+}
+
 TEST(CorrectionEffect, KnowsAloneAndLast) {
     const std::vector<Correction> corrections = scaling_corrections(2);
     const AuditedBudget budget = uneven_budget(3);
