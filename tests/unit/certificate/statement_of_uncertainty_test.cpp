@@ -126,6 +126,9 @@ TEST(StatementOfUncertainty, PrintsAcceptanceLimitsToTheSafeSide) {
     EXPECT_EQ(printed_at_least(0.0, 2), "0.00");
     EXPECT_EQ(printed_at_most(-0.0, 2), "0.00");
     EXPECT_EQ(printed_at_most(49999933.4, 0), "49999933");
+    // Far more decimals than the number has: its noise is that of a negative number, too.
+    EXPECT_EQ(printed_at_most(-1234567.125, 9), "-1234567.125000000");
+    EXPECT_EQ(printed_at_least(1234567.125, 9), "1234567.125000000");
     EXPECT_EQ(printed_at_least(1401.0, -2), "1.5E+3");
     EXPECT_EQ(printed_at_most(0.999999, 2), "0.99");
 }
