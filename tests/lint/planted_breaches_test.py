@@ -251,6 +251,10 @@ class Tree(PlantedTree):
         for path, text in [
                 ("gum/sums.h", declared),
                 ("engine/rotary_table/trials/sums.h", declared),
+                ("audit/rules/sums.h", declared),
+                ("json/sums.h", declared),
+                ("laboratory/sums.h", declared),
+                ("system/sums.h", declared),
                 ("text/sums.h", "inline int twice(int a) {\n    return 2 * a;\n}\n"),
                 ("certificate/sums.h", "class Sum {\npublic:\n    void add(double a);\n    int n() const { return n_; }\n"
                                        "private:\n    int n_ = 0;\n};\n")]:
