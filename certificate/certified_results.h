@@ -12,7 +12,7 @@
 namespace gumcert::certificate {
 
 // What a certificate certifies, as tables of columns: HTML, PDF, text and DCC all print these texts, so that they
-// cannot disagree. Made once, by app/certify; the record keeps it.
+// cannot disagree. Made once, by reports/record/make/certificate; the record keeps it.
 
 /// Decision on conformity of one value, with everything needed to check it by hand (JCGM 106:2012; ILAC-G8:09/2019).
 /// Numbers are in the unit of the column.

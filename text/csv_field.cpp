@@ -43,18 +43,23 @@ std::string harmless(const std::string& text) {
     return out;
 }
 
+std::string in_quotes(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        out += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return out + '"';
+}
+
 }  // namespace
 
 std::string csv_field(const std::string& text) {
     const std::string shown = harmless(text);
-    if (shown.find_first_of(",;\"\t\r\n") == std::string::npos) {
-        return shown;
-    }
-    std::string out = "\"";
-    for (const char c : shown) {
-        out += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return out + '"';
+    return shown.find_first_of(",;\"\t\r\n") == std::string::npos ? shown : in_quotes(shown);
+}
+
+std::string quoted_csv_field(const std::string& text) {
+    return in_quotes(harmless(text));
 }
 
 }  // namespace gumcert::text

@@ -8,28 +8,19 @@
 #include <string_view>
 #include <vector>
 
+#include "text/utf8.h"
+
 namespace gumcert::cli {
 
 namespace {
 
-/// One character of UTF-8 from the front of a text.
-char32_t take_character(std::string_view& text) {
-    const auto first = static_cast<unsigned char>(text.front());
-    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    char32_t character = length == 1 ? first : first & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        character = character << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    }
-    text.remove_prefix(length);
-    return character;
-}
-
 /// A text as roff input. A hyphen inside a word may end a line and a minus may not: what a reader types is a minus.
-std::string roff(std::string_view text, bool typed = false) {
-    std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
+std::string roff(std::string_view prose, bool typed = false) {
+    std::string out = prose.starts_with('.') || prose.starts_with('\'') ? "\\&" : "";
     bool in_word = false;
-    while (!text.empty()) {
-        const char32_t character = take_character(text);
+    while (!prose.empty()) {
+        const auto [character, bytes] = text::decode_utf8(prose, 0);
+        prose.remove_prefix(std::max<std::size_t>(bytes, 1));
         if (character == '\\') {
             out += "\\e";
         } else if (character == '-' && (typed || !in_word)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gum/quantity/unit.h"
+#include "reports/record/comparison_scores.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
 #include "reports/view/comparison_sections.h"
@@ -102,13 +103,9 @@ std::string method_in_words(const std::string& method) {
     return words;
 }
 
-/// The score of a result that decides.
+/// The score of a result that decides. A deviation stands in the line already: P_A says what share of its limit it is.
 std::string deciding_score(const reports::ComparisonPoint& point, const std::string& score) {
-    const std::string& text = score == "z"         ? point.z.text
-                              : score == "z_prime" ? point.z_prime.text
-                              : score == "zeta"    ? point.zeta.text
-                              : score == "D"       ? point.P_A.text
-                                                   : point.En.text;
+    const std::string text = score == "D" ? point.P_A.text : reports::score_of(point, score).text;
     return text.empty() ? "–" : text;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gum/comparison/laboratory_comparison.h"
+#include "gum/comparison/scores.h"
 #include "gum/quantity/diagnostic.h"
 
 using namespace gumcert::gum;
@@ -79,6 +80,15 @@ int main() try {
             std::printf("  E_n = %5.2f", *score.en);
         }
         std::printf("  %s\n", text_of(score.verdict));
+    }
+
+    // One pair of values by itself: L2 against L1, as above, and where half of what is uncertain is common to both.
+    const ComparedValue laboratory{.value = 25.0, .standard_uncertainty = 15.0, .expanded_uncertainty = 30.0};
+    const ComparedValue reference{.value = 12.0, .standard_uncertainty = 8.0, .expanded_uncertainty = 16.0};
+    for (const double correlation : {0.0, 0.5}) {
+        const ComparisonScore pair = score(laboratory, reference, correlation);
+        std::printf("r = %.1f: D = %.0f nm, U(D) = %.0f nm, E_n = %.2f, zeta = %.2f\n", correlation, pair.difference,
+                    pair.U_difference, pair.en, pair.zeta);
     }
     return comparison.without_result.empty() ? 0 : 1;
 } catch (const DiagnosedError& error) {

@@ -1,4 +1,5 @@
-// A rotary table: a simulated measurement with a tracking interferometer, evaluated as the program evaluates a job. Six
+// A rotary table: what a layout will give, and a simulated measurement with a tracking interferometer, evaluated as the
+// program evaluates a job. Six
 // stations measure the distances of six reflectors on the table at twelve angles; the error motions are known, because
 // they were drawn.
 #include <cmath>
@@ -13,6 +14,7 @@
 #include "gum/rotary_table/document_units.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"
 #include "gum/rotary_table/studies/campaign_draws.h"
+#include "gum/rotary_table/studies/plan_study.h"
 #include "gum/rounding.h"
 
 using namespace gumcert;
@@ -51,6 +53,17 @@ engine::RotaryTableMeasurement layout() {
 
 int main() try {
     const engine::RotaryTableMeasurement planned = layout();
+    gum::RotaryTableRequest to_plan;
+    to_plan.measurement = planned;
+    to_plan.coverage_probability = 0.95;
+    const gum::plan::Setting setting = gum::plan::setting_of(to_plan, {}, {});
+    const gum::plan::Expected expected = gum::plan::expect(setting, setting.layout);
+    for (const std::size_t c : {0U, 3U}) {
+        const gum::DocumentUnit& unit = gum::plan::unit_of_motion(c);
+        std::printf("before anything is measured: U of %s at most %.2f %s\n", setting.names[c].c_str(),
+                    expected.motions[c].largest / unit.si, unit.print);
+    }
+
     const gum::SimulationRequest simulation;  // error motions within ±10 µm and ±20″, set-up errors of 10 µm and 20″
     const gum::CampaignDraws draws(planned, simulation, planned.table_repeatability, simulation.seed, 0);
     const gum::CampaignDraws::Campaign campaign = draws.campaign(0, true);

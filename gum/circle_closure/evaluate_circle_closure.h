@@ -42,6 +42,7 @@ struct CircleClosureResult {
 /// Positions and indices in the measurement have to be right, which the reader of a job sees to.
 /// \param threads  of Monte Carlo; 0: as many as the machine has
 /// \throws NoResultError  of solve_circle_closure() and run_monte_carlo()
+/// Example: examples/api/circle_closure.cpp
 [[nodiscard]] CircleClosureResult evaluate_circle_closure(const CircleClosureRequest& request, unsigned threads,
                                                           const Progress& progress = {});
 

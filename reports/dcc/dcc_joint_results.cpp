@@ -7,6 +7,7 @@
 
 #include "gum/rounding.h"
 #include "reports/dcc/dcc_quantity.h"
+#include "text/csv_field.h"
 
 namespace gumcert::reports {
 
@@ -167,22 +168,14 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
 }
 
-std::string quoted_csv(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        out += c == '"' ? "\"\"" : std::string(1, c);
-    }
-    return out + "\"";
-}
-
 std::string csv_of(const ResultCovariance& c) {
     std::string csv = "result,unit";
     for (const std::string& name : c.names) {
-        csv += "," + quoted_csv(name);
+        csv += "," + text::quoted_csv_field(name);
     }
     csv += "\n";
     for (std::size_t row = 0; row < c.names.size(); ++row) {
-        csv += quoted_csv(c.names[row]) + "," + quoted_csv(c.units[row]);
+        csv += text::quoted_csv_field(c.names[row]) + "," + text::quoted_csv_field(c.units[row]);
         for (const double value : c.matrix[row]) {
             csv += "," + d_si_number(value);
         }

@@ -24,19 +24,12 @@ namespace {
 /// Whether a text has characters of scripts that the built-in fonts lack: from U+2E80 (CJK radicals) upwards, without
 /// the replacement character U+FFFD.
 bool needs_further_fonts(std::string_view utf8) {
-    for (std::size_t i = 0; i < utf8.size(); ++i) {
-        const auto byte = [&](std::size_t at) {
-            return at < utf8.size() ? static_cast<unsigned>(static_cast<unsigned char>(utf8[at])) : 0U;
-        };
-        const unsigned lead = byte(i);
-        if (lead < 0xE2U) {
-            continue;
-        }
-        const unsigned code =
-            lead >= 0xF0U ? 0x10000U : ((lead & 0x0FU) << 12U) | ((byte(i + 1) & 0x3FU) << 6U) | (byte(i + 2) & 0x3FU);
+    for (std::size_t i = 0; i < utf8.size();) {
+        const auto [code, bytes] = text::decode_utf8(utf8, i);
         if (code >= 0x2E80U && code != 0xFFFDU) {
             return true;
         }
+        i += std::max<std::size_t>(bytes, 1);
     }
     return false;
 }

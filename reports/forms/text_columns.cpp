@@ -1,6 +1,9 @@
 #include "reports/forms/text_columns.h"
 
+#include <algorithm>
 #include <string_view>
+
+#include "text/utf8.h"
 
 namespace gumcert::reports {
 namespace {
@@ -19,23 +22,22 @@ bool opens(const std::string& glyph) {
 
 }  // namespace
 
-std::vector<Glyph> glyphs(const std::string& text) {
+std::vector<Glyph> glyphs(const std::string& utf8) {
     std::vector<Glyph> all;
     std::size_t i = 0;
-    while (i < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-        const std::string c = text.substr(i, length);
-        i += length;
-        const bool combining = (c >= "\u0300" && c <= "\u036F") || (c >= "\u200B" && c <= "\u200D");
+    while (i < utf8.size()) {
+        const auto [c, decoded] = text::decode_utf8(utf8, i);
+        const std::string bytes = utf8.substr(i, std::max<std::size_t>(decoded, 1));
+        i += bytes.size();
+        const bool combining = (c >= 0x0300 && c <= 0x036F) || (c >= 0x200B && c <= 0x200D);
         if (combining && !all.empty()) {
-            all.back().bytes += c;
+            all.back().bytes += bytes;
             continue;
         }
-        const bool wide = (c >= "\u1100" && c <= "\u115F") || (c >= "\u2E80" && c <= "\uA4CF") ||
-                          (c >= "\uAC00" && c <= "\uD7A3") || (c >= "\uF900" && c <= "\uFAFF") ||
-                          (c >= "\uFF00" && c <= "\uFF60") || (c >= "\U0001F300" && c <= "\U0003FFFD");
-        all.push_back({c, combining ? 0U : wide ? 2U : 1U});
+        const bool wide = (c >= 0x1100 && c <= 0x115F) || (c >= 0x2E80 && c <= 0xA4CF) ||
+                          (c >= 0xAC00 && c <= 0xD7A3) || (c >= 0xF900 && c <= 0xFAFF) ||
+                          (c >= 0xFF00 && c <= 0xFF60) || (c >= 0x1F300 && c <= 0x3FFFD);
+        all.push_back({bytes, combining ? 0U : wide ? 2U : 1U});
     }
     return all;
 }

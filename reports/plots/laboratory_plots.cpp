@@ -54,7 +54,7 @@ std::vector<LaboratoryColumn> columns_of(const Comparison& comparison, const Com
                                .value = deviations ? p.D.number : p.value.number,
                                .U = with_U_of_D ? p.U_D.number.value_or(0.0) : p.U.number.value_or(0.0),
                                .contributes = p.contributes,
-                               .score = score_of(p, item.score)});
+                               .score = score_of(p, item.score).number});
         }
     }
     std::sort(columns.begin(), columns.end(), [](const LaboratoryColumn& a, const LaboratoryColumn& b) {

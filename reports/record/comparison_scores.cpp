@@ -2,13 +2,13 @@
 
 namespace gumcert::reports {
 
-std::optional<double> score_of(const ComparisonPoint& p, const std::string& score) {
-    return score == "En"        ? p.En.number
-           : score == "zeta"    ? p.zeta.number
-           : score == "z"       ? p.z.number
-           : score == "z_prime" ? p.z_prime.number
-           : score == "D"       ? std::optional<double>(p.D.number)
-                                : std::nullopt;
+Shown<std::optional<double>> score_of(const ComparisonPoint& p, const std::string& score) {
+    return score == "En"        ? p.En
+           : score == "zeta"    ? p.zeta
+           : score == "z"       ? p.z
+           : score == "z_prime" ? p.z_prime
+           : score == "D"       ? Shown<std::optional<double>>(p.D)
+                                : Shown<std::optional<double>>();
 }
 
 }  // namespace gumcert::reports

@@ -11,6 +11,7 @@
 #include "gum/rounding.h"
 #include "reports/studies/plan_data.h"
 #include "reports/studies/plan_figures.h"
+#include "text/csv_field.h"
 #include "text/lists.h"
 
 namespace gumcert::reports::plan {
@@ -359,7 +360,7 @@ void add_proposal(const Setting& setting, const Expected& now, const Proposal& p
         }
         row.emplace_back(from == to ? "no" : "yes");
         positions.rows.push_back(std::move(row));
-        csv.rows.push_back({before.stations[j] + "," + texts[0] + "," + texts[1] + "," + texts[2]});
+        csv.rows.push_back({text::csv_field(before.stations[j]) + "," + texts[0] + "," + texts[1] + "," + texts[2]});
     }
     StudyTable gains{"Expected U before and after",
                      {{"quantity", "", false},

@@ -63,7 +63,7 @@ double weight_of(const ComparisonPoint& p, const std::string& score) {
     if (!has_signal(p)) {
         return is_open(p) ? k_open : 0.0;
     }
-    const double magnitude = std::abs(score_of(p, score).value_or(0.0));
+    const double magnitude = std::abs(score_of(p, score).number.value_or(0.0));
     return (p.signal == "action" ? 2.0 : 1.0) + magnitude / (1.0 + magnitude);
 }
 
@@ -372,7 +372,7 @@ void one_item_of_answer(CertificateBuilder& builder, const Wording& words, const
     for (const ComparisonPoint* p : shown_points(builder, words, compared, k_most_on_first_page)) {
         const bool both = item.score != "D";
         rows.push_back({p->participant, p->value.text, p->U.text, p->D.text, p->U_D.text,
-                        both ? score_text(*p, item.score) : "", signal_name(words, p->signal)});
+                        both ? score_of(*p, item.score).text : "", signal_name(words, p->signal)});
     }
     table_of_filled_columns(builder, "scores", words("comparison", "scores_table"),
                             {{words("comparison", "participant"), ""},
@@ -421,7 +421,7 @@ void scores_side_by_side(CertificateBuilder& builder, const Wording& words, cons
         std::vector<Text> row = {id};
         for (std::size_t i = 0; i < items.size(); ++i) {
             const ComparisonPoint* p = by_participant[id][i];
-            row.push_back(p == nullptr ? "" : score_text(*p, items[i].item->score));
+            row.push_back(p == nullptr ? "" : score_of(*p, items[i].item->score).text);
             row.push_back(p == nullptr ? Text() : signal_name(words, p->signal));
         }
         rows.push_back(std::move(row));
@@ -733,7 +733,7 @@ void how_to_read(CertificateBuilder& builder, const Wording& words, const Compar
     Facts facts;
     for (const char* score : k_scores) {
         if (std::any_of(c.points.begin(), c.points.end(),
-                        [&](const ComparisonPoint& p) { return !score_text(p, score).empty(); })) {
+                        [&](const ComparisonPoint& p) { return !score_of(p, score).text.empty(); })) {
             facts.emplace_back(score_name(words, score), words("comparison_score_reading", score));
         }
     }
@@ -787,15 +787,6 @@ std::vector<ComparedItem> compared_items(const Wording& words, const Comparison&
 
 Text score_name(const Wording& words, const std::string& score) {
     return score.empty() ? Text() : score == "D" ? Text("D") : words("label", score);
-}
-
-std::string score_text(const ComparisonPoint& p, const std::string& score) {
-    return score == "En"        ? p.En.text
-           : score == "zeta"    ? p.zeta.text
-           : score == "z"       ? p.z.text
-           : score == "z_prime" ? p.z_prime.text
-           : score == "D"       ? p.D.text
-                                : "";
 }
 
 void laboratory_answer(CertificateBuilder& builder, const Wording& words, const Comparison& c, Facts facts,

@@ -49,7 +49,4 @@ void pairs_of_item(CertificateBuilder& builder, const Wording& words, const Comp
 /// The score as tables and texts name it: "Eₙ".
 [[nodiscard]] Text score_name(const Wording& words, const std::string& score);
 
-/// The score of a result as it is printed; "" without.
-[[nodiscard]] std::string score_text(const ComparisonPoint& point, const std::string& score);
-
 }  // namespace gumcert::reports

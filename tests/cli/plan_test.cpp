@@ -221,6 +221,16 @@ TEST_F(Plan, ProposedStationsStandInTheRegionAndAreBetter) {
     }
 }
 
+TEST_F(Plan, ProposedStationsAreLinesOfAStationsFileWhateverTheirNames) {
+    std::string stations = bytes_of(folder() / "job" / "stations.csv");
+    stations.replace(stations.find("P1,"), 2, "\"=P1,b\"");
+    write_bytes(folder() / "job" / "stations.csv", stations);
+    write_bytes(file(), job_.dump());
+    const fs::path output = folder() / "out.html";
+    ASSERT_EQ(gumcert({"plan", file().string(), "-o", output.string()}).code, 0);
+    EXPECT_NE(bytes_of(output).find("&quot;&apos;=P1,b&quot;,"), std::string::npos) << "quoted, and no formula";
+}
+
 TEST_F(Plan, SameBytesForAnyNumberOfThreads) {
     const json one = planned({"--threads", "1"});
     const std::string bytes = bytes_of(folder() / "out.json");

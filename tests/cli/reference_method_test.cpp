@@ -1,5 +1,5 @@
 // A rotary table against a reference method as a user meets it: the tables of docs/comparison_with_a_dial_indicator.md
-// from the public campaigns, the shipped budget of the indicator, and what is refused.
+// from the simulated campaigns, the shipped budget of the indicator, and what is refused.
 #include <cmath>
 #include <map>
 #include <vector>
@@ -12,9 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Public simulated campaigns beside the tree; they may be absent.
-fs::path shared_campaigns() {
-    return fs::path(GUMCERT_SOURCE_DIR).parent_path() / "shared" / "data" / "rotary_table";
+fs::path simulated_campaigns() {
+    return fs::path(GUMCERT_SOURCE_DIR) / "tests" / "reference" / "campaigns";
 }
 
 std::string trimmed(const std::string& text) {
@@ -50,11 +49,11 @@ std::map<std::string, std::vector<std::vector<std::string>>> tables_of_document(
 
 class ReferenceMethod : public ProgramTest {
 protected:
-    /// The comparison of a public campaign.
+    /// The comparison of a simulated campaign.
     /// \param change  of its reference_method
     json comparison_of(const std::string& name, const std::function<void(json&, const fs::path&)>& change) const {
         const fs::path job_folder = folder() / name;
-        for (const fs::directory_entry& entry : fs::directory_iterator(shared_campaigns() / name)) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(simulated_campaigns() / name)) {
             write_bytes(job_folder / entry.path().filename(), bytes_of(entry.path()));
         }
         change_json(job_folder / "job.json", [&](json& job) {
@@ -105,10 +104,7 @@ std::vector<std::string> row_of(const std::string& name, const std::string& dire
             k_verdicts.at(summary.at("verdict").get<std::string>())};
 }
 
-TEST_F(ReferenceMethod, PublicCampaignsGiveTheTablesOfTheDocument) {
-    if (!fs::exists(shared_campaigns())) {
-        GTEST_SKIP() << "the public campaigns are not here";
-    }
+TEST_F(ReferenceMethod, SimulatedCampaignsGiveTheTablesOfTheDocument) {
     struct Variant {
         std::string heading;
         std::function<void(json&, const fs::path&)> change;

@@ -14,13 +14,12 @@ using nlohmann::json;
 
 const std::vector<std::string> k_motions{"EXA", "EYA", "EZA", "EAA", "EBA", "ECA"};
 
-/// Public simulated campaigns beside the tree; they may be absent.
-fs::path shared_campaign(const std::string& name) {
-    return fs::path(GUMCERT_SOURCE_DIR).parent_path() / "shared" / "data" / "rotary_table" / name;
+fs::path simulated_campaign(const std::string& name) {
+    return fs::path(GUMCERT_SOURCE_DIR) / "tests" / "reference" / "campaigns" / name;
 }
 
 fs::path copy_of_campaign(const std::string& name, const fs::path& folder) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(shared_campaign(name))) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(simulated_campaign(name))) {
         write_bytes(folder / entry.path().filename(), bytes_of(entry.path()));
     }
     return folder / "job.json";
@@ -234,15 +233,12 @@ TEST_F(RotaryDepth, AxisLineHasTheLettersAcrossTheAxis) {
         {"b_axis_perfect_table", {"B", {"axis_x", "axis_z", "axis_a", "axis_c"}}},
         {"c_axis_single_target", {"C", {"axis_x", "axis_y", "axis_a", "axis_b"}}}};
     for (const auto& [campaign, expected] : campaigns) {
-        if (!fs::exists(shared_campaign(campaign) / "job.json")) {
-            GTEST_SKIP() << shared_campaign(campaign) << " is absent";
-        }
         SCOPED_TRACE(campaign);
         const json record = evaluate(copy_of_campaign(campaign, folder() / campaign));
         ASSERT_TRUE(record.is_object());
         const json& rotary = record.at("rotary");
         EXPECT_EQ(rotary.at("axis"), expected.first);
-        const json truth = json::parse(bytes_of(shared_campaign(campaign) / "truth.json"));
+        const json truth = json::parse(bytes_of(simulated_campaign(campaign) / "truth.json"));
         std::vector<std::string> names;
         for (const json& parameter : rotary.at("axis_line")) {
             const std::string name = parameter.at("name");
@@ -271,9 +267,6 @@ TEST_F(RotaryDepth, AxisLineHasTheLettersAcrossTheAxis) {
 // A table that repeats perfectly has components near zero with hardly any degrees of freedom: trials must not draw
 // deviations from distributions without a variance.
 TEST_F(RotaryDepth, MonteCarloOfATableWhoseRepeatabilityIsHardlyDetermined) {
-    if (!fs::exists(shared_campaign("b_axis_perfect_table") / "job.json")) {
-        GTEST_SKIP() << "the public campaigns are absent";
-    }
     const fs::path job = copy_of_campaign("b_axis_perfect_table", folder() / "job");
     change_json(job, [](json& document) { document["monte_carlo"] = {{"trials", 2500}, {"seed", 1}}; });
     const json record = record_of(job, 0);
@@ -380,15 +373,12 @@ TEST_F(RotaryDepth, FixedVariancesUseTheFactorAPriori) {
 }
 
 TEST_F(RotaryDepth, PlantedOutliersAreRemovedOneAtATimeWithTheReason) {
-    if (!fs::exists(shared_campaign("a_axis_outliers") / "job.json")) {
-        GTEST_SKIP() << "the public campaigns are absent";
-    }
     const auto key = [](const json& row) {
         return row.at("station").get<std::string>() + " " + row.at("reflector").get<std::string>() + " " +
                row.at("pass").get<std::string>();
     };
     std::multiset<std::string> planted;
-    const json truth = json::parse(bytes_of(shared_campaign("a_axis_outliers") / "truth.json"));
+    const json truth = json::parse(bytes_of(simulated_campaign("a_axis_outliers") / "truth.json"));
     for (const json& row : truth.at("outliers")) {
         planted.insert(key(row) + " " + digits(std::round(row.at("angle_deg").get<double>())));
     }

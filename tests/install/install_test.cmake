@@ -60,9 +60,10 @@ expect_printed(uncertainty_budget "t[30 degC] = 29.8506 degC, U = 0.0096 K (u = 
                "inputs y1, y2: correlated, with 9 degrees of freedom each")
 # ISO 13528:2022, E.1 (robust mean 26.81), and E_n = D / √(U² + U_ref²) of three laboratories against a fourth
 expect_printed(proficiency_test "solution: assigned value 26.81" "solution L18  z =  3.64" "block    L1   reference"
-               "block    L2   E_n =  0.38  no signal" "block    L3   E_n =  1.37  action" "block    L4   E_n = -0.40")
+               "block    L2   E_n =  0.38  no signal" "block    L3   E_n =  1.37  action" "block    L4   E_n = -0.40"
+               "r = 0.0: D = 13 nm, U(D) = 34 nm, E_n = 0.38, zeta = 0.76" "r = 0.5: D = 13 nm, U(D) = 26 nm, E_n = 0.50")
 # The truth beside it is that of the drawn table; 76 · 0.95 = 72.2 values are expected within U.
-expect_printed(rotary_table "EXA at  0°: 2.16 µm, U = 0.10, true 2.20" "ECA at 30°: 14.39 ″, U = 0.19, true 14.28"
+expect_printed(rotary_table "before anything is measured: U of EXA at most 0.10 µm" "EXA at  0°: 2.16 µm, U = 0.10, true 2.20" "ECA at 30°: 14.39 ″, U = 0.19, true 14.28"
                "72 of 76 true values lie within U" "length noise: 67.6 % of the variance of EXA")
 # JCGM 100:2008, G.4.1 and table G.2; JCGM 101:2008, 9.2.3; k = (1 − √((1 − p)(1 − β²))) / √((1 + β²)/6) for β = 1/2
 expect_printed(coverage_factor "nu_eff = 19.0, k = 2.09 for 95 %" "k = 2.65 for 95.45 % and 5 degrees of freedom"
@@ -78,6 +79,9 @@ expect_printed(conformity "probability of conformity 0.92" "DR-01: accepted up t
 # H. Wolf, Ausgleichungsrechnung II (1979), p. 87; closure: u = 0.05" √(n − 1)/n with (n − 1)(n − 2) degrees of freedom
 expect_printed(distances "P = 900.0167 899.9833 1300.0062 m, u = 11.8 11.8 6.2 mm"
                "T_1 = 1.000\", u = 0.0186\" with 20 degrees of freedom" "order 1: amplitude 2.000\"" "order 2: amplitude 0.000\"")
+# 2.00 √(u² + (1 % of the deviation)²) with the u above
+expect_printed(circle_closure "T_0 = 2.000\", U = 0.055\" (k = 2.00)" "T_1 = 1.000\", U = 0.042\" (k = 2.00)"
+               "P_5 = -0.500\", U = 0.039\" (k = 2.00)" "range of T = 4.000\"")
 # What was simulated comes back.
 expect_printed(simulated_campaign "EXC at angle number 2: 4.944 um, simulated 4.944 um"
                "EXC at angle number 3: -0.104 um, simulated -0.104 um" "450 distances and coordinates, 108 parameters")

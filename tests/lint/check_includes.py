@@ -4,7 +4,7 @@
     check_includes.py [ROOT] [--no-spare-permissions]
 
 Prints `path:line: reason` for every breach and exits with 1, or 0 when there is none. A file belongs to the layer with
-the longest folder prefix. Four laws, and with the option a fifth:
+the longest folder prefix. Five laws, and with the option a sixth:
 
 1. An #include of ours names a layer in the list of the file's layer; one from outside is in its list of third-party
    headers, or in the C++ standard library.
@@ -13,7 +13,8 @@ the longest folder prefix. Four laws, and with the option a fifth:
 3. Only the layers of GUMCERT_MAY_TOUCH_FILES include <fstream> or <filesystem>.
 4. Libraries never print, exit, or read the clock, the locale or the environment: only the program (app/cli) does.
    Numbers are read and printed without the locale: std::from_chars and std::to_chars.
-5. A permission of the tables that no file of its layer uses is taken back: it would let in what nobody decided.
+5. The table of docs/architecture.md, which people read, names for each layer those of the list and no others.
+6. A permission of the tables that no file of its layer uses is taken back: it would let in what nobody decided.
 """
 
 import pathlib
@@ -21,6 +22,10 @@ import re
 import sys
 
 PROGRAM_LAYER = "app/cli"
+
+LAW = "cmake/gumcert_layers.cmake"
+DOCUMENT = "docs/architecture.md"
+ROW = re.compile(r"^\| `([\w/]+)` \| (.*?) \| .*? \|$", re.M)  # a layer, those that it uses, packages
 
 FILE_HEADERS = ("fstream", "filesystem")
 
@@ -62,7 +67,7 @@ class Law:
     """The tables, as cmake/gumcert_layers.cmake states them."""
 
     def __init__(self, root):
-        text = (root / "cmake/gumcert_layers.cmake").read_text(encoding="utf-8")
+        text = (root / LAW).read_text(encoding="utf-8")
         text = re.sub(r"#[^\n]*", "", text)
         tables = {name: words.split() for name, words in re.findall(r"^set\(GUMCERT_(\w+)([^)]*)\)", text, re.M)}
         self.layers = tables.get("LAYER_FOLDERS", [])
@@ -71,7 +76,7 @@ class Law:
         self.private_headers = set(tables["PRIVATE_HEADERS"])
         self.one_header, *self.only_there = tables["ONLY_IN"]
         if not self.layers:
-            raise SystemExit("cmake/gumcert_layers.cmake: no GUMCERT_LAYER_FOLDERS found — the scanner reads its law there")
+            raise SystemExit(f"{LAW}: no GUMCERT_LAYER_FOLDERS found — the scanner reads its law there")
         self.edges = {layer: tables["EDGES_" + layer.replace("/", "_")] for layer in self.layers}
         self.third_party = {layer: tables["THIRD_PARTY_" + layer.replace("/", "_")] for layer in self.layers}
         self.used = set()  # (layer, word) of each permission that an #include needed
@@ -91,6 +96,23 @@ class Law:
         """The layer with the longest folder prefix of a path relative to the root, or None."""
         fitting = [layer for layer in self.layers if path.startswith(layer + "/")]
         return max(fitting, key=len, default=None)
+
+
+def differences_of_document(root, law):
+    """(line, reason) where the table of the document says something else than the law."""
+    text = (root / DOCUMENT).read_text(encoding="utf-8") if (root / DOCUMENT).is_file() else ""
+    listed = set()
+    for row in ROW.finditer(text):
+        layer, named = row[1], set(re.findall(r"`([\w/]+)`", row[2]))
+        listed.add(layer)
+        line = text.count("\n", 0, row.start()) + 1
+        for word in sorted(named.symmetric_difference(law.edges.get(layer, ()))):
+            yield line, f"{layer} {'does not use' if word in named else 'uses'} {word}, as {LAW} says"
+        if layer not in law.edges:
+            yield line, f"{layer} is no layer of {LAW}"
+    for layer in law.layers:
+        if layer not in listed:
+            yield 1, f"the table has no row of {layer}"
 
 
 def in_list(header, entries):
@@ -171,8 +193,11 @@ def main(arguments):
             for line, reason in reasons:
                 print(f"{path}:{line}: {reason}")
                 found += 1
+    for line, reason in differences_of_document(root, law):
+        print(f"{DOCUMENT}:{line}: {reason}")
+        found += 1
     for reason in law.spare_permissions() if no_spare_permissions else ():
-        print(f"cmake/gumcert_layers.cmake: {reason} — take the word out of the table")
+        print(f"{LAW}: {reason} — take the word out of the table")
         found += 1
     if checked == 0:
         print(f"{root}: no source found to check")

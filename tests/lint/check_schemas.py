@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A validator of another project judges the schemas of jobs and records, and jobs and records by them.
+"""A validator of another project judges the schemas, and jobs and records by theirs.
 
     check_schemas.py [ROOT]
 
-A schema is a schema of its draft; its references are found from its `$id` without asking a network. That of jobs accepts
+Each schema is a schema of its draft; its references are found from its `$id` without asking a network. That of jobs accepts
 every job below examples/, with and without "$schema", and refuses each of them with a key that no job has, at the top and
 in every object below it that the schema describes. That of records accepts the records that the fuzz target begins with,
 and refuses each of them with a key that no record has, in any of its objects.
@@ -97,8 +97,9 @@ def refused_records(validator):
 
 
 def main():
-    job_count, problems = refused_jobs(validator_of("job-1.schema.json"))
-    record_count, of_records = refused_records(validator_of("record-1.schema.json"))
+    validators = {path.name: validator_of(path.name) for path in sorted((ROOT / "schemas").glob("*.schema.json"))}
+    job_count, problems = refused_jobs(validators["job-1.schema.json"])
+    record_count, of_records = refused_records(validators["record-1.schema.json"])
     problems += of_records
     if job_count == 0 or record_count == 0:
         problems.append("no job below examples/, or no record below tests/fuzz/corpus/record")

@@ -45,7 +45,9 @@ class Includes(PlantedTree):
     def setUp(self):
         super().setUp()
         (self.root / "cmake").mkdir()
+        (self.root / "docs").mkdir()
         shutil.copy(ROOT / "cmake/gumcert_layers.cmake", self.root / "cmake")
+        shutil.copy(ROOT / "docs/architecture.md", self.root / "docs")
         self.plant("gum/quantity/diagnostic.h", "#pragma once\n#include <string>\n")
         self.plant("gum/coverage.h", '#pragma once\n#include "gum/quantity/diagnostic.h"\n')
         self.plant("engine/adjustment.h", "#pragma once\n#include <Eigen/Core>\n")
@@ -70,6 +72,20 @@ class Includes(PlantedTree):
         code, text = self.scan("--no-spare-permissions")
         for used in ("no file of gum includes gum/quantity", "no file of engine includes Eigen"):
             self.assertNotIn(used, text)
+
+    def test_document_that_names_other_layers(self):
+        document = self.root / "docs/architecture.md"
+        text = document.read_text(encoding="utf-8")
+        row = next(line for line in text.split("\n") if line.startswith("| `gum/monte_carlo` | `"))
+        for planted, reason in ((row.replace(", `gum` |", " |"), "gum/monte_carlo uses gum, as"),
+                                (row.replace(", `gum` |", ", `gum`, `engine` |"), "gum/monte_carlo does not use engine, as"),
+                                ("", "the table has no row of gum/monte_carlo"),
+                                (row.replace("`gum/monte_carlo`", "`gum/roulette`"), "gum/roulette is no layer of")):
+            self.assertNotEqual(planted, row)
+            document.write_text(text.replace(row, planted), encoding="utf-8")
+            self.expect(self.scan(), 1, "docs/architecture.md:", reason)
+        document.unlink()
+        self.expect(self.scan(), 1, "the table has no row of text")
 
     def test_tree_without_sources_is_not_clean(self):
         for folder in ("gum", "engine"):
@@ -235,6 +251,10 @@ class Tree(PlantedTree):
         for path, text in [
                 ("gum/sums.h", declared),
                 ("engine/rotary_table/trials/sums.h", declared),
+                ("audit/rules/sums.h", declared),
+                ("json/sums.h", declared),
+                ("laboratory/sums.h", declared),
+                ("system/sums.h", declared),
                 ("text/sums.h", "inline int twice(int a) {\n    return 2 * a;\n}\n"),
                 ("certificate/sums.h", "class Sum {\npublic:\n    void add(double a);\n    int n() const { return n_; }\n"
                                        "private:\n    int n_ = 0;\n};\n")]:

@@ -23,7 +23,7 @@ namespace {
 
 using engine::RotaryTableSolution;
 
-const std::filesystem::path k_data = std::filesystem::path(GUMCERT_SHARED_DIR) / "data" / "rotary_table";
+const std::filesystem::path k_data = std::filesystem::path(GUMCERT_SOURCE_DIR) / "tests" / "reference" / "campaigns";
 
 struct Set {
     jobs::RotaryTableJob job;
@@ -43,13 +43,10 @@ engine::EvaluationOptions options_of(const engine::RotaryTableMeasurement& measu
     return options;
 }
 
-/// One evaluation a set, shared by its tests. Null where the data are absent.
+/// One evaluation a set, shared by its tests.
 const Set* evaluated(const std::string& name) {
     static std::map<std::string, std::unique_ptr<Set>> sets;
     const std::filesystem::path folder = k_data / name;
-    if (!std::filesystem::exists(folder / "job.json")) {
-        return nullptr;
-    }
     std::unique_ptr<Set>& set = sets[name];
     if (!set) {
         set = std::make_unique<Set>();
@@ -86,12 +83,7 @@ Eigen::VectorXd true_values(const Set& set) {
 
 class RotaryTableTruth : public testing::TestWithParam<const char*> {
 protected:
-    void SetUp() override {
-        set_ = evaluated(GetParam());
-        if (set_ == nullptr) {
-            GTEST_SKIP() << "shared data absent: rotary_table/" << GetParam();
-        }
-    }
+    void SetUp() override { set_ = evaluated(GetParam()); }
     const Set* set_ = nullptr;
 };
 

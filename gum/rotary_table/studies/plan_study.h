@@ -53,6 +53,7 @@ struct Motion {
 /// \param request  measured lengths tell which distances are measured, and where stations stand that have no position;
 ///                 without lengths, every station measures every reflector
 /// \throws InputError, NoResultError
+/// Example: examples/api/rotary_table.cpp
 [[nodiscard]] Setting setting_of(RotaryTableRequest request, const PlanRequest& plan, const Progress& progress);
 
 struct Expected {

@@ -28,5 +28,13 @@ TEST(CsvField, NumbersStayNumbers) {
     EXPECT_EQ(csv_field("-a"), "'-a");
 }
 
+TEST(CsvField, QuotedIsTheSameInQuotes) {
+    for (const char* const field : {"", "L_s", "-0.5", "5\" gauge", "=1+1", "x;=1", "a,b"}) {
+        const std::string plain = csv_field(field);
+        EXPECT_EQ(quoted_csv_field(field), plain.starts_with('"') ? plain : '"' + plain + '"') << field;
+    }
+    EXPECT_EQ(quoted_csv_field("=\""), "\"'=\"\"\"");
+}
+
 }  // namespace
 }  // namespace gumcert::text

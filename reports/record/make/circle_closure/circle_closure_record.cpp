@@ -18,6 +18,7 @@
 #include "reports/record/make/reported_choice.h"
 #include "reports/record/record_kinds.h"
 #include "reports/record/reported_result.h"
+#include "text/csv_field.h"
 #include "text/numbers.h"
 
 namespace gumcert::reports {
@@ -445,11 +446,11 @@ std::string circle_closure_covariance_csv(const CircleClosureJob& job, const gum
     const Eigen::MatrixXd V = covariance_in_unit(job, result);
     std::string csv = "result";
     for (const std::string& name : names) {
-        csv += "," + name;
+        csv += "," + text::csv_field(name);
     }
     csv += "\n";
     for (Index i = 0; i < V.rows(); ++i) {
-        csv += names[static_cast<std::size_t>(i)];
+        csv += text::csv_field(names[static_cast<std::size_t>(i)]);
         for (Index j = 0; j < V.cols(); ++j) {
             csv += "," + text::shortest(V(i, j));
         }

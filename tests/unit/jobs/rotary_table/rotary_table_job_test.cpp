@@ -1067,7 +1067,7 @@ TEST_F(DiskJobTest, TellsWhatCannotBeRead) {
     }
 }
 
-// ---- the real campaigns ---------------------------------------------------------------------------------------------
+// ---- whole campaigns ------------------------------------------------------------------------------------------------
 
 struct Campaign {
     std::string name;
@@ -1080,10 +1080,7 @@ class CampaignTest : public testing::TestWithParam<Campaign> {};
 TEST_P(CampaignTest, IsReadWithoutAWarning) {
     const Campaign& expected = GetParam();
     const std::filesystem::path file =
-        std::filesystem::path(GUMCERT_SHARED_DIR) / "data/rotary_table" / expected.name / "job.json";
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "the shared data are not here";
-    }
+        std::filesystem::path(GUMCERT_SOURCE_DIR) / "tests/reference/campaigns" / expected.name / "job.json";
     const RotaryTableJob job = read_rotary_table_job(file);
     const engine::RotaryTableMeasurement& m = job.measurement;
     EXPECT_EQ(texts(job.warnings), "");
@@ -1103,7 +1100,7 @@ TEST_P(CampaignTest, IsReadWithoutAWarning) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Shared, CampaignTest,
+    Simulated, CampaignTest,
     testing::Values(Campaign{"a_axis", engine::RotaryAxis::a, 2592, 6, 6, 36, 12, 6, 216},
                     Campaign{"a_axis_outliers", engine::RotaryAxis::a, 2394, 6, 6, 36, 12, 6, 216},
                     Campaign{"b_axis_perfect_table", engine::RotaryAxis::b, 1536, 8, 8, 12, 16, 8, 72},
