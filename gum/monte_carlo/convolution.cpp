@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <unsupported/Eigen/FFT>
@@ -220,35 +221,49 @@ double sinc(double z) {
 }
 
 /// Characteristic function of Student's t, K_μ(z) z^μ / (2^(μ−1) Γ(μ)) with μ = ν/2, z = √ν s t; for large ν by the
-/// expansion of K_μ that is uniform in z (NIST DLMF 10.41.4).
-double student_characteristic(double nu, double scaled_t) {
-    const double mu = 0.5 * nu;
-    const double z = std::sqrt(nu) * scaled_t;
-    if (z < 1e-8) {
-        return 1.0;
+/// expansion of K_μ that is uniform in z (NIST DLMF 10.41.4). What depends on ν alone is found once: it is asked for at
+/// hundreds of t.
+class StudentCharacteristic {
+public:
+    explicit StudentCharacteristic(double nu) : nu_(nu), root_of_nu_(std::sqrt(nu)), mu_(0.5 * nu) {
+        if (nu <= k_exact_bessel) {
+            log_power_ = (mu_ - 1.0) * std::numbers::ln2;
+            log_gamma_ = boost::math::lgamma(mu_, BesselPolicy());
+        }
     }
-    if (nu >= k_normal_nu) {
-        return std::exp(-0.5 * scaled_t * scaled_t);
+
+    double operator()(double scaled_t) const {
+        const double z = root_of_nu_ * scaled_t;
+        if (z < 1e-8) {
+            return 1.0;
+        }
+        if (nu_ >= k_normal_nu) {
+            return std::exp(-0.5 * scaled_t * scaled_t);
+        }
+        if (nu_ <= k_exact_bessel) {
+            const double K = boost::math::cyl_bessel_k(mu_, z, BesselPolicy());
+            return K > 0.0 ? std::exp(std::log(K) + mu_ * std::log(z) - log_power_ - log_gamma_) : 0.0;
+        }
+        const double x = z / mu_;
+        const double root = std::sqrt(1.0 + x * x);
+        // Of the expansion divided by its value at 0, so that φ(0) = 1.
+        const double log_phi =
+            -mu_ * (x * x / (1.0 + root)) + mu_ * std::log1p(0.5 * (root - 1.0)) - 0.5 * std::log(root);
+        return std::exp(log_phi) * series(1.0 / root) / series(1.0);
     }
-    if (nu <= k_exact_bessel) {
-        const double K = boost::math::cyl_bessel_k(mu, z, BesselPolicy());
-        return K > 0.0 ? std::exp(std::log(K) + mu * std::log(z) - (mu - 1.0) * std::numbers::ln2 -
-                                  boost::math::lgamma(mu, BesselPolicy()))
-                       : 0.0;
-    }
-    const double x = z / mu;
-    const double root = std::sqrt(1.0 + x * x);
-    const auto series = [mu](double p) {
+
+private:
+    double nu_, root_of_nu_, mu_;
+    double log_power_ = 0.0, log_gamma_ = 0.0;  // of the Bessel function only
+
+    [[nodiscard]] double series(double p) const {
         const double p2 = p * p;
         const double u1 = p * (3.0 - 5.0 * p2) / 24.0;
         const double u2 = p2 * (81.0 - 462.0 * p2 + 385.0 * p2 * p2) / 1152.0;
         const double u3 = p * p2 * (30375.0 - 369603.0 * p2 + 765765.0 * p2 * p2 - 425425.0 * p2 * p2 * p2) / 414720.0;
-        return 1.0 + (-u1 + (u2 - u3 / mu) / mu) / mu;
-    };
-    // Of the expansion divided by its value at 0, so that φ(0) = 1.
-    const double log_phi = -mu * (x * x / (1.0 + root)) + mu * std::log1p(0.5 * (root - 1.0)) - 0.5 * std::log(root);
-    return std::exp(log_phi) * series(1.0 / root) / series(1.0);
-}
+        return 1.0 + (-u1 + (u2 - u3 / mu_) / mu_) / mu_;
+    }
+};
 
 /// A bound of |φ(t)| of a distribution that falls with t, and the power of 1/t with which it falls at least.
 struct Envelope {
@@ -274,7 +289,7 @@ Envelope envelope(const Distribution& d, double t) {
         case DistributionKind::curvilinear_trapezoid:
             return {std::min(1.0, d.shape < 0.5 ? 1.0 / ((1.0 - d.shape) * at) : 0.93 / (d.shape * at)), 1.0};
         case DistributionKind::student_t:
-            return {student_characteristic(d.shape, at), 0.0};
+            return {StudentCharacteristic(d.shape)(at), 0.0};
         default:
             return {};
     }
@@ -300,6 +315,8 @@ void multiply_by_characteristic(const Distribution& d, double delta, std::vector
     const double step = d.scale * delta;
     double low = 0.0;  // sine integrals up to (1 − r) and (1 + r) a t
     double high = 0.0;
+    const std::optional<StudentCharacteristic> student =
+        d.kind == DistributionKind::student_t ? std::optional<StudentCharacteristic>(d.shape) : std::nullopt;
     for (std::size_t i = 0; i < phi.size(); ++i) {
         const double at = step * (static_cast<double>(i) + 1.0);
         switch (d.kind) {
@@ -331,7 +348,7 @@ void multiply_by_characteristic(const Distribution& d, double delta, std::vector
                 break;
             }
             default:
-                phi[i] *= student_characteristic(d.shape, at);
+                phi[i] *= (*student)(at);
                 break;
         }
     }
