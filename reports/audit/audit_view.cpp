@@ -309,10 +309,14 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     return view;
 }
 
-/// How much the corrections change a result: a result of the file before a nested one, a decision before U.
-std::tuple<bool, bool, double> rank_of(const AuditedResultView& result) {
+/// How much the corrections change a result: a result of the file before a nested one, a decision before U; of those that
+/// change alike, the one with the largest |E_n|.
+using RankOfResult = std::tuple<bool, bool, double, double>;
+
+RankOfResult rank_of(const AuditedResultView& result) {
     return {!result.is_nested, result.change.decision_turns(),
-            audit::size_of_change(result.claimed.number.U, result.audited.number.U)};
+            audit::size_of_change(result.claimed.number.U, result.audited.number.U),
+            std::round(1e9 * std::abs(result.claimed.number.en.value_or(0.0)))};
 }
 
 std::string form_of(const certificate::ScopeEntry& entry) {
@@ -476,14 +480,14 @@ std::vector<RuleAnswer> linearity_of(const AuditedFileView& file, const audit::A
 }
 
 /// The gravest finding, 0 for none; then the worst result.
-std::tuple<std::size_t, bool, double> rank_of(const AuditedFileView& file) {
+std::pair<std::size_t, RankOfResult> rank_of(const AuditedFileView& file) {
     std::size_t gravest = 0;
     for (std::size_t i = 0; i < file.counts.size() && gravest == 0; ++i) {
         gravest = file.counts[i] > 0 ? file.counts.size() - i : 0;
     }
-    const auto [own, turns, change] =
-        file.results.empty() ? std::tuple(false, false, 0.0) : rank_of(file.results[file.worst]);
-    return {gravest, turns, change};
+    RankOfResult worst = file.results.empty() ? RankOfResult() : rank_of(file.results[file.worst]);
+    std::get<0>(worst) = true;  // a file is as grave whosever its worst result is
+    return {gravest, worst};
 }
 
 /// The position of a waiver among those of others, to which it is added where it is not there yet.
