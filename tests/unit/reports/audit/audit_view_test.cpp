@@ -214,6 +214,23 @@ TEST(AuditViewOfSeveralFiles, TheWorstResultIsOneWhoseDecisionTurns) {
     }
 }
 
+/// Points that corrections change alike but for the last bits: the one with the largest |E_n|, else the first.
+TEST(AuditViewOfSeveralFiles, OfResultsThatChangeAlikeTheLargestScoreIsTheWorst) {
+    for (std::size_t largest = 0; largest < 4; ++largest) {
+        audit::AuditReport report = test::sample_audit_of_points();
+        for (std::size_t i = 0; i < report.results.size(); ++i) {
+            audit::AuditedResult& result = report.results[i];
+            result.claimed.U = 0.3 * (1.0 + static_cast<double>(i));
+            result.audited = result.claimed;
+            result.audited.U *= 1.25 * (1.0 + 1e-15 * static_cast<double>((7 * i) % 4));
+            result.claimed.en = result.audited.en = 0.4;
+        }
+        EXPECT_EQ(view_of(report).files[0].worst, 0U);
+        report.results[largest].claimed.en = report.results[largest].audited.en = -0.7;
+        EXPECT_EQ(view_of(report).files[0].worst, largest);
+    }
+}
+
 TEST(AuditViewOfSeveralFiles, ABudgetWithoutAnOutcomeShiftsNoPosition) {
     audit::AuditSubject subject;
     audit::AuditedBudget empty;
