@@ -80,6 +80,7 @@ TEST(PlaceholderText, IsNoTextWithAWordOfItsOwn) {
                              "0",
                              "Unbekannter Meister",
                              "good",
+                             "Banana",  // three different letters: a word
                              "normal",
                              "Other Example Laboratory",
                              "Standard resistor of 1 ohm"}) {

@@ -117,6 +117,34 @@ TEST(PlausibilityGate, FindsConditionsThatNatureDoesNotHave) {
     }
 }
 
+TEST(PlausibilityGate, FindsConditionsMeasuredTooCoarselyToTellAnything) {
+    struct Case {
+        const char *kind, *unit;
+        double value, U;
+        bool tells;
+    };
+    for (const Case& c : std::vector<Case>{{"temperature", "degC", 20.0, 9.9, true},
+                                           {"temperature", "degC", 20.0, 10.1, false},
+                                           {"pressure", "hPa", 1000.0, 49.0, true},
+                                           {"pressure", "hPa", 1000.0, 51.0, false}}) {
+        const std::vector<Finding> found = after([&](CertificateData& d) {
+            d.conditions = {{.quantity = "Surroundings",
+                             .kind = c.kind,
+                             .minimum = c.value,
+                             .maximum = c.value,
+                             .unit = c.unit,
+                             .U = c.U,
+                             .sensor = {},
+                             .lower_limit = {},
+                             .upper_limit = {}}};
+        });
+        EXPECT_EQ(found.empty(), c.tells) << c.kind << c.U;
+        if (!c.tells) {
+            expect_finding(only(found), "E03", clause_of_iso("7.8.4.1 b"), k_major, "/conditions/0/U");
+        }
+    }
+}
+
 TEST(PlausibilityGate, WantsAgreementsAndProvidersThatAreSome) {
     expect_finding(only(after([](CertificateData& d) { d.simplified_agreement = "none"; })), "R15",
                    clause_of_iso("7.8.1.3"), k_major, "/simplified_agreement");

@@ -44,6 +44,24 @@ TEST(ItemResult, OfAScheme) {
     EXPECT_EQ(item.contributing, 0U);
 }
 
+TEST(ItemResult, AConsensusIsComparedWithAReferenceValue) {
+    test::StatedComparison stated = test::key_comparison();
+    ComparisonItem& item = stated.scheme.items.front();
+    const ItemResult plain = result_of(stated);
+    EXPECT_FALSE(plain.consensus);
+    for (const double in_u : {-3.0, -1.9, 0.5, 1.9, 3.0}) {
+        item.u_reference_value = 0.03;
+        const double u = std::hypot(*plain.u, 0.03);
+        item.reference_value = plain.value - in_u * u;
+        const ItemResult result = result_of(stated);
+        ASSERT_TRUE(result.consensus);
+        EXPECT_NEAR(result.consensus->difference, in_u * u, 1e-13);
+        EXPECT_NEAR(result.consensus->u_difference, u, 1e-14);
+        EXPECT_NEAR(result.consensus->ratio, in_u, 1e-11);
+        EXPECT_EQ(result.consensus->consistent, std::abs(in_u) <= 2.0) << in_u;
+    }
+}
+
 TEST(ItemResult, WhatTheItemsAddIsInTheUncertainty) {
     test::StatedComparison stated = test::results_of_iso_13528_e4();
     ComparisonItem& item = stated.scheme.items.front();

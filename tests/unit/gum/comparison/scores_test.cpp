@@ -54,6 +54,20 @@ TEST(Scores, ThatAreALimitButForRoundingAreTheLimit) {
     EXPECT_LT(z_score(10.1999999999999, 10.0, 0.1), 2.0);
 }
 
+/// Two-digit uncertainties and values of many digits on both sides of 0: a difference of n U is a score of n, whatever
+/// binary numbers make of it.
+TEST(Scores, SettleOnLimitsOnBothSidesOfZero) {
+    for (int i = 1; i < 300; ++i) {
+        const double U = std::stod(std::to_string(i) + "e-4");
+        const double value = std::stod(std::to_string(71 * i) + ".0301");
+        for (const int n : {1, 2, 3}) {
+            const double reference = std::stod(std::to_string(71 * i) + "." + std::to_string(10301 + n * i).substr(1));
+            EXPECT_EQ(settled_score(reference, value, U), n) << i;
+            EXPECT_EQ(settled_score(-reference, -value, U), -n) << i;
+        }
+    }
+}
+
 TEST(Scores, OfValuesWithTooFewDigitsAreNotSettled) {
     // 1e9 and the next doubles: the difference is 2.4e-7, and no rounding of them makes 2.4 a limit.
     const double next = std::nextafter(std::nextafter(1e9, 2e9), 2e9);

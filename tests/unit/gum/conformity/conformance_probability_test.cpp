@@ -180,9 +180,13 @@ TEST(AcceptanceLimitsForRisk, OfAConvolution) {
 TEST(AcceptanceLimitsForRisk, RefusesRisksOutOfRange) {
     EXPECT_EQ(code_of<InputError>([] { (void)acceptance_limits_for_risk(normal(0.0, 1.0), k_unit_tolerance, 0.6); }),
               "GC-GUM-0082");
-    EXPECT_EQ(
-        code_of<InputError>([] { (void)rejection_limits_for_probability(normal(0.0, 1.0), k_unit_tolerance, 0.4); }),
-        "GC-GUM-0082");
+    for (const double outside : {0.4, 0.5, 1.0}) {
+        EXPECT_EQ(code_of<InputError>([outside] {
+                      (void)rejection_limits_for_probability(normal(0.0, 1.0), k_unit_tolerance, outside);
+                  }),
+                  "GC-GUM-0082")
+            << outside;
+    }
 }
 
 }  // namespace

@@ -121,6 +121,18 @@ TEST(GlobalRisk, DoesNotDependOnTheUnit) {
     }
 }
 
+/// What lies below the limits by many standard deviations is as rare as what lies above: no digit is lost on either side.
+TEST(GlobalRisk, KeepsItsDigitsFarFromTheLimits) {
+    for (int i = 2; i <= 12; ++i) {
+        const double centre = 1.0 * i;
+        const GlobalRisk above = global_risk({-1.0, 1.0}, {-0.8, 0.9}, centre, 0.9, 0.2);
+        const GlobalRisk below = global_risk({-1.0, 1.0}, {-0.9, 0.8}, -centre, 0.9, 0.2);
+        EXPECT_GT(above.conditional_false_accept, 0.0) << centre;
+        EXPECT_TRUE(agrees(below.conditional_false_accept, above.conditional_false_accept, 1e-9)) << centre;
+        EXPECT_TRUE(agrees(below.false_accept, above.false_accept, 1e-9)) << centre;
+    }
+}
+
 TEST(GlobalRisk, NothingAccepted) {
     const GlobalRisk risk = global_risk(k_risk_tolerance, {0.1, -0.1}, 0.0, 0.5, 0.1);
     EXPECT_EQ(risk.false_accept, 0.0);
