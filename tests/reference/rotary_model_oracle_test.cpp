@@ -1,6 +1,7 @@
 // The joint adjustment against an independent program: dense Gauss-Newton in Python, rotation vectors, its own model.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -92,8 +93,8 @@ TEST(RotaryModelOracle, SolutionAndUncertaintiesAgree) {
     if (!std::filesystem::exists(k_python)) {
         GTEST_SKIP() << k_python << " absent";
     }
-    const std::filesystem::path output = std::filesystem::current_path() / "rotary_model_oracle.json";
-    std::filesystem::remove(output);
+    const std::filesystem::path output =
+        std::filesystem::path(::testing::TempDir()) / ("rotary_model_oracle_" + std::to_string(getpid()) + ".json");
     const std::string command = std::string(k_python) + " -B '" + k_script.string() + "' '" + output.string() + "'";
     const int status = std::system(command.c_str());
     if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
@@ -102,6 +103,7 @@ TEST(RotaryModelOracle, SolutionAndUncertaintiesAgree) {
     ASSERT_EQ(status, 0) << command;
     std::ifstream stream(output);
     const json data = json::parse(stream);
+    std::filesystem::remove(output);
     const json& expected = data["solution"];
 
     const RotaryTableMeasurement measurement = measurement_of(data);
