@@ -77,6 +77,18 @@ int lock_new_folder(const fs::path& folder) {
 
 }  // namespace
 
+int write_whole(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count > 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        } else if (count == 0 || errno != EINTR) {
+            return count == 0 ? ENOSPC : errno;
+        }
+    }
+    return 0;
+}
+
 TemporaryFile::TemporaryFile(const fs::path& folder, mode_t mode) {
     constexpr int k_most_tries = 100;
     for (int i = 0; i < k_most_tries; ++i) {
@@ -106,15 +118,8 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::fill(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR) {
-            continue;
-        }
-        if (count <= 0) {
-            fail(count == 0 ? ENOSPC : errno);
-        }
-        bytes.remove_prefix(static_cast<std::size_t>(count));
+    if (const int error = write_whole(descriptor_, bytes); error != 0) {
+        fail(error);
     }
     if (::fsync(descriptor_) != 0) {
         fail(errno);

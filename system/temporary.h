@@ -8,6 +8,10 @@
 
 namespace gumcert::system {
 
+/// Writes all of it, in as many pieces as it takes; not on the disk yet.
+/// \return 0, or what errno says of why not
+[[nodiscard]] int write_whole(int descriptor, std::string_view bytes);
+
 /// A new file in a folder, `.gumcert-<16 hexadecimal digits>.part`, with a name that nobody can know beforehand. Nothing
 /// that is there already is opened. Removed at the end, and by clean_up(), unless it was kept.
 class TemporaryFile {

@@ -26,15 +26,7 @@ void write_new(const fs::path& file, std::string_view bytes) {
     if (descriptor < 0) {
         fail_whole(errno);
     }
-    int error = 0;
-    while (!bytes.empty() && error == 0) {
-        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-        if (count > 0) {
-            bytes.remove_prefix(static_cast<std::size_t>(count));
-        } else if (count == 0 || errno != EINTR) {
-            error = count == 0 ? ENOSPC : errno;
-        }
-    }
+    int error = write_whole(descriptor, bytes);
     if (::close(descriptor) != 0 && error == 0) {
         error = errno;
     }
