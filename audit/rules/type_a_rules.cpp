@@ -252,6 +252,9 @@ double deviation_used(const AuditedRow& row) {
 double digits_of_deviation(const AuditedRow& row) {
     return row.stated ? row.stated->half_step : row.u_half_step;
 }
+Sentence deviation_in_words(double s, double nu, const std::string& unit) {
+    return say("s = {s:number}, ν = {nu:number}", in_words(s, unit), nu_in_words(nu));
+}
 
 /// U21
 void largest_deviation(const AuditSubject& subject, FindingCollector& findings) {
@@ -270,10 +273,8 @@ void largest_deviation(const AuditSubject& subject, FindingCollector& findings) 
             finding.evidence = {
                 equals("s", in_words(s, at.is.unit)), say("pooled s = {s:number}", in_words(pooled->s, at.is.unit)),
                 equals("ν", nu_in_words(at.is.used_nu)), say("ν of all series = {nu:number}", nu_in_words(pooled->nu))};
-            finding.expected =
-                say("s = {s:number}, ν = {nu:number}", in_words(pooled->s, at.is.unit), nu_in_words(pooled->nu));
-            finding.actual =
-                say("s = {s:number}, ν = {nu:number}", in_words(s, at.is.unit), nu_in_words(at.is.used_nu));
+            finding.expected = deviation_in_words(pooled->s, pooled->nu, at.is.unit);
+            finding.actual = deviation_in_words(s, at.is.used_nu, at.is.unit);
             finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
             findings.add(std::move(finding));
             return;
@@ -325,8 +326,7 @@ void deviation_of_deviations(const AuditSubject& subject, FindingCollector& find
             equals("s", in_words(s, at.is.unit)),
             say("smallest of the standard deviations = {smallest:number}", in_words(pooled->smallest, at.is.unit)),
             say("pooled s = {s:number}", in_words(pooled->s, at.is.unit)), equals("ν", nu_in_words(at.is.used_nu))};
-        finding.expected =
-            say("s = {s:number}, ν = {nu:number}", in_words(pooled->s, at.is.unit), nu_in_words(pooled->nu));
+        finding.expected = deviation_in_words(pooled->s, pooled->nu, at.is.unit);
         finding.actual = equals("s", in_words(s, at.is.unit));
         finding.correct = both(scale_u(at.row, pooled->s / s), set_degrees_of_freedom(at.row, pooled->nu));
         findings.add(std::move(finding));
