@@ -229,6 +229,8 @@ public:
         if (nu <= k_exact_bessel) {
             log_power_ = (mu_ - 1.0) * std::numbers::ln2;
             log_gamma_ = boost::math::lgamma(mu_, BesselPolicy());
+        } else {
+            at_0_ = series(1.0);
         }
     }
 
@@ -249,12 +251,13 @@ public:
         // Of the expansion divided by its value at 0, so that φ(0) = 1.
         const double log_phi =
             -mu_ * (x * x / (1.0 + root)) + mu_ * std::log1p(0.5 * (root - 1.0)) - 0.5 * std::log(root);
-        return std::exp(log_phi) * series(1.0 / root) / series(1.0);
+        return std::exp(log_phi) * series(1.0 / root) / at_0_;
     }
 
 private:
     double nu_, root_of_nu_, mu_;
     double log_power_ = 0.0, log_gamma_ = 0.0;  // of the Bessel function only
+    double at_0_ = 1.0;                         // of the expansion only
 
     [[nodiscard]] double series(double p) const {
         const double p2 = p * p;
