@@ -51,6 +51,8 @@ void require_sizes(const MethodDifferences& differences) {
                    " uncertainties for " + std::to_string(m) + " differences",
                "every difference has its row, its column and its uncertainty", "Give all of them.");
     }
+    // Refused, and not approximated: a χ² with the same mean and variance is wrong by many powers of ten in the lower
+    // tail, and p_low is what "uncertainty too large" rests on.
     if (m > static_cast<Index>(k_most_points_of_agreement)) {
         refuse("GC-GUM-0141", "comparison", std::to_string(m) + " points",
                "the joint distribution of up to " + std::to_string(k_most_points_of_agreement) + " points is computed",
@@ -116,6 +118,8 @@ void require_differences(const MethodDifferences& differences) {
 }
 
 void require_semidefinite(double smallest, double largest) {
+    // Of a correlation matrix, whose eigenvalues do not depend on units: in a covariance of points with very different
+    // u a contradiction between the small ones would be lost in the rounding of the large ones.
     if (!(smallest >= -k_negative_eigenvalue * largest)) {
         refuse_indefinite(smallest);
     }
@@ -145,6 +149,8 @@ Whitened whitened_by_spectrum(const MatrixXd& R, const MatrixXd& B) {
     const VectorXd& values = eigen.eigenvalues();
     const Index m = R.rows();
     require_semidefinite(values(0), values(m - 1));
+    // In these directions R says that the points differ by nothing. Dividing by the root of such an eigenvalue would
+    // make a large Mahalanobis number of nothing but rounding, so they are kept apart (`beyond`).
     const auto first = std::count_if(values.data(), values.data() + m,
                                      [&](double value) { return value <= k_rank_tolerance * values(m - 1); });
     const MatrixXd rotated = eigen.eigenvectors().transpose() * B;
@@ -161,12 +167,18 @@ MatrixXd root_by_pivots(const MatrixXd& R) {
     MatrixXd L(m, m);
     VectorXd remaining = R.diagonal();
     Index rank = 0;
+    // The point with the largest variance that the points taken so far leave unexplained comes next. When the loop ends
+    // no point has more than the tolerance left, so that the number of columns is the rank. In the given order a point
+    // that follows from earlier ones would be divided by rounding.
     for (Index pivot = 0; rank < m && remaining.maxCoeff(&pivot) > k_rank_tolerance; ++rank) {
         VectorXd column = R.col(pivot);
         column.noalias() -= L.leftCols(rank) * L.row(pivot).head(rank).transpose();
         L.col(rank) = column / std::sqrt(remaining(pivot));
         remaining -= L.col(rank).cwiseAbs2();
+        // A variance that becomes negative shows that R is no correlation matrix. m is the trace of R, and so a bound
+        // of its largest eigenvalue, which is not known here.
         require_semidefinite(remaining.minCoeff(), static_cast<double>(m));
+        // It is 0 but for rounding; with a rest of it the same point could be taken again.
         remaining(pivot) = 0.0;
     }
     return L.leftCols(rank);
@@ -175,6 +187,7 @@ MatrixXd root_by_pivots(const MatrixXd& R) {
 /// The same for matrices too large for their eigenvectors. With L = Q T, the pseudo-inverse of L is T⁻¹Qᵀ.
 Whitened whitened_by_pivots(const MatrixXd& R, const MatrixXd& B) {
     const MatrixXd L = root_by_pivots(R);
+    // Orthogonal, and not by (LᵀL)⁻¹Lᵀ: that would square the condition number of an almost singular R.
     const Eigen::HouseholderQR<MatrixXd> qr(L);
     const MatrixXd rotated = qr.householderQ().transpose() * B;
     Whitened result;
@@ -226,6 +239,8 @@ MatrixXd scaled_correlations(const MethodDifferences& differences, const VectorX
     if (method.size() == 0) {
         return factor * factor * R;
     }
+    // V = M + N − (C + Cᵀ) for the covariances M of the method, N of the reference and C of one with the other. With a
+    // factor on the method it stands squared in M and once in C.
     const MatrixXd shared = method + reference - differences.covariance;
     const VectorXd inverse_u = u.cwiseInverse();
     const MatrixXd V = factor * factor * method + reference - factor * shared;
@@ -239,6 +254,8 @@ std::vector<double> scaled_spectrum(const MethodDifferences& differences, const 
     if (differences.method_covariance.size() > 0 && R.rows() <= k_most_points_of_eigenvectors) {
         return spectrum(0.5 * (scaled + scaled.transpose()));
     }
+    // The sum of the eigenvalues is the expected value of Σ ζ²: the ratio of the traces keeps it right, and only the
+    // form of the distribution is taken from R. Where all of V belongs to the method this is exact.
     std::vector<double> weights = of_zeta;
     const double ratio = scaled.trace() / R.trace();
     for (double& weight : weights) {
@@ -251,6 +268,8 @@ std::vector<double> scaled_spectrum(const MethodDifferences& differences, const 
 void add_test_of_uncertainty(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
                              const std::vector<double>& of_zeta, Agreement& result) {
     constexpr double k_factor = 2.0;
+    // Two one-sided tests, as for equivalence: that a test does not refute a right uncertainty would be no proof, for a
+    // test of few points refutes hardly anything (ADR 0028, decision 6).
     const std::vector<double> if_too_small = scaled_spectrum(differences, u, R, of_zeta, k_factor);
     const std::vector<double> if_too_large = scaled_spectrum(differences, u, R, of_zeta, 1.0 / k_factor);
     result.p_if_too_small = weighted_chi_square_lower_tail(if_too_small, result.sum_of_squared_zeta);
@@ -260,11 +279,15 @@ void add_test_of_uncertainty(const MethodDifferences& differences, const VectorX
                                  weighted_chi_square_quantile(of_zeta, 1.0 - k_significant));
     const double low = std::max(weighted_chi_square_quantile(if_too_large, 1.0 - k_error_of_confirmation),
                                 weighted_chi_square_quantile(of_zeta, k_significant));
+    // high ≤ low: whatever the sum is, it cannot refute both. Few points, or points that share much, confirm nothing.
     result.power_to_confirm =
         high > low ? weighted_chi_square_lower_tail(of_zeta, high) - weighted_chi_square_lower_tail(of_zeta, low) : 0.0;
 }
 
 void add_deviations_that_are_found(const MethodDifferences& differences, const VectorXd& u, Agreement& result) {
+    // For a true deviation δ, D is normal about δ with standard uncertainty u: |D| > U has the probability P at δ = U +
+    // z_P u. What lies beyond −U on the other side is left out, which makes the true probability larger. The largest of
+    // all points: a deviation of this size is found wherever it occurs.
     const double z_80 = standard_normal_quantile(0.80);
     const double z_95 = standard_normal_quantile(0.95);
     result.found_with_80_percent = (differences.U + z_80 * u).maxCoeff();
@@ -279,9 +302,13 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     const std::vector<double> of_zeta = spectrum(R);
     result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
     result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
+    // Σ ζ² has mean m and variance 2 ΣΣ r_ij². A χ² of ν independent points, stretched to the same mean, has the
+    // variance 2 m²/ν.
     result.effective_points = m * m / R.squaredNorm();
     if (result.points > 1) {
         constexpr double k_normal = std::numeric_limits<double>::infinity();
+        // largest_en_by_chance() counts in units of the factor of its own probability, here 0.99. E_n counts in units
+        // of the factor for the coverage probability, hence the quotient of the two.
         result.largest_en_by_chance = largest_en_by_chance(result.points, 1.0 - k_chance_of_single_points) *
                                       coverage_factor(1.0 - k_chance_of_single_points, k_normal) /
                                       coverage_factor(coverage_probability, k_normal);
@@ -353,6 +380,7 @@ std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
         boost::math::policies::promote_double<false>,  // ADR 0058
         boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;
     const boost::math::binomial_distribution<double, Up> above(independent, 1.0 - coverage_probability);
+    // Rounded up: a smaller number would be exceeded in more than 1 of 100 comparisons.
     const double limit = boost::math::quantile(above, 1.0 - k_chance_of_single_points);
     return static_cast<std::size_t>(std::floor(limit * static_cast<double>(points) / independent));
 }
@@ -367,6 +395,8 @@ std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Ve
     for (Index i = 0; i < m; ++i) {
         require_finite(t(i), "position of point " + std::to_string(i + 1));
     }
+    // About t̄ the constant and the slope hardly correlate, and positions that share many digits lose none of them. In
+    // units of the span both columns of the design are of one size, so that the rank can be judged by one threshold.
     const double centre = t.mean();
     const VectorXd from_centre = t.array() - centre;
     const double span = from_centre.cwiseAbs().maxCoeff();
@@ -379,6 +409,7 @@ std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Ve
     columns.col(1) = from_centre.cwiseQuotient(u) / span;
     columns.col(2) = differences.d.cwiseQuotient(u);
     const Whitened free = whitened(correlation_matrix(differences.covariance), columns);
+    // Two directions for the line, and one that can contradict it.
     if (free.rank < 3) {
         return std::nullopt;
     }
@@ -389,6 +420,7 @@ std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Ve
     if (qr.rank() < 2) {
         return std::nullopt;
     }
+    // Whitened columns: ordinary least squares of them is generalised least squares of the differences.
     const Eigen::Vector2d line = qr.solve(free.columns.col(2));
     const Eigen::Matrix2d covariance = (design.transpose() * design).inverse();
     BiasLine result;
@@ -416,7 +448,11 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
     }
     require_covariance(covariance);
     const VectorXd u = covariance.diagonal().cwiseSqrt();
+    // In units of u the condition of the matrix is that of the correlations alone, whatever the units of the
+    // quantities.
     const Whitened free = whitened(correlation_matrix(covariance), d.cwiseQuotient(u));
+    // The pseudo-inverse would leave a direction out without a word, and with it perhaps the one in which the
+    // laboratory is wrong.
     if (free.rank < d.size()) {
         refuse("GC-GUM-0031", "covariance of a vector of differences",
                "rank " + std::to_string(free.rank) + " for " + std::to_string(d.size()) + " quantities",
@@ -429,6 +465,8 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
 }
 
 AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en) {
+    // In the order of the objections: what refutes the agreement comes before what limits the proof of it. The
+    // conditions are negated, so that a number that is none objects.
     if (!(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance)) {
         return AgreementVerdict::disagreement;
     }
@@ -441,9 +479,12 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     if (!(agreement.ratio_reference < 1.0)) {
         return AgreementVerdict::reference_not_better;
     }
+    // A sum that is too small is no disagreement, but U is then larger than the method needs: agreement is no proof of
+    // it.
     if (!(agreement.p_low >= k_significant)) {
         return AgreementVerdict::uncertainty_too_large;
     }
+    // Before the test itself is looked at: with little power its outcome would be one of chance.
     if (!(agreement.power_to_confirm >= k_least_power_to_confirm)) {
         return AgreementVerdict::agreement_few_points;
     }

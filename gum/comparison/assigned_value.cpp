@@ -78,6 +78,9 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
         assigned.weights[static_cast<Eigen::Index>(positions[i])] = reference.weights[static_cast<Eigen::Index>(i)];
     }
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
+    // Only for results with a stated u is a covariance with y known. It is taken by way of the correlation, which is
+    // limited to ±1: where u(y) comes from the scatter of results that agree by chance, Σ w_j cov(x_i, x_j) alone may
+    // be larger than u_i u(y).
     const std::vector<std::size_t> with_u = data.with_u();
     if (!with_u.empty() && reference.u > 0.0) {
         ReferenceValue of_all = reference;
@@ -112,6 +115,8 @@ double common_variance(const LaboratoryData& data) {
         return 0.0;
     }
     const Eigen::MatrixXd inside = data.covariance(data.contributing, data.contributing);
+    // An effect that all results share moves them together, so the scatter cannot show it and it is added to the
+    // scatter. A negative mean is not: it would take something away from the scatter that is seen.
     return std::max(0.0, (inside.sum() - inside.trace()) / static_cast<double>(n * (n - 1)));
 }
 
@@ -123,6 +128,7 @@ void add_scatter(const LaboratoryData& data, SpreadUncertainty of_value,
     ConsensusScatter scatter;
     scatter.of_value = of_value;
     scatter.of_value.u = std::hypot(of_value.u, common);
+    // For a result outside the value all contributing ones are "the others".
     scatter.others.assign(data.size(), scatter.of_value);
     scatter.share = Eigen::VectorXd::Zero(size_of(data));
     scatter.covariance = Eigen::VectorXd::Zero(size_of(data));
@@ -140,6 +146,7 @@ void add_scatter(const LaboratoryData& data, SpreadUncertainty of_value,
             }
         }
     }
+    // The value of the others is Σ_j≠i w_j x_j / Σ_j≠i w_j; its covariance with x_i is taken with the same weights.
     for (Eigen::Index i = 0; data.covariance.size() > 0 && i < size_of(data); ++i) {
         double rest = 0.0;
         double covariance = 0.0;
@@ -275,6 +282,8 @@ AssignedValue value_of_reference_laboratory(const LaboratoryData& data) {
     if (data.covariance.size() > 0) {
         assigned.covariance = data.covariance.col(at);
     }
+    // The value is this result: u(D) is 0 for the laboratory itself, and what others share with it they share with the
+    // value.
     assigned.covariance[at] = data.u[at] * data.u[at];
     return assigned;
 }
@@ -283,6 +292,7 @@ AssignedValue given_value(const ComparisonScheme& scheme, const LaboratoryData& 
     const AssignedValueRequest& request = data.item->assigned_value;
     AssignedValue assigned;
     assigned.value = request.value;
+    // A given value without an uncertainty is taken as exactly known, as a definition is.
     assigned.u = request.uncertainty ? request.uncertainty->u : 0.0;
     assigned.stated = request.uncertainty;
     if (request.uncertainty) {
@@ -308,6 +318,7 @@ AssignedValue mean_of_replicates(const LaboratoryData& data, double coverage_pro
                "not every result states the standard deviation s and the number n of its observations",
                "vangel_rukhin is computed from them", "State s and n ≥ 2 of every result, or take mandel_paule.");
     }
+    // Only s and n of each laboratory enter, not its stated u: the method estimates the variances itself.
     return scattered_value(data, vangel_rukhin({stated->x, stated->s, stated->observations}), coverage_probability);
 }
 

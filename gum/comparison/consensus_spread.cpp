@@ -29,12 +29,15 @@ struct FactorTable {
         if (results <= last) {
             return of_results[std::max<std::size_t>(results, 2) - 2];
         }
+        // Beyond the table linear in 1/n, from the last number to the limit, without a step between the two.
         const double share = static_cast<double>(last) / static_cast<double>(results);
         return of_many + (of_results.back() - of_many) * share;
     }
 };
 
 // Median with the scale of algorithm A; many: √(π/2)/1.25.
+// Simulated number by number and not smoothed: the median of an even number of results is the mean of two of them and
+// scatters less than that of the odd numbers beside it (from 7 results on).
 constexpr FactorTable<29> k_median{{0.7055, 0.7204, 0.7219, 0.802,  0.8366, 0.8835, 0.8718, 0.9073, 0.8923, 0.9225,
                                     0.906,  0.9373, 0.9186, 0.9477, 0.9273, 0.9508, 0.9337, 0.9593, 0.9401, 0.9617,
                                     0.9471, 0.9643, 0.9504, 0.9686, 0.9527, 0.9723, 0.9547, 0.9694, 0.9603},
@@ -90,6 +93,7 @@ double variance_of_others(const VectorXd& x, const VectorXd& weights, Index i) {
     const double rest = weights.sum() - weights(i);
     double mean = 0.0;
     for (Index j = 0; j < x.size(); ++j) {
+        // About x(0): results that share many digits would lose theirs in sums of squares.
         mean += j == i ? 0.0 : weights(j) * (x(j) - x(0));
     }
     mean /= rest;
@@ -139,6 +143,7 @@ SpreadUncertainty weighted_spread(const VectorXd& x, const ReferenceValue& mean,
     const auto expanded = [&](const SpreadUncertainty& spread) {
         return coverage_factor(coverage_probability, spread.degrees_of_freedom) * spread.u;
     };
+    // U is compared, not u: with few degrees of freedom t_p(ν) makes the larger U of the smaller u.
     return expanded(by_scatter) < expanded(stated) ? stated : by_scatter;
 }
 
@@ -149,6 +154,7 @@ std::vector<SpreadUncertainty> spread_of_others(const VectorXd& x, const VectorX
         return {};
     }
     const double total = weights.sum();
+    // n − 1 results are left, about a mean of their own.
     const double nu = static_cast<double>(n - 2);
     const double centre = x(0);
     const double mean = ((x.array() - centre) * weights.array()).sum() / total;
@@ -184,6 +190,7 @@ std::vector<SpreadUncertainty> robust_spread_of_others(RobustMean kind, const st
     std::vector<double> others(results.begin() + 1, results.end());
     for (std::size_t i = 0; i < results.size(); ++i) {
         SpreadUncertainty spread = robust_spread(kind, others);
+        // A scale of 0 is none, and the minimum would take it for the best one.
         if (by_scale_of_all > 0.0) {
             spread.u = std::min(spread.u, by_scale_of_all);
         }
@@ -197,10 +204,15 @@ std::vector<SpreadUncertainty> robust_spread_of_others(RobustMean kind, const st
 
 SpreadDifference spread_difference(const SpreadUncertainty& laboratory, const SpreadUncertainty& others, double of_item,
                                    double covariance, double share, double factor, double coverage_probability) {
+    // u of the scatter of three results has one or two degrees of freedom, that of the laboratory often many: one ν for
+    // the sum of them, by Welch and Satterthwaite. The formula is for independent parts, so the covariance counts in u
+    // alone.
     const std::array<UncertaintyContribution, 3> parts{
         {{laboratory.u, laboratory.degrees_of_freedom}, {others.u, others.degrees_of_freedom}, {of_item}}};
     SpreadDifference difference;
     const double square = laboratory.u * laboratory.u + others.u * others.u + of_item * of_item - 2.0 * covariance;
+    // x − y = (1 − w)(x − value of the others): the difference and its limit shrink alike when the result is part of
+    // the value, and their quotient stays the same.
     difference.u = (1.0 - share) * std::sqrt(std::max(0.0, square));
     difference.degrees_of_freedom = effective_degrees_of_freedom(parts);
     difference.U = factor * coverage_factor(coverage_probability, difference.degrees_of_freedom) * difference.u;

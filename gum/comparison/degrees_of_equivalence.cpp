@@ -62,6 +62,7 @@ Eigen::VectorXd differences(const LaboratoryResults& results, const ReferenceVal
         const double by_weights = w.dot(from_centre);
         const double rounding =
             k_rounding_of_sums * (w.cwiseAbs().dot(from_centre.cwiseAbs()) + std::abs(reference.value));
+        // A value that is not the weighted sum, because it was rounded for print, say, stays as it was stated.
         if (std::abs(by_weights - value) <= rounding) {
             value = by_weights;
         }
@@ -79,12 +80,16 @@ Propagated propagate_independent(const Eigen::VectorXd& u, const Eigen::VectorXd
     const Eigen::VectorXd terms = (w.array() * u.array()).square();
     const Eigen::VectorXd rest =
         sums_to_one(w) ? sums_of_others(w) : Eigen::VectorXd(1.0 - w.array());  // 1 − w_i where it counts
+    // (1 − w_i)² u_i² + Σ_j≠i w_j² u_j²: squares alone. In u_i² − 2 w_i u_i² + u²(y) nearly everything cancels where
+    // one laboratory has most of the weight.
     return {.y = terms.sum(),
             .d = (rest.array() * u.array()).square() + sums_of_others(terms).array(),
             .with_y = w.array() * u.array().square()};
 }
 
 Propagated propagate_correlated(const LaboratoryResults& results, const Eigen::VectorXd& u, const Eigen::VectorXd& w) {
+    // V = L Lᵀ: u²(x_i − y) is the square of row i of L less the weighted row. A sum of squares cannot become negative,
+    // which u_i² − 2 cov + u²(y) can for results that correlate strongly.
     const Eigen::MatrixXd root = u.asDiagonal() * root_of_correlations(correlations_of(results));
     const Eigen::RowVectorXd of_y = w.transpose() * root;
     return {.y = of_y.squaredNorm(),
@@ -99,6 +104,7 @@ DegreesOfEquivalence degrees_of_equivalence(const LaboratoryResults& results, co
     require_reference(results, reference);
     const Index n = results.x.size();
     const Eigen::VectorXd w = reference.weights.size() == 0 ? Eigen::VectorXd::Zero(n) : reference.weights;
+    // Squares of u stay in the range of numbers then, in any unit of the item.
     const double unit = std::max(results.u.maxCoeff(), reference.u);
     const Eigen::VectorXd u = results.u / unit;
     const double u_y = reference.u / unit;
@@ -118,6 +124,8 @@ DegreesOfEquivalence degrees_of_equivalence(const LaboratoryResults& results, co
         if (product > 0.0) {
             degrees.correlation(i) = std::clamp(covariance / product, -1.0, 1.0);
         }
+        // u(y) is smaller than the weights and the stated u_i allow. With r = ±1, the largest that can be, u²(d) is the
+        // square of the difference, or of the sum, of the two uncertainties.
         if (std::abs(covariance) > (1.0 + k_rounding_of_sums) * product) {
             const double gap = product > 0.0 ? u(i) - std::copysign(u_y, covariance) : u(i);
             variance = gap * gap;

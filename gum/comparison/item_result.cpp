@@ -141,6 +141,9 @@ void add_checks(const LaboratoryData& data, ItemResult& result) {
     }
     const StabilityCheck later = check_stability(check, *data.item->stability, sigma);
     result.stability = later;
+    // A drift of up to the difference, in either direction, with equal probability: the standard deviation of a
+    // rectangular distribution. A check that is passed adds nothing, for its difference is one that repeatability
+    // explains.
     result.u_stability = later.stable_expanded ? 0.0 : later.difference / std::numbers::sqrt3;
 }
 
@@ -197,6 +200,8 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
         // stated U stays as its owner stated it, as long as the items add nothing.
         if (assigned.scatter && *result.u > 0.0) {
             expand_by_scatter(scheme.coverage_probability, *assigned.scatter, of_items, result);
+            // E_n of this mean goes by the stated uncertainties, as in the comparisons that it was made for; U(X) on
+            // the page comes from the scatter all the same.
             if (assigned.scatter->others.empty()) {
                 result.U_of_scores = coverage_factor(p_of_scores, nu) * *result.u;
             }
@@ -216,6 +221,8 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
         if (result.expanded_by == ExpandedBy::uncertainties) {
             result.coverage_with_scatter = coverage_with_scatter(data, assigned, *result.U);
         }
+        // E_n takes both sides for one probability of about 95 %. U by the scatter is formed for that probability where
+        // a result is scored.
         if (!assigned.scatter && result.k) {
             const EnUncertainty of_scores =
                 en_uncertainty(*result.u, *result.U, *result.k, nu, scheme.coverage_probability);
@@ -240,6 +247,7 @@ void add_consensus_check(const LaboratoryData& data, ItemResult& result) {
     check.consensus = result.value;
     check.u_consensus = *result.u;
     check.difference = check.consensus - check.reference_value;
+    // The reference value is independent of the laboratories; else it could not check their consensus.
     check.u_difference = std::hypot(check.u_consensus, check.u_reference);
     if (!(check.u_difference > 0.0)) {
         return;

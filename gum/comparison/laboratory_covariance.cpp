@@ -177,6 +177,8 @@ std::vector<std::optional<double>> least_variance_of_unknown_groups(const Compar
     for (const ParticipantCorrelation& correlation : scheme.correlations) {
         stated.insert(std::minmax(correlation.first, correlation.second));
     }
+    // What is stated or follows from sources is known, a stated r = 0 as well. Else the worst plausible case is that
+    // the whole of the smaller uncertainty comes from a common source: cov = min(u_i, u_j)².
     const auto largest_covariance = [&](std::size_t i, std::size_t j) {
         const auto a = static_cast<Eigen::Index>(i);
         const auto b = static_cast<Eigen::Index>(j);
@@ -206,6 +208,8 @@ std::vector<std::optional<double>> least_variance_of_unknown_groups(const Compar
             of_weights += weights[static_cast<Eigen::Index>(positions[a])] * with_weights[static_cast<Eigen::Index>(a)];
         }
         for (std::size_t a = 0; a < positions.size(); ++a) {
+            // A change that makes the variance larger is left out: E_n would only become smaller, and no correlation at
+            // all is among the possible cases.
             change[positions[a]] = std::min(0.0, of_weights - 2.0 * with_weights[static_cast<Eigen::Index>(a)]);
         }
     }

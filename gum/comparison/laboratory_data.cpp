@@ -60,6 +60,8 @@ LaboratoryResults LaboratoryData::at(const std::vector<std::size_t>& positions) 
     if (covariance.size() > 0) {
         chosen.covariance = covariance(positions, positions);
         const Eigen::MatrixXd variances = chosen.covariance.diagonal().asDiagonal();
+        // Results that correlate only with others than these are independent of each other, so that the methods for
+        // independent results stay open to them.
         if (chosen.covariance == variances) {
             chosen.covariance.resize(0, 0);
         }
@@ -83,6 +85,7 @@ std::vector<LaboratoryData> laboratory_data(const ComparisonScheme& scheme,
         data.item_position = at / scheme.rounds.size();
         data.round = at % scheme.rounds.size();
         data.where = place_of(scheme, *data.item, scheme.rounds[data.round]);
+        // The order of a file must not decide the last digit of a sum, nor which of two equal subsets is reported.
         std::stable_sort(data.results.begin(), data.results.end(),
                          [](const auto* a, const auto* b) { return a->participant < b->participant; });
         data.x.resize(static_cast<Eigen::Index>(data.size()));

@@ -50,6 +50,7 @@ double critical_value(std::size_t members, double alpha) {
 class SubsetSearch {
 public:
     explicit SubsetSearch(const LaboratoryResults& results) {
+        // f_i(y) is formed with 1/u_i: digits that all values share would cost those of the most precise result most.
         const double centre = results.x(most_precise(results));
         x_.assign(results.x.data(), results.x.data() + results.x.size());
         u_.assign(results.u.data(), results.u.data() + results.u.size());
@@ -86,6 +87,7 @@ private:
         const double z = (x_[i] - y) / u_[i];
         return z * z;
     }
+    // Subsets that tie with the best one are still of interest: whether it is the only one is part of the answer.
     [[nodiscard]] double limit() const { return std::min(bound_, best_.chi_square * (1.0 + k_tie)); }
 
     /// Weighted mean and chi-square of a subset, centred on its most precise member: a mean far from it would round by
@@ -131,11 +133,14 @@ private:
     /// stays.
     Fit consider(Members members) {
         const Fit found = fit(members);
+        // The same subset is met again from many y; it is not "another" one.
         if (found.chi_square > bound_ || members == best_.members) {
             return found;
         }
         const bool equal =
             !best_.members.empty() && std::abs(found.chi_square - best_.chi_square) <= k_tie * best_.chi_square;
+        // Chi-squares that differ by rounding only are equal. Else the order of the search would decide which subset is
+        // reported.
         const bool better = equal ? members < best_.members : found.chi_square < best_.chi_square;
         if (equal) {
             another_ = true;
@@ -154,6 +159,9 @@ private:
         double before = k_infinity;
         for (int step = 0; step < k_most_steps; ++step) {
             const Fit found = consider(smallest_at(y, active));
+            // Each of the two steps, the best members for y and the best y for the members, cannot raise chi-square:
+            // when it no longer falls the descent has arrived. It may be a local minimum, so that it bounds the search
+            // but does not replace it.
             if (!(found.chi_square < before)) {
                 return;
             }
@@ -181,6 +189,8 @@ private:
         least_.resize(count);
         greatest_.resize(count);
         for (std::size_t j = 0; j < count; ++j) {
+            // A parabola is largest at one of the ends of an interval, and smallest at its vertex x_i or, where that
+            // lies outside, at the nearer end.
             const double at_low = f(active[j], low);
             const double at_high = f(active[j], high);
             const double x = x_[active[j]];
@@ -221,6 +231,8 @@ private:
         if (certain.empty()) {
             return 0.0;
         }
+        // χ²(y) of a fixed subset is a parabola about its own mean, with curvature Σ 1/u²: its least value in the
+        // interval is at the point of the interval that is nearest to that mean.
         const Fit found = fit(certain);
         const double away = std::clamp(found.y, low, high) - found.y;
         return found.chi_square + found.weight * away * away;
@@ -242,10 +254,13 @@ private:
         const double middle = low + 0.5 * (high - low);
         constexpr std::size_t k_few = 24;
         const std::size_t distinct = distinct_results(interval.possible, k_few);
+        // Equal results are exchangeable, so all choices among them have one chi-square; and an interval of two
+        // neighbouring numbers cannot be halved.
         if (distinct <= 1 || !(low < middle && middle < high)) {
             consider(smallest_at(middle, active));
             return;
         }
+        // Some hundred crossings are cheaper now than to go on halving; near a crossing halving never ends.
         if (distinct <= k_few) {
             compare_pieces(low, high, interval, active);
             return;
@@ -384,6 +399,7 @@ std::optional<Largest> largest_of_independent(const LaboratoryResults& results, 
         const std::size_t size = impossible == n + 1 ? n : impossible - std::max<std::size_t>(1, gap / 2);
         (consistent(size) ? possible : impossible) = size;
     }
+    // The bisection stopped at the first subset of each size; for the final size the best one is wanted.
     Largest largest{.subset = search.best_of_size(possible, critical_value(possible, alpha), false)};
     largest.unique = search.is_unique();
     return largest;
@@ -392,6 +408,8 @@ std::optional<Largest> largest_of_independent(const LaboratoryResults& results, 
 double correlated_chi_square(const LaboratoryResults& results, const std::vector<std::size_t>& members) {
     const LaboratoryResults part = selected_results(results, members);
     const double centre = part.x(most_precise(part));
+    // χ² = |L⁻¹(x − y1)|² with R = L Lᵀ after division by u: a sum of squares, whatever the common value of the
+    // results.
     const Eigen::LLT<Eigen::MatrixXd> cholesky(correlations_of(part));
     const Eigen::VectorXd ones = cholesky.matrixL().solve(part.u.cwiseInverse());
     const Eigen::VectorXd x = cholesky.matrixL().solve(Eigen::VectorXd((part.x.array() - centre) / part.u.array()));

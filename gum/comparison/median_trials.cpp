@@ -47,6 +47,8 @@ class Blocks {
 public:
     Blocks(const LaboratoryResults& results, std::size_t trials, std::uint64_t seed)
         : correlated_(results.covariance.size() != 0), seed_(seed), size_(results.x.size()) {
+        // As many results as fit into the memory that is kept for their draws over all trials: memory must not grow
+        // with their number.
         width_ = static_cast<Index>(std::max<std::size_t>(1, k_most_kept / trials));
         centre_ = results.x(most_precise(results));
         const Eigen::VectorXd x = results.x.array() - centre_;
@@ -57,6 +59,7 @@ public:
             group.name = "results";
             group.value = x.segment(first, count);
             if (correlated_) {
+                // Stated digits leave small differences between both halves, and between the diagonal and u².
                 group.covariance = 0.5 * (results.covariance + results.covariance.transpose());
                 group.covariance.diagonal() = results.u.array().square();
             } else {
@@ -99,6 +102,8 @@ double median_of(std::vector<double>& values) {
     if (values.size() % 2 == 1) {
         return *middle;
     }
+    // nth_element leaves all smaller values before the middle one: the largest of them is its neighbour, no second
+    // sort.
     const double below = *std::max_element(values.begin(), middle);
     return below + 0.5 * (*middle - below);
 }
@@ -107,6 +112,8 @@ double median_of(std::vector<double>& values) {
 template <class Work>
 void draw_all_trials(const InputDraws& draws, std::size_t trials, WorkerThreads& workers, const Work& work) {
     const auto n = static_cast<std::size_t>(draws.size());
+    // Tasks begin at whole counters of the random numbers, and their size does not depend on the number of threads: so
+    // the bytes do not either.
     const std::size_t at_a_time = std::max<std::size_t>(1, k_task / n / k_trials_of_counter) * k_trials_of_counter;
     std::vector<Eigen::MatrixXd> buffers(workers.size());
     workers.run((trials + at_a_time - 1) / at_a_time, [&](unsigned worker, std::size_t task) {

@@ -76,6 +76,8 @@ Differences differences_of(const MethodComparison& comparison) {
     all.U.resize(m);
     all.U_method.resize(m);
     all.U_reference.resize(m);
+    // D = method − reference, so V = V_method + V_ref − C − Cᵀ. Taking C as 0 would hide failures: what both share
+    // cancels in D, but would still count in its uncertainty.
     all.covariance = comparison.covariance + comparison.reference_covariance;
     if (comparison.cross_covariance.size() > 0) {
         all.covariance -= comparison.cross_covariance + comparison.cross_covariance.transpose();
@@ -102,6 +104,8 @@ Differences differences_of(const MethodComparison& comparison) {
         all.U(at) = at_point.U_difference;
         all.U_method(at) = of_method.U;
         all.U_reference(at) = of_reference.U;
+        // The u of the score itself, which does not cancel for r close to 1: ζ of the point and the joint tests use one
+        // number.
         all.covariance(at, at) = at_point.u_difference * at_point.u_difference;
     }
     all.method_covariance = comparison.covariance;
@@ -236,6 +240,7 @@ std::optional<MethodBias> bias_of(const MethodComparison& comparison, const Meth
     if (!line) {
         return std::nullopt;
     }
+    // Normal: the covariance of the differences is stated, not estimated from what the line leaves.
     const double k = coverage_factor(comparison.coverage_probability, k_infinity);
     return MethodBias{.line = *line,
                       .U_constant = k * line->u_constant,
@@ -256,6 +261,7 @@ double slope_of_noise(const MethodComparison& comparison, const std::vector<Inde
     for (std::size_t i = 0; i < points.size(); ++i) {
         t(static_cast<Index>(i)) = comparison.points[static_cast<std::size_t>(points[i])].reference_value;
     }
+    // cov(D, t) point by point, D = method − reference and t = reference.
     Eigen::MatrixXd covariance = -comparison.reference_covariance(points, points);
     if (comparison.cross_covariance.size() > 0) {
         covariance += comparison.cross_covariance(points, points);

@@ -19,9 +19,13 @@ bool is_possible_covariance(const Eigen::MatrixXd& V, const Eigen::MatrixXd& W, 
     const Eigen::Index m = V.rows();
     Eigen::MatrixXd joint(2 * m, 2 * m);
     joint << V, C, C.transpose(), W;
+    // As correlations, so that one tolerance fits points of very different u. A point without variance keeps its row: a
+    // covariance with it other than 0 is impossible, and stays visible.
     const Eigen::VectorXd scale =
         joint.diagonal().unaryExpr([](double variance) { return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0; });
     joint = scale.asDiagonal() * joint * scale.asDiagonal();
+    // r = 1 and points that share everything make the matrix singular, which is allowed; Cholesky alone would refuse it
+    // by rounding.
     joint.diagonal().array() += k_rounding_of_diagonal * static_cast<double>(2 * m);
     return Eigen::LLT<Eigen::MatrixXd>(joint).info() == Eigen::Success;
 }
@@ -39,6 +43,7 @@ StatedCorrelation stated_correlation(double r, const MethodComparison& compariso
             }
         }
     }
+    // Tried first because it claims least: nothing is said of different points.
     const Eigen::MatrixXd apart = common.diagonal().asDiagonal();
     if (is_possible_covariance(comparison.covariance, comparison.reference_covariance, apart)) {
         return {.covariance = apart, .from = CorrelationFrom::each_point};

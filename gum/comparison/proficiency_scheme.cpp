@@ -51,6 +51,7 @@ ItemStatistics item_statistics(const Eigen::MatrixXd& results) {
     statistics.means = values.rowwise().mean();
     statistics.mean = statistics.means.mean();
     if (values.rows() > 1) {
+        // Two passes: Σ x² − n x̄² would cancel for items that agree well, which is what the check is made for.
         const Real squares = (statistics.means.array() - statistics.mean).square().sum();
         statistics.s_means = std::sqrt(squares / static_cast<Real>(values.rows() - 1));
     }
@@ -117,11 +118,15 @@ HomogeneityCheck check_homogeneity(const Eigen::MatrixXd& results, double sigma_
     check.mean_remainder = static_cast<double>(statistics.origin - static_cast<Real>(check.mean) + statistics.mean);
     check.s_x = static_cast<double>(statistics.s_means);
     check.s_w = static_cast<double>(statistics.s_within);
+    // s_x² has the variance between items and 1/m of that within: what is left is s_s². A negative rest says that
+    // repeatability explains all of the scatter.
     const Real between = statistics.s_means * statistics.s_means -
                          statistics.s_within * statistics.s_within / static_cast<Real>(results.cols());
     check.s_s = between > 0.0L ? static_cast<double>(std::sqrt(between)) : 0.0;
     check.limit = k_assigned_value_criterion * sigma_pt;
     const HomogeneityFactors factors = homogeneity_factors(check.items, check.replicates);
+    // 0.3 σ_pt is allowed between items; F1 and F2 add what the scatter of g items in m replicates may show by chance,
+    // with quantiles for 95 %.
     check.expanded_limit = std::hypot(std::sqrt(factors.f1) * check.limit, std::sqrt(factors.f2) * check.s_w);
     for (const double number : {check.mean, check.s_x, check.s_w, check.expanded_limit}) {
         require_finite(number, "check of homogeneity");
@@ -138,6 +143,8 @@ StabilityCheck check_stability(const HomogeneityCheck& before, const Eigen::Matr
     const ItemStatistics statistics = item_statistics(results);
     StabilityCheck check;
     check.mean = static_cast<double>(statistics.origin + statistics.mean);
+    // The rounded means, and then what their rounding has cut off: a difference in the last digits of a large common
+    // value would be lost in ȳ1 − ȳ2.
     check.difference = static_cast<double>(std::abs((statistics.origin - static_cast<Real>(before.mean)) +
                                                     (statistics.mean - static_cast<Real>(before.mean_remainder))));
     const double u_before = before.s_x / std::sqrt(static_cast<double>(before.items));

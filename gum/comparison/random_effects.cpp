@@ -36,6 +36,7 @@ struct ShiftedResults {
 ShiftedResults shifted(const LaboratoryResults& results) {
     ShiftedResults c{.centre = results.x(most_precise(results))};
     c.x = results.x.array() - c.centre;
+    // 1/u² and the squares of the values then stay in the range of numbers, in any unit of the item.
     c.unit = std::max(c.x.abs().maxCoeff(), results.u.maxCoeff());
     c.x /= c.unit;
     c.variance = (results.u.array() / c.unit).square();
@@ -76,11 +77,14 @@ double mandel_paule_variance(const ShiftedResults& c) {
     if (excess(0.0) <= 0.0) {
         return 0.0;
     }
+    // Where all u_i vanish beside τ the root is s² itself: a little more, so that rounding does not put it outside.
     double high = variance_of_values(c) * (1.0 + 1e-9);
     double low = 0.5 * high;
     int steps = 0;
     constexpr double k_step = 1.0 / 64.0;
     constexpr int k_most_steps = 200;
+    // In steps of a factor: τ² may be many powers of ten below s², and a bracket from 0 would leave the solver halving
+    // it.
     while (excess(low) < 0.0) {
         high = low;
         low *= k_step;
@@ -89,6 +93,7 @@ double mandel_paule_variance(const ShiftedResults& c) {
         }
     }
     std::uintmax_t iterations = 200;
+    // A few bits short of the last: the sum itself rounds by that much, and the solver would never end.
     boost::math::tools::eps_tolerance<double> narrow(std::numeric_limits<double>::digits - 3);
     const auto [below, above] = boost::math::tools::toms748_solve(excess, low, high, narrow, iterations);
     if (!narrow(below, above)) {
@@ -116,6 +121,8 @@ ReferenceValue dersimonian_laird(const LaboratoryResults& results) {
         scale += 2.0 * sums.weights(i) * others;  // Σ_i Σ_j≠i w_i share_j, every pair twice
         others += share(i);
     }
+    // Q below its expected value n − 1: the stated uncertainties already explain more than the scatter. A negative
+    // variance would weigh the results as if they were better than stated.
     const double between_variance = std::max(0.0, (sums.squares - nu) / scale);
     return random_effects_mean(c, between_variance);
 }
@@ -162,7 +169,11 @@ ReferenceValue power_moderated_mean(const LaboratoryResults& results, double alp
     const double between_variance = mandel_paule_variance(c);
     const double of_arithmetic_mean = variance_of_values(c) / n;
     const double of_mandel_paule_mean = 1.0 / weighted_sums(c, between_variance).total;
+    // The larger of the two: stated uncertainties that are too small must not make the characteristic one too small as
+    // well.
     const double characteristic = n * std::max(of_arithmetic_mean, of_mandel_paule_mean);  // S²
+    // In units of S² the weight 1/(√(u² + s²)^α S^(2−α)) is ((u² + s²)/S²)^(−α/2)/S², a power of a plain number; hence
+    // u² = S²/Σ below.
     const ArrayXd weights = ((c.variance + between_variance) / characteristic).pow(-0.5 * alpha);
     const double total = weights.sum();
     const double mean = (weights * c.x).sum() / total;

@@ -56,6 +56,7 @@ void check_values(const LaboratoryResults& results, Problems& problems) {
                          "Correct the value, or leave the laboratory out.");
         }
         const double u = results.u(i);
+        // 1e300, the square of 1e150, is still a number, and so is its inverse.
         if (std::abs(results.x(i)) > k_largest_magnitude || u > k_largest_magnitude ||
             (u > 0.0 && u < 1.0 / k_largest_magnitude)) {
             problems.add("GC-GUM-0142", name_of(i),
@@ -107,6 +108,8 @@ void check_semidefinite(const LaboratoryResults& results, Problems& problems) {
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(R, Eigen::EigenvaluesOnly);
     const double smallest = eigen.eigenvalues()(0);
+    // Two limits, the larger one counts: rounding of the eigenvalues, which grows with n, and the digits of a matrix
+    // that was written to a file. A singular R (r = 1) is a covariance.
     const double tolerance = 10.0 * static_cast<double>(R.rows()) * k_epsilon;
     if (!(smallest >= -std::max(tolerance, k_diagonal_tolerance) * eigen.eigenvalues().tail(1)(0))) {
         problems.add("GC-GUM-0054", "covariance of the results",
@@ -193,6 +196,8 @@ Eigen::Index most_precise(const LaboratoryResults& results) {
 Eigen::MatrixXd correlations_of(const LaboratoryResults& results) {
     const Eigen::VectorXd inverse = results.u.cwiseInverse();
     Eigen::MatrixXd R = inverse.asDiagonal() * results.covariance * inverse.asDiagonal();
+    // Written digits may take |r| above 1 and the diagonal off 1 by the tolerance that require_results() allows; what
+    // is built on R must not see that.
     R = (0.5 * (R + R.transpose())).cwiseMin(1.0).cwiseMax(-1.0).eval();
     R.diagonal().setOnes();
     return R;
@@ -203,6 +208,8 @@ Eigen::MatrixXd root_of_correlations(const Eigen::MatrixXd& correlations) {
     if (cholesky.info() == Eigen::Success) {
         return cholesky.matrixL();
     }
+    // Laboratories that share everything, r = 1, stop Cholesky. The root of the eigenvalues exists all the same; those
+    // that rounding makes negative are 0.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlations);
     return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
@@ -294,6 +301,7 @@ ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
         require_finite(x(i), name_of(i));
     }
     const auto count = static_cast<double>(n);
+    // Any of the results will do as origin, for there are no uncertainties here to choose by.
     const double centre = x(0);
     Eigen::ArrayXd from_centre = x.array() - centre;
     const double range = from_centre.abs().maxCoeff();
@@ -319,6 +327,8 @@ ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha)
     test.critical_value = boost::math::quantile(boost::math::complement(distribution, alpha));
     test.p_value = chi_square_upper_tail(test.chi_square, nu);
     test.consistent = test.chi_square <= test.critical_value;
+    // χ²/ν has the mean 1 and the standard deviation √(2/ν): the limit stands two of these above 1, √(1 + 2 √(2/ν)). No
+    // uncertainty is multiplied by the ratio.
     test.birge_ratio = std::sqrt(test.chi_square / nu);
     test.birge_limit = std::sqrt(1.0 + std::sqrt(8.0 / nu));
     return test;

@@ -120,6 +120,7 @@ Real quantile_of_sorted(const std::vector<double>& ascending, Real probability) 
 /// 1/√E[min(|Z|, c)²] of the standard normal distribution: with it, results drawn in to ± c keep the standard
 /// deviation of a normal distribution.
 Real exact_algorithm_a_factor() {
+    // E[min(|Z|, c)²] = 1 − P(|Z| > c) − 2 c φ(c) + c² P(|Z| > c), by parts.
     const Real c = k_algorithm_a_limit;
     const Real density = std::exp(-c * c / 2) / std::sqrt(2 * std::numbers::pi_v<Real>);
     const Real outside = std::erfc(c / std::numbers::sqrt2_v<Real>);
@@ -129,6 +130,8 @@ Real exact_algorithm_a_factor() {
 /// Sums over ranges of sorted numbers, each from its own members only, so that no outlier spoils the digits of others.
 class RangeSums {
 public:
+    // A tree of partial sums, and not one running sum from which two places are subtracted: an outlier of 1e20 in it
+    // would leave no digit of any sum behind it.
     explicit RangeSums(const std::vector<Real>& values) : size_(values.size()), tree_(2 * values.size()) {
         std::copy(values.begin(), values.end(), tree_.begin() + static_cast<std::ptrdiff_t>(size_));
         for (std::size_t node = size_; node-- > 1;) {
@@ -270,6 +273,8 @@ private:
 /// all that follow. Numbers that are not negative have the order of their bits: at most 64 steps, and exact.
 template <class Condition>
 double smallest_number(double largest, Condition holds) {
+    // Bisection of the numbers themselves, not of the interval: no tolerance is needed, and the answer is exact for
+    // results of any magnitude.
     auto low = std::uint64_t{0};
     auto high = std::bit_cast<std::uint64_t>(largest);
     while (low < high) {
@@ -301,6 +306,8 @@ double q_scale(const std::vector<double>& ascending) {
     };
     const double reached =
         smallest_number(differences.largest(), [&](double difference) { return steps(difference) >= wanted; });
+    // The number that was reached need not be a difference: the next one from it on is, and the one before it is the
+    // other end of the linear piece of G.
     const double above = differences.smallest_from(reached);
     const double steps_above = steps(above);
     double below = differences.largest_below(above).value_or(0.0);
@@ -312,6 +319,8 @@ double q_scale(const std::vector<double>& ascending) {
     }
     const double quantile = below + (wanted - steps_below) / (steps_above - steps_below) * (above - below);
     const double share_of_equal = equal_pairs / pairs;
+    // Differences of two normal results have √2 times their standard deviation. Pairs that are equal, because of
+    // rounding, carry no scale: the quantile is moved by their share.
     return quantile / (std::numbers::sqrt2 * standard_normal_quantile(0.625 + 0.375 * share_of_equal));
 }
 
@@ -324,6 +333,8 @@ public:
     explicit HampelSum(const std::vector<Real>& ascending) : q_(ascending), sums_(ascending) {}
 
     [[nodiscard]] Real operator()(Real x) const {
+        // The corners of ψ divide the sorted results into ranges in each of which ψ is linear: five terms give the
+        // whole, whatever the number of results.
         const std::size_t a = place(x - 4.5L), b = place(x - 3.0L), c = place(x - 1.5L);
         const std::size_t d = place(x + 1.5L), e = place(x + 3.0L), f = place(x + 4.5L);
         const Real total = count(a, b) * (x - 4.5L) - sums_.sum(a, b) - 1.5L * count(b, c) + sums_.sum(c, d) -
@@ -386,10 +397,14 @@ Real hampel_location(const std::vector<Real>& q) {
     const std::vector<Real> corners = sum.corners();
     const auto upper = std::upper_bound(corners.begin(), corners.end(), 0.0L);
     const auto lower = std::lower_bound(corners.begin(), corners.end(), 0.0L);
+    // ψ falls again beyond 3, so that the sum may have several roots. The one nearest to the median is the location; a
+    // search that begins elsewhere could end at a group of outliers.
     const std::optional<Real> right = first_root(sum, upper, corners.end());
     const std::optional<Real> left =
         first_root(sum, std::make_reverse_iterator(lower), std::make_reverse_iterator(corners.begin()));
     if (right && left) {
+        // Two roots equally far away, as symmetric results have them: neither is better, and the median lies in their
+        // middle.
         const Real gap = *right + *left;  // of the two distances
         return std::abs(gap) <= 1e-12L ? 0.0L : (gap < 0.0L ? *right : *left);
     }
@@ -456,6 +471,7 @@ std::vector<DensityPoint> density_samples(const KernelDensity& density, const st
 DensityPoint mode_near(const KernelDensity& density, Real place) {
     Real low = place - k_density_step, high = place + k_density_step;
     for (int halving = 0; halving < 60; ++halving) {
+        // By the slope: the height is flat at a maximum and would give half of the digits only.
         const Real middle = low + (high - low) / 2;
         (density.slope(middle) > 0.0L ? low : high) = middle;
     }
@@ -475,8 +491,11 @@ Real greatest_mode(const std::vector<Real>& q) {
         const Real height = samples[i].height;
         const bool peak =
             (i == 0 || height >= samples[i - 1].height) && (i + 1 == samples.size() || height >= samples[i + 1].height);
+        // A sample may miss its mode by 1 %, so that all peaks within 2 % of the highest are refined before they are
+        // compared.
         if (peak && height >= 0.98L * highest) {
             const DensityPoint mode = mode_near(density, samples[i].place);
+            // Of equal modes the lowest stays: rounding must not choose.
             if (mode.height > best.height * (1.0L + 1e-12L)) {
                 best = mode;
             }
@@ -515,6 +534,8 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
                  (published ? static_cast<Real>(k_made_factor) : 1.0L / static_cast<Real>(k_third_normal_quartile));
     const Real factor = published ? static_cast<Real>(k_algorithm_a_factor) : exact_algorithm_a_factor();
     const bool half_are_equal = !(start > 0.0L);
+    // MADe is 0 where more than half of the results are equal. Begun with 0, everything would be drawn in to the median
+    // at once; from the standard deviation the iteration may still find a scale in the others.
     if (half_are_equal) {
         start = standard_deviation(values);
     }
@@ -531,6 +552,8 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
         const auto [mean, deviation] = drawn.mean_and_deviation(x, static_cast<Real>(k_algorithm_a_limit) * s);
         const Real scale = factor * deviation;
         const Real limit = static_cast<Real>(k_stand_still) * scale;
+        // The iteration converges linearly: a limit like 1e-6 of s* would stop it while a hundred such steps are left
+        // to go.
         const bool stands_still = std::abs(mean - x) <= limit && std::abs(scale - s) <= limit;
         x = mean;
         s = scale;
@@ -558,6 +581,7 @@ AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom) {
     using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
     const boost::math::chi_squared_distribution<double, InDouble> distribution(degrees_of_freedom);
     const double limit_square = boost::math::quantile(distribution, 0.9) / degrees_of_freedom;
+    // E[min(W, η²ν)] of a χ² W: ∫ w f_ν(w) dw = ν P(χ²(ν + 2) ≤ …), and η²ν with probability 0.1.
     const double mean_square =
         chi_square_lower_tail(limit_square * degrees_of_freedom, degrees_of_freedom + 2.0) + 0.1 * limit_square;
     const AlgorithmSFactors factors{.limit = std::sqrt(limit_square), .adjustment = 1.0 / std::sqrt(mean_square)};
@@ -585,6 +609,8 @@ double algorithm_s(std::span<const double> standard_deviations, const AlgorithmS
     }
     std::size_t inside = ascending.size();
     Real drawn_in = 0.0L;
+    // Which of them are drawn in decides everything, and w* then follows from one equation. The steps of the algorithm
+    // lead to the same w*.
     for (; inside > 0; --inside, ++drawn_in) {
         const Real limit = ascending[inside - 1];
         if (step_square * (sums[inside] + drawn_in * limit * limit) >= count * limit * limit) {

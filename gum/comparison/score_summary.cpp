@@ -89,6 +89,7 @@ std::optional<Agreement> agreement_of(const EvaluatedItem& item, double coverage
             return std::nullopt;  // nobody knows what the group shares
         }
     }
+    // With an unknown correlation no joint distribution of the scores exists; single scores stand all the same.
     if (!item.assigned.correlation_known || points.size() < 2 || points.size() > k_most_points_of_distribution) {
         return std::nullopt;
     }
@@ -130,6 +131,7 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
             ++end;
         }
         for (std::size_t i = begin; i < end; ++i) {
+            // Equal values get one rank: else the order in which the laboratories are listed would make a correlation.
             ranks[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
         }
         begin = end;
@@ -300,6 +302,8 @@ std::optional<ScoreSummary> summary_of_scores(const ComparisonScheme& scheme, co
         summary.d_fail_smallest = (*smallest)->U_difference;
         summary.d_fail_largest = (*largest)->U_difference;
     }
+    // Results of several items come from the same laboratories, and how they correlate is not stated: nothing joint is
+    // computed for them.
     if (items.size() == 1) {
         summary.agreement = agreement_of(items.front(), scheme.coverage_probability);
     }
@@ -349,6 +353,8 @@ std::vector<VectorScore> vector_scores(const ComparisonScheme& scheme, const std
                     }
                     chosen.push_back(point);
                 }
+                // A vector with a quantity missing is another vector: k_p and the region belong to all of its
+                // quantities.
                 if (chosen.empty() || chosen.size() != vector.items.size()) {
                     continue;
                 }

@@ -51,6 +51,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
     const double u = point.uncertainty->u;
     const double u_X = *scene.item.u;
     const double covariance = scene.assigned.covariance[at];
+    // A result that is part of the value, or shares a source with it, correlates with it. With r = 0 the uncertainty of
+    // D would be too large for r > 0: a failure would stay hidden.
     const double r = u_X > 0.0 ? std::clamp(covariance / (u * u_X), -1.0, 1.0) : 0.0;
     point.u_difference = uncertainty_of_difference(u, u_X, r);
     point.correlation = r;
@@ -85,6 +87,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
 void score_with_unknown_group(const Scene& scene, double variance_change, ScoredResult& point) {
     const double u_x = point.uncertainty->u;
     const double u_X = *scene.item.u;
+    // One result against one result: the bound is known in closed form. As soon as the items add to U(X) it is no
+    // longer that of the reference laboratory alone.
     if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
         point.en_worst =
             worst_plausible_en({point.value, u_x, point.U_of_scores()},
@@ -98,6 +102,7 @@ void score_with_unknown_group(const Scene& scene, double variance_change, Scored
         }
         return;
     }
+    // The correlation that leaves this variance; the same r then takes the expanded uncertainties together.
     const double r = u_X > 0.0 ? (u_x * u_x + u_X * u_X - least) / (2.0 * u_x * u_X) : 0.0;
     if (least > 0.0 && std::abs(r) <= 1.0) {
         const double U =
@@ -131,6 +136,7 @@ void score_audited(const Scene& scene, std::size_t position, ScoredResult& point
     }
     const double weight =
         scene.assigned.weights.size() > 0 ? scene.assigned.weights[static_cast<Eigen::Index>(position)] : 0.0;
+    // u²(D) has (1 − w)² u_i²: a finding on the result changes that part of U_D² and leaves the rest.
     double square =
         *point.U_difference * *point.U_difference + (1.0 - weight) * (1.0 - weight) * audited_change(scene, result);
     if (reference != nullptr) {
@@ -152,6 +158,7 @@ void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
     if (scene.item.delta_E) {
         point.percent_of_allowed = percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E);
     }
+    // A percentage of a Celsius temperature depends on where its zero was put.
     if (!scene.data.item->unit.is_celsius_temperature()) {
         point.percent = percent_difference(point.value, point.assigned_value);
     }
@@ -165,6 +172,7 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
             signals.emplace_back(score, signal(*number));
         }
     };
+    // One of z and z' only: both would count one fact twice.
     if (scene.item.criterion_met) {
         add(Score::z, point.z, signal_of_z);
     } else {
@@ -201,6 +209,7 @@ bool is_too_uncertain_to_clear(const Scene& scene, const ScoredResult& point) {
         if (!point.uncertainty) {
             return false;
         }
+        // As the others show it: the scatter of all would let a result far off widen the limit that it is held against.
         const double u_of_value = point.scatter ? point.scatter->others.u : *item.u;
         return u_of_value > point.uncertainty->u * k_rounding ||
                expanded_value_of_scores(scene) > point.U_of_scores() * k_rounding;
@@ -247,6 +256,7 @@ void add_verdict(const Scene& scene, ScoredResult& point) {
 UncertaintyRealism realism_of(const Scene& scene, const ScoredResult& point) {
     constexpr double k_largest_in_s_star = 1.5;
     const ItemResult& item = scene.item;
+    // u(X) above 1.5 s* leaves no range for a plausible u.
     if (!point.uncertainty || !item.u || !item.s_star || !(*item.s_star > 0.0) ||
         *item.u > k_largest_in_s_star * *item.s_star) {
         return UncertaintyRealism::not_judged;
@@ -305,6 +315,8 @@ void hold_against_others(std::vector<ScoredResult>& points) {
         return;
     }
     std::sort(sorted.begin(), sorted.end());
+    // Without the own one: of few laboratories, a U that is far too large would move the median that it is held
+    // against. One sorted list with a gap in it does for all of them.
     const std::size_t others = sorted.size() - 1;
     for (ScoredResult& point : points) {
         if (!point.uncertainty) {

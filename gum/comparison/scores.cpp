@@ -26,6 +26,8 @@ double difference_of(double value, double reference) {
 
 double difference_uncertainty_for_score(double laboratory, double reference, double correlation, const char* symbol) {
     const double combined = uncertainty_of_difference(laboratory, reference, correlation);
+    // U of a difference that is 0 says that both values are the same quantity with all of its uncertainty in common:
+    // then no difference is explained by chance, and no score exists.
     if (!(combined > 0.0) || !std::isfinite(combined)) {
         refuse("GC-GUM-0031", std::string(symbol) + " of the difference",
                text::shortest(combined) + " from laboratory " + text::shortest(laboratory) + " and reference " +
@@ -131,6 +133,7 @@ double percent_of_allowed(double value, double assigned_value, double largest_al
 
 Signal signal_of_z(double score) {
     require_finite(score, "score");
+    // 2.0 is still acceptable and 3.0 is not: that the limits are on different sides is meant.
     if (std::abs(score) >= k_action_limit_of_z) {
         return Signal::action;
     }

@@ -19,6 +19,8 @@ Sources by_source(const std::vector<UncertaintySource>& sources, const std::vect
     for (const UncertaintySource& source : sources) {
         if (!source.source.empty() &&
             std::find(independent.begin(), independent.end(), source.source) == independent.end()) {
+            // With their signs: two contributions of one input may cancel, and one with the opposite sign makes the
+            // covariance negative.
             found[source.source][source.input] += source.contribution;
         }
     }
@@ -37,6 +39,7 @@ double root_sum_of_squares(const Contributions& contributions) {
 SourceCovariance covariance_through(const std::string& source, const Contributions& first,
                                     const Contributions& second) {
     SourceCovariance result{.source = source};
+    // cov = c_1 u · c_2 u: the source has one u, and each result its sensitivity.
     if (first.size() == 1 && second.size() == 1) {
         result.covariance = first.begin()->second * second.begin()->second;
         return result;
@@ -52,6 +55,8 @@ SourceCovariance covariance_through(const std::string& source, const Contributio
             others_of_second.erase(same);
         }
     }
+    // The inequality of Cauchy and Schwarz: no pairing of these contributions has a larger covariance. The largest one
+    // makes u of a difference smallest, and so never hides a failure.
     const double largest = root_sum_of_squares(others_of_first) * root_sum_of_squares(others_of_second);
     result.covariance += largest;
     result.ambiguous = largest > 0.0;

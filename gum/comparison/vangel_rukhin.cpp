@@ -34,6 +34,8 @@ double term(double t, double v, double nu, double a, double q) {
 
 /// Its derivative with respect to z = t/v, times a positive factor, for a and q in units of v.
 double slope(double z, double nu, double a, double q) {
+    // Divided through by the square of the larger of v and a: the cubic alone would overflow for laboratories whose
+    // variances differ by many powers of ten.
     const double scale = std::max(1.0, a);
     const double s = (z + a) / scale;
     return z * z * (z + a - q) / (scale * scale) + nu * (z - 1.0) * s * s;
@@ -60,6 +62,7 @@ double root_between(double low, double high, double nu, double a, double q) {
             }
             low = z;
             at_low = at;
+            // Illinois: plain regula falsi keeps one end for ever where the function is bent, and then creeps.
             at_high *= side == 1 ? 0.5 : 1.0;
             side = 1;
         } else {
@@ -84,6 +87,7 @@ double most_likely_t(const Laboratory& laboratory, double between_variance, doub
     const double nu = laboratory.nu;
     const double a = between_variance / v;
     q /= v;
+    // Without a variance between laboratories the slope is linear in z: t = (q + ν v)/(1 + ν).
     if (a == 0.0) {
         return v * (q + nu) / (1.0 + nu);
     }
@@ -96,6 +100,7 @@ double most_likely_t(const Laboratory& laboratory, double between_variance, doub
     std::size_t count = 1;
     const double discriminant = c2 * c2 - 3.0 * (1.0 + nu) * c1;
     if (discriminant > 0.0) {
+        // The root that does not cancel, and the other one by the product of the two.
         const double larger = -(c2 + std::copysign(std::sqrt(discriminant), c2));
         std::array<double, 2> turns{larger / (3.0 * (1.0 + nu)), c1 / larger};
         std::sort(turns.begin(), turns.end());
@@ -115,6 +120,7 @@ double most_likely_t(const Laboratory& laboratory, double between_variance, doub
             continue;  // no minimum inside: there the slope turns from negative to positive
         }
         const double z = root_between(ends[piece - 1], ends[piece], nu, a, q);
+        // Two minima are possible: the laboratory is either imprecise, or off by an effect of its own.
         const double here = z > 0.0 ? term(z, 1.0, nu, a, q) : std::numeric_limits<double>::infinity();
         if (here < least) {
             least = here;
@@ -184,6 +190,7 @@ public:
         if (!of.regular || !(of.mu_mu > 0.0)) {
             return {};
         }
+        // On the limit τ = 0 and the likelihood falls from it: τ stays, and only the mean moves.
         if (point.between == 0.0 && of.between >= 0.0) {
             return at(point.mu - of.mu / of.mu_mu, 0.0);
         }
@@ -218,6 +225,7 @@ private:
 };
 
 bool stands_still(const Point& before, const Point& after) {
+    // In units of the standard deviation of the laboratory that has the largest weight in the mean.
     const double scale = std::sqrt(after.between + after.t.minCoeff());
     return std::abs(after.mu - before.mu) <= k_still * scale * 10.0 &&
            std::abs(after.between - before.between) <= k_still * (after.between + after.t.minCoeff()) * 10.0;
