@@ -32,6 +32,8 @@ public:
         return y_.distribution && y_.distribution_below ? std::clamp(y_.distribution_below(y_.value + d), 0.0, 1.0)
                                                         : below(d);
     }
+    // The upper tail by its own function: 1 − P(Y ≤ x) has no digit left of a risk of 1e-17. A distribution that is
+    // given by its P(Y ≤ x) alone has nothing better.
     [[nodiscard]] double above(double d) const {
         return y_.distribution ? 1.0 - below(d) : upper_tail_probability(standard_, d);
     }
@@ -44,6 +46,8 @@ public:
     /// The d with P(Y − y ≤ d) = q.
     [[nodiscard]] double lower(double q) const { return y_.distribution ? solve(q) : quantile(standard_, q); }
     /// The probability of nonconformity of a value s.
+    /// Added up from the two tails and not 1 − p_c, for the same reason. A value on a limit conforms, so the lower tail
+    /// is P(Y < T_L) without the limit itself.
     [[nodiscard]] double risk(double s, const ToleranceLimits& limits) const {
         return (limits.lower ? under(*limits.lower - s) : 0.0) + (limits.upper ? above(*limits.upper - s) : 0.0);
     }
@@ -76,6 +80,7 @@ double root_between(const Function& f, double a, double b) {
 double Dispersion::solve(double p) const {
     const auto f = [&](double d) { return below(d) - p; };
     double reach = 4.0 * y_.standard_uncertainty;
+    // A given distribution may have tails of any length: ± 4 u need not hold the quantile.
     while ((f(-reach) > 0.0 || f(reach) < 0.0) && std::isfinite(2.0 * reach)) {
         reach *= 2.0;
     }
@@ -92,6 +97,8 @@ double crossing(const Dispersion& dispersion, const ToleranceLimits& limits, dou
 /// Only a given distribution that is not symmetric with one peak may have another; then the best of some is tried.
 double good_value(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double low, double high,
                   bool one_peak) {
+    // With one peak and symmetry the risk is least in the middle of the tolerance and grows to both sides, so that it
+    // crosses the level once on each.
     double best = std::clamp(0.5 * (*limits.lower + *limits.upper), low, high);
     double least = dispersion.risk(best, limits);
     for (int i = 0; !one_peak && least > level && i <= k_scan; ++i) {
@@ -180,8 +187,10 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     if (!limits.two_sided()) {
         return accepted;
     }
+    // Both tails together are a larger risk than one: the true acceptance limits lie between these two.
     const double low = *accepted.lower;
     const double high = *accepted.upper;
+    // Already one tail alone is above the risk everywhere: the tolerance is too narrow for this u.
     if (low > high) {
         return std::nullopt;
     }
@@ -210,6 +219,7 @@ ToleranceLimits rejection_limits_for_probability(const MeasuredValue& y, const T
     const Dispersion dispersion(y);
     ToleranceLimits rejected;
     if (limits.lower) {
+        // With one tail alone; the second one can only move these limits towards the tolerance.
         rejected.lower = *limits.lower - dispersion.upper(1.0 - probability);
     }
     if (limits.upper) {

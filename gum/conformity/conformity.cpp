@@ -166,6 +166,8 @@ bool Application::ratio_holds() {
 
 void Application::solve_risk(double risk) {
     largest_risk_ = risk;
+    // The guard band is what lies between the tolerance limit and the acceptance limit; where both sides differ,
+    // because the distribution is not symmetric, the larger one is stated. Without limits no value has so small a risk.
     if (const auto solved = acceptance_limits_for_risk(y_, limits_, risk)) {
         decision_.acceptance = *solved;
         decision_.guard_band =
@@ -192,6 +194,8 @@ double Application::weight_of_measurement() const {
 /// DR-09, method 4: what is known after a measurement that gave some value.
 MeasuredValue Application::posterior_at(double value) const {
     const double weight = weight_of_measurement();
+    // Product of two normal densities: 1/u'² = 1/s0² + 1/u², so u'² = w u² with w = s0²/(s0² + u²), and the value moves
+    // towards the centre of the population by the same weight.
     return {.value = population_->centre + weight * (value - population_->centre),
             .standard_uncertainty = y_.standard_uncertainty * std::sqrt(weight),
             .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
@@ -208,6 +212,7 @@ void Application::posterior() {
     if (auto solved = acceptance_limits_for_risk(after, limits_, largest_risk_)) {
         const auto measured = [&](std::optional<double>& limit) {
             if (limit) {
+                // Limits of what is known after the measurement, taken back to values that a measurement shows.
                 limit = population_->centre + (*limit - population_->centre) / weight;
             }
         };
@@ -248,6 +253,8 @@ void Application::z540_3() {
             decision_.formula = formula;
         }
     } else if (method == "rp10") {
+        // From a ratio of 4 on the formula would put the acceptance limits outside of the tolerance: no guard band
+        // then.
         const double factor = std::min(1.0, 1.25 - 1.0 / *decision_.test_uncertainty_ratio);
         guard(half_ * (1.0 - factor), "w", "w = T·(1/TUR − 0.25), not below 0, T = (TU − TL)/2");
     } else {
@@ -389,6 +396,8 @@ void Application::verdict() {
     using enum ConformityVerdict;
     const bool by_risk = zones_ == Zones::by_risk || zones_ == Zones::by_proof;
     const double risk = risk_of(y_.value);
+    // By the risk itself and not by solved acceptance limits: those carry the error of a search, and a value near them
+    // would get a verdict that the printed risk contradicts.
     const bool passes = by_risk ? risk <= largest_risk_ * (1.0 + k_noise_of_a_risk) : inside(decision_.acceptance);
     if (!reason_.empty()) {
         decision_.acceptance = {};
@@ -459,6 +468,8 @@ ConformityDecision Application::decide() {
     set_zones();
     verdict();
     probabilities();
+    // The specific risk is that of the decision that was taken: of a wrong rejection p_c, of a wrong acceptance 1 −
+    // p_c.
     const bool rejected =
         decision_.verdict == ConformityVerdict::fail || decision_.verdict == ConformityVerdict::conditional_fail;
     decision_.specific_risk = rejected ? decision_.conformance_probability : risk_of(y_.value);

@@ -361,6 +361,7 @@ std::vector<std::string_view> decision_rule_ids() {
 
 DecisionRuleParameters parameters_of_alternative(const DecisionRuleParameters& parameters) {
     DecisionRuleParameters others = parameters;
+    // The alternative is taken because the ratio was not kept: asked again it would be refused by the same condition.
     others.test_uncertainty_ratio.reset();
     others.largest_U.reset();
     others.alternative.reset();

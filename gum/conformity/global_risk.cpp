@@ -25,6 +25,7 @@ constexpr int k_reach = 38;  // standard deviations: beyond, a normal density is
 double density(double z) {
     return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
 }
+// By erfc: 1 − Φ(z) has no digits left from z = 8 on.
 double upper_tail(double z) {
     return 0.5 * std::erfc(z / std::numbers::sqrt2);
 }
@@ -34,6 +35,7 @@ double probability_between(double a, double b) {
     if (!(a < b)) {
         return 0.0;
     }
+    // Both on one side of the mean: a difference of two small tails and not of two numbers close to 1.
     if (a > 0.0) {
         return upper_tail(a) - upper_tail(b);
     }
@@ -60,6 +62,8 @@ struct Situation {
 
 /// Ends of panels between two values, none wider than one standard deviation where a factor of the integrand varies.
 std::vector<double> panel_ends(const Situation& s, double from, double to) {
+    // The factors of the integrand change over s0 about the centre of the population, and over u about each acceptance
+    // limit. In panels of one standard deviation 20 points give the stated accuracy.
     std::vector<double> ends{from, to};
     const auto add = [&](double middle, double step) {
         if (!std::isfinite(middle)) {
@@ -100,6 +104,7 @@ double false_accept_above(const Situation& s) {
         const double part =
             Panel::integrate([&](double t) { return s.population(t) * s.accepted(t); }, ends[i - 1], ends[i]);
         sum += part;
+        // Panels have different widths, so that their mean height is compared and not their area.
         const double mean = part / width;
         if (mean < last_mean && mean * (farthest(s) - ends[i]) < 1e-16 * sum) {
             break;
@@ -130,6 +135,7 @@ double false_accept(const Situation& s) {
 }
 
 double acceptance_probability(const Situation& s) {
+    // Values of a normal population that is measured with a normal distribution are normal with s0² + u².
     const double spread = std::hypot(s.deviation, s.u);
     return probability_between((s.accept_lower - s.centre) / spread, (s.accept_upper - s.centre) / spread);
 }
@@ -257,6 +263,7 @@ std::optional<double> population_deviation_from_observed(double observed_deviati
     if (!(observed_deviation > u)) {
         return std::nullopt;
     }
+    // s² − u² as a product: nothing cancels where the items hardly differ.
     return std::sqrt((observed_deviation - u) * (observed_deviation + u));
 }
 
@@ -278,6 +285,7 @@ std::optional<double> guard_band_for_global_risk(const ToleranceLimits& toleranc
         const Situation s = situation(tolerance, guarded_limits(tolerance, guard_band), centre, deviation, u);
         return (kind == FalseAccept::conditional ? conditional_false_accept(s) : false_accept(s)) - largest_risk;
     };
+    // A guard band makes false acceptance rarer and false rejection more frequent: none is taken that is not needed.
     if (excess(0.0) <= 0.0) {
         return 0.0;
     }
