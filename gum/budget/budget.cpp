@@ -18,6 +18,8 @@ std::vector<InputSymbol> model_inputs(const Budget& budget) {
     for (std::size_t i = 0; i < budget.inputs.size(); ++i) {
         const BudgetInput& input = budget.inputs[i];
         InputSymbol& symbol = symbols.emplace_back(InputSymbol{input.name, input.unit, std::nullopt, input.where});
+        // A constant that a point states anew is no constant of the equations: compiled into them, its value would hold
+        // at all points.
         if (input.constant && !stated_by_points.contains(i)) {
             double value = 0.0;
             for (const StatedQuantity& component : input.components) {
@@ -118,6 +120,7 @@ InputTotal input_total(const BudgetInput& input) {
         variance += component.u * component.u;
         contributions.push_back({.uncertainty = component.u, .degrees_of_freedom = component.degrees_of_freedom});
     }
+    // Components are independent of each other: u² is the sum, and ν_eff is that of Welch and Satterthwaite.
     total.u = std::sqrt(variance);
     total.degrees_of_freedom = effective_degrees_of_freedom(contributions);
     return total;

@@ -33,6 +33,8 @@ Eigen::MatrixXd shared_root(const InputGroup& group) {
         for (const std::uint64_t own : group.own_streams) {
             is_given.push_back(own == InputGroup::k_shared);
         }
+        // A quantity that each point states by itself is drawn given those that all points share. Between points only
+        // its expectation given the shared ones is common, hence G L in place of L in its row.
         const ConditionalNormal conditional = conditional_normal(R, is_given);
         for (std::size_t i = 0; i < conditional.others.size(); ++i) {
             Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(root.cols());
@@ -87,11 +89,15 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
         }
         std::map<Deviate, Eigen::Index> shared;
         for (const auto& [deviate, count] : uses) {
+            // A deviate of one point alone makes no covariance between points; left out, the factor stays small for
+            // long tables.
             if (count > 1) {
                 shared.emplace(deviate, static_cast<Eigen::Index>(shared.size()));
             }
         }
         const auto all = static_cast<Eigen::Index>(shared.size());
+        // S Sᵀ, a sum of products of one factor with itself: the covariance is positive semi-definite by construction,
+        // which sums of pairs of points would not be after rounding.
         for (Eigen::Index block = 0; block < all; block += k_columns) {
             Eigen::MatrixXd S = Eigen::MatrixXd::Zero(first.back(), std::min(k_columns, all - block));
             for (std::size_t p = 0; p < factors.size(); ++p) {
@@ -107,6 +113,8 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
         covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
     }
     for (std::size_t p = 0; p < result.points.size(); ++p) {  // with what is of this point alone
+        // The blocks on the diagonal are those of the law of propagation itself, so that their u is the one that is
+        // printed.
         const Eigen::MatrixXd& own = result.points[p].propagation.covariance;
         covariance.block(first[p], first[p], own.rows(), own.cols()) = own;
     }

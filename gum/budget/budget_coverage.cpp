@@ -38,6 +38,8 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
             "the model has no derivative at these estimates, so that the law of propagation gives no uncertainty";
         return;
     }
+    // A wrong k costs more than none: the Welch-Satterthwaite formula holds for independent contributions, and a group
+    // without degrees of freedom has no place in it (ADR 0014).
     if (std::isnan(result.degrees_of_freedom)) {
         result.coverage = "none";
         Eigen::Index g = 0;
@@ -50,6 +52,7 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
         }
         return;
     }
+    // JCGM 100:2008, 5.1.2, note: where the first derivatives vanish, second-order terms are what is left.
     if (u == 0.0 && point.second_order && point.second_order->standard_uncertainty(output) > 0.0) {
         result.standard_uncertainty = point.second_order->standard_uncertainty(output);
         result.coverage = "none";
@@ -61,6 +64,8 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
     // One number of degrees of freedom for k, for what is printed and for a decision on conformity.
     double& nu = result.degrees_of_freedom;
     double k = coverage_factor(result.coverage_probability, nu);
+    // Asked before anything is convolved: a bound from the shares and degrees of freedom of the contributions tells
+    // that k cannot move by 1 %, and a budget without such inputs costs no more than before (ADR 0025).
     if (!convolution_changes_little(*point.model, point.propagation, output)) {
         const auto convolved = expand_by_convolution(*point.model, point.propagation, output);
         if (convolved) {
@@ -81,6 +86,7 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
         }
     }
     result.coverage = std::isinf(nu) ? "normal" : "student_t";
+    // Below 1 the next lower whole number is 0, for which there is no t-distribution.
     if (budget.truncate_degrees_of_freedom && std::isfinite(nu) && nu >= 1.0) {
         nu = std::floor(nu * (1.0 + k_rounding_of_degrees_of_freedom));
         k = coverage_factor(result.coverage_probability, nu);

@@ -172,6 +172,7 @@ void add_note(BudgetInputs& result, const std::string& code, const std::string& 
 void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>& inputs,
                             std::optional<std::size_t> point, const SimultaneousInputs* observed, InputGroup& group,
                             BudgetInputs& result) {
+    // n sets of readings taken together: every linear combination of the means has n − 1 degrees of freedom.
     if (observed != nullptr) {
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
         return;
@@ -232,6 +233,8 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
             const HermiteProfile& a = is_t(i) ? normal : *profiles[i];
             const HermiteProfile& b = is_t(j) ? normal : *profiles[j];
             const auto [lowest, highest] = HermiteProfile::attainable(a, b);
+            // Two quantities of different shape cannot have any coefficient: r = 1 would make one a linear function of
+            // the other.
             if (r < lowest - k_attained || r > highest + k_attained) {
                 problems.push_back({.code = "GC-BUDGET-0002",
                                     .where = "inputs " + members[i].name() + " and " + members[j].name(),
@@ -244,6 +247,9 @@ void set_copula(const std::vector<Member>& members, InputGroup& group, BudgetInp
                                     .action = "Correct the coefficient, or state distributions of one shape."});
                 continue;
             }
+            // A quantity keeps its own distribution, and its coefficient with another is then not that of the normal
+            // deviates: it is solved for. Taken over as it is, Monte Carlo would have other coefficients than the job
+            // states.
             N(row, column) = profiles[i]->has_correlation() && profiles[j]->has_correlation()
                                  ? HermiteProfile::normal_correlation(*profiles[i], *profiles[j], r)
                                  : r;
@@ -434,6 +440,8 @@ void add_joint_samples(const std::vector<Member>& members, std::optional<std::si
 /// Quantities with samples of one file, in the order of the inputs; those that a point states apart from the others.
 /// \throws InputError  GC-BUDGET-0003
 std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::optional<std::size_t> point) {
+    // Columns of one file that all points share, and columns that one point states, are drawn by different rows, so
+    // that they are two groups.
     std::map<std::pair<std::string, bool>, std::vector<Member>> by_file;
     for (std::size_t i = 0; i < budget.inputs.size(); ++i) {
         const BudgetInput& stated = input_at(budget, i, point);
@@ -453,6 +461,8 @@ std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::option
             const auto has = [&](std::size_t input) {
                 return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.input == input; });
             };
+            // Rows are drawn whole. A coefficient beside them would ask for another joint distribution than the one
+            // that the rows are.
             if (has(correlation.first) || has(correlation.second)) {
                 const bool both = has(correlation.first) && has(correlation.second);
                 problems.push_back(
@@ -632,6 +642,7 @@ BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::Curve
         const BudgetInput& input = input_at(budget, index, point);
         for (std::size_t c = 0; c < input.components.size(); ++c) {
             if (const auto together = group_of(index, c); together != joint.end()) {
+                // The group stands at the place of its first member; the others find it there already.
                 if (together->front().input == index && together->front().component == c) {
                     add_joint_samples(*together, point, result);
                 }
@@ -667,6 +678,7 @@ BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::Curve
         group.dependence = fit.covariance_scaled ? Dependence::student_t : Dependence::normal;
         group.distribution = fit.covariance_scaled ? "student_t" : "normal";
         result.groups.push_back(std::move(group));
+        // A fit belongs to no point: its parameters have the same draws at all points of a table.
         result.streams.push_back((budget.inputs.size() + f) * k_streams_an_input);
     }
     return result;

@@ -86,6 +86,7 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
     std::vector<std::string> names;
     Eigen::VectorXd start(static_cast<Eigen::Index>(fit.parameters.size()));
     for (const BudgetFit::Parameter& parameter : fit.parameters) {
+        // Of an equation that is linear in its parameters any start leads to the solution in one step.
         start(static_cast<Eigen::Index>(names.size())) = parameter.start.value_or(1.0);
         symbols.push_back({.name = parameter.name, .unit = parameter.unit, .constant = {}});
         names.push_back(parameter.name);
@@ -103,6 +104,8 @@ engine::CurveFit evaluate_fit(const BudgetFit& fit) {
                            .scale_by_residuals = fit.scale_by_residuals};
     const bool intercept = has_intercept(curve, data, static_cast<Eigen::Index>(names.size()));
     engine::CurveFit solved = engine::fit_curve(curve, data, start, names, intercept);
+    // Small residuals by luck would make the uncertainty of the parameters smaller than that of the data behind them:
+    // the stated uncertainties hold then.
     if (keeps_stated_uncertainties(fit, solved)) {
         data.scale_by_residuals = false;
         solved = engine::fit_curve(curve, data, start, names, intercept);
@@ -149,6 +152,8 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
                      BudgetPointResult& point) {
     MonteCarloOptions options = monte_carlo_options(asked, threads, budget.points.empty() ? progress : Progress());
     if (!budget.monte_carlo && options.adaptive) {
+        // Trials that decide whether the law holds need a numerical error that is small beside the tolerance they are
+        // compared with.
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
     options.streams = point.streams;
@@ -158,6 +163,7 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
     std::map<double, MonteCarloResult> results;
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
+        // The same seed and the same streams: results for other probabilities rest on the same trials.
         auto found = results.find(output.coverage_probability);
         if (found == results.end()) {
             options.coverage_probability = output.coverage_probability;
@@ -203,6 +209,7 @@ void validate_outputs(const Budget& budget, BudgetPointResult& point, BudgetResu
         BudgetOutputResult& output = point.outputs[i];
         const double u = output.standard_uncertainty;
         const double y = point.propagation.value(static_cast<Eigen::Index>(i));
+        // Without U of the law there is nothing that trials could confirm: validation was demanded, and is not reached.
         if (!output.expanded_uncertainty) {
             result.validation_failed = true;
         } else if (u > 0.0) {
@@ -320,6 +327,8 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
             output.because.clear();
         }
         if (i < point.without_derivative.size() && point.without_derivative[i] && output.monte_carlo && output.has_u) {
+            // The law has no u where there is no derivative; budgets and correlations beside the result take that of
+            // the trials.
             output.standard_uncertainty = output.monte_carlo->standard_uncertainty;
         }
     }
@@ -348,6 +357,8 @@ BudgetPointResult evaluate_point(const Part& part, std::optional<std::size_t> at
     if (at) {
         point.point = part.first_point + *at;
     }
+    // Of the whole budget, not of the section: random numbers go by the position of an input, so that results of two
+    // sections share what they have in common.
     BudgetInputs inputs = budget_inputs(part.whole, result.fits, point.point);
     if (result.points.empty()) {
         result.notes.insert(result.notes.end(), inputs.notes.begin(), inputs.notes.end());

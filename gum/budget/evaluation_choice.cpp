@@ -103,6 +103,7 @@ PointPropagation propagate_where_possible(const Budget& budget, const std::optio
     try {
         return {.propagation = propagate(model, budget.coverage_probability), .without_derivative = {}};
     } catch (const NoResultError& refused) {
+        // Any other failure is one of the model itself, and no trial would help.
         if (!system || !tells_missing_derivative(refused)) {
             throw;
         }
@@ -156,11 +157,13 @@ std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bo
         if (point.second_order) {
             const double second = point.second_order->standard_uncertainty(index);
             const double shift = std::abs(point.second_order->shift(index));
+            // Second-order terms come first: of several reasons they are the one that names a size.
             if (std::abs(second - u) > k_largest_change * u || shift > k_largest_shift * std::max(u, second)) {
                 evidence[i] = u < k_vanishing * second ? "vanishing" : "second_order";
                 continue;
             }
         }
+        // Derivatives at one point do not see a kink, an inflection or a limit inside of ± U; the model is asked there.
         if (!checks.empty() && !checks[i].adequate) {
             evidence[i] = u < k_vanishing * checks[i].spread ? "vanishing" : "not_linear";
             continue;
@@ -189,6 +192,8 @@ std::vector<InputWithoutVariance> inputs_without_variance(const BudgetPointResul
         for (Eigen::Index i = 0; i < group.size(); ++i, ++column) {
             const auto at = static_cast<std::size_t>(i);
             if (at < group.marginals.size() && group.marginals[at].kind == DistributionKind::student_t &&
+                // ∫ x² f(x) dx of a t-distribution is finite for ν > 2 only: trials give a number all the same, which
+                // grows with their count.
                 group.marginals[at].shape <= 2.0 && point.propagation.jacobian(output, column) != 0.0) {
                 found.push_back({.column = column, .nu = group.marginals[at].shape});
             }
@@ -203,6 +208,8 @@ ExistingMoments existing_moments(const std::optional<EquationSystem>& system, co
     const std::vector<BudgetQuantity>& quantities = point.model->quantities();
     for (const InputWithoutVariance& input : inputs_without_variance(point, output)) {
         const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(input.column)].symbol};
+        // Linear: the tails of the input are those of the result. Through another function, 1/x say, they may be cut
+        // off or become longer; then the trials themselves are asked.
         if (!system || system->is_affine_in(symbol)) {
             exist.u = false;
             exist.mean = exist.mean && input.nu > 1.0;
@@ -210,6 +217,7 @@ ExistingMoments existing_moments(const std::optional<EquationSystem>& system, co
     }
     const BudgetOutputResult& of = point.outputs[static_cast<std::size_t>(output)];
     const double share = of.monte_carlo->largest_share;
+    // Of a distribution with a variance no single trial makes a share of Σ d² that does not fall with their number.
     if (exist.u && share > k_suspicious_share + k_suspicious_in_few / static_cast<double>(of.trials)) {
         const double exponent = tail_exponent(point, output, threads);
         exist.u = exponent > 2.0;
@@ -228,6 +236,7 @@ void decide_reported(CoverageChoice choice, const std::string& evidence, const U
                                {[&](double v) { return unit.from_si(v); },
                                 [&](double difference) { return unit.difference_from_si(difference); }},
                                digits);
+        // Trials whose own numerical error is as large as the tolerance prove neither.
         contradicted = compared.precise_enough && !compared.validated;
         confirmed = compared.precise_enough && compared.validated;
     }

@@ -47,12 +47,14 @@ std::optional<Diagnostic> lost_digits_message(const BudgetFit& fit, const engine
     std::string name = fit.ordinate;
     const Unit* unit = &fit.ordinate_unit;
     double u = least_uncertainty(fit.y_uncertainty);
+    // No stated u: the residuals say how well the data are known.
     if (u == 0.0 && solved.degrees_of_freedom > 0.0) {
         u = std::sqrt(solved.residuals.squaredNorm() / solved.degrees_of_freedom);
     }
     double lost = rounding_of(fit.y, *unit);
     if (const double u_x = least_uncertainty(fit.x_uncertainty); u_x > 0.0) {
         const double lost_x = rounding_of(fit.x.col(0), fit.regressor_units.front());
+        // Of ordinate and regressor the one that loses more against its own uncertainty is told.
         if (lost_x * u > lost * u_x) {
             name = fit.regressors.front();
             unit = &fit.regressor_units.front();
@@ -85,6 +87,8 @@ Diagnostic no_scatter_message(const BudgetFit& fit) {
 }
 
 bool keeps_stated_uncertainties(const BudgetFit& fit, const engine::CurveFit& solved) {
+    // A test on one side: residuals that are too large enlarge the uncertainty, as asked. Only to make it smaller takes
+    // more than a χ² that is below its expected value by chance.
     return fit.scale_by_residuals && fit.y_uncertainty.size() > 0 && solved.degrees_of_freedom > 0.0 &&
            chi_square_lower_tail(solved.sum_of_squares, solved.degrees_of_freedom) < k_fit_overstated_level;
 }

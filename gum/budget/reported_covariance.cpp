@@ -46,6 +46,8 @@ Eigen::MatrixXd drawn_together(const BudgetResult& result, std::uint64_t seed) {
     const auto n = static_cast<Eigen::Index>(budget_result_count(result));
     std::vector<InputDraws> draws;
     for (const BudgetPointResult& point : result.points) {
+        // One seed and the streams of each point: what points have in common is drawn once, which makes their
+        // correlation.
         draws.emplace_back(point.model->inputs(), seed, point.streams);
     }
     // A coefficient of M trials is known to 1/√M: to 0.2 % of 200 000, to 0.4 % of the 80 000 that 500 results get.

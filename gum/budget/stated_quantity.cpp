@@ -46,6 +46,8 @@ StatedQuantity with_scaled_uncertainty(StatedQuantity quantity, double factor) {
         quantity.distribution = Distribution::constant(quantity.value);
     } else {
         Distribution& distribution = quantity.distribution;
+        // About the estimate, which need not be the location of the distribution (of one that is not symmetric, say):
+        // the estimate must not move.
         distribution.location = quantity.value + factor * (distribution.location - quantity.value);
         distribution.scale *= factor;
     }

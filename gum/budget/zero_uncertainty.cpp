@@ -31,6 +31,7 @@ std::set<std::string> names_behind(const Budget& budget, const std::string& outp
             continue;
         }
         for (const EquationNames& equation : equations) {
+            // An implicit equation defines no single name: each unknown depends on all of them.
             if (equation.defines == name || (equation.defines.empty() && unknowns.contains(name))) {
                 left.insert(left.end(), equation.uses.begin(), equation.uses.end());
             }
