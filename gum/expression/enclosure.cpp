@@ -40,6 +40,7 @@ struct Outward : boost::numeric::interval_lib::rounded_arith_exact<double> {
     static double add_up(double x, double y) { return x == 0.0 ? y : y == 0.0 ? x : one_up(x + y); }
     static double sub_down(double x, double y) { return y == 0.0 ? x : x == 0.0 ? -y : one_down(x - y); }
     static double sub_up(double x, double y) { return y == 0.0 ? x : x == 0.0 ? -y : one_up(x - y); }
+    // 0·∞ is 0 here and not NaN: a derivative that is 0 stays harmless, whatever it is multiplied with.
     static double mul_down(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : one_down(x * y); }
     static double mul_up(double x, double y) { return x == 0.0 || y == 0.0 ? 0.0 : one_up(x * y); }
     static double div_down(double x, double y) { return x == 0.0 ? 0.0 : one_down(x / y); }
@@ -138,6 +139,7 @@ Enclosure enclosed_sinh(const Enclosure& a) {
     return rising([](double x) { return std::sinh(x); }, a);
 }
 Enclosure enclosed_cosh(const Enclosure& a) {
+    // cosh falls up to 0 and rises from there, so it is evaluated at the smallest and the largest |x|.
     const Enclosure beyond = rising([](double x) { return std::cosh(x); }, Enclosure{a.smallest(), a.largest()});
     return within(beyond, 1.0, k_infinite);
 }
@@ -232,6 +234,7 @@ std::optional<Enclosure> enclose(Operation operation, const Enclosure& a, const 
         case absolute:
             return a.low > 0.0 ? std::optional(a) : a.high < 0.0 ? std::optional(-a) : std::nullopt;
         case Operation::sqrt:
+            // At 0 the root has a value, and no derivative.
             return a.low > 0.0 ? finite(enclosed_sqrt(a)) : std::nullopt;
         case Operation::exp:
             return finite(enclosed_exp(a));
@@ -275,6 +278,8 @@ std::optional<Enclosure> enclose(Operation operation, const Enclosure& a, const 
         case divide:
             return finite(a / b);
         case power:
+            // A power with a whole constant exponent is a chain of products on the tape, so that it is enclosed for
+            // negative bases as well.
             return a.low > 0.0 ? finite(enclosed_power(a, b)) : std::nullopt;
         case Operation::atan2:
             return b.low > 0.0 || !a.contains(0.0) ? finite(enclosed_atan2(a, b)) : std::nullopt;
@@ -352,6 +357,7 @@ std::optional<EnclosedStep> enclose_with_partials(Operation operation, const Enc
             s.daa = v;
             break;
         case Operation::tanh:
+            // 1 − v² would be wide, and contain 0, where tanh is close to ±1.
             s.da = one / square(enclosed_cosh(a));
             s.daa = -two * v * s.da;
             break;

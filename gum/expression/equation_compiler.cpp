@@ -300,6 +300,8 @@ private:
         if (!all_read) {
             return;
         }
+        // With fewer equations the unknowns are not determined, with more they contradict each other for measured
+        // values.
         if (implicit_.size() != unknowns_.size()) {
             std::string names;
             for (const UnknownSymbol& unknown : unknowns_) {
@@ -452,6 +454,7 @@ private:
             }
             return;
         }
+        // What no other equation uses is what the author wants to know; the others are steps on the way.
         std::vector<bool> equation_used(trees_.size(), false);
         std::vector<bool> unknown_used(unknowns_.size(), false);
         for (std::size_t i = 0; i < trees_.size(); ++i) {

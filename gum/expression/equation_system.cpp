@@ -167,6 +167,7 @@ bool EquationSystem::Compiled::invert_slope(Workspace& workspace) const {
     if (!slope.allFinite()) {
         return false;
     }
+    // One equation needs no factorisation, which counts: it is solved in every trial of Monte Carlo.
     if (slope.rows() == 1) {
         workspace.inverse.resize(1, 1);
         workspace.inverse(0, 0) = 1.0 / slope(0, 0);
@@ -185,6 +186,7 @@ bool EquationSystem::Compiled::invert_slope(Workspace& workspace) const {
     }
     workspace.row_scale = workspace.row_scale.cwiseInverse();
     workspace.scaled = workspace.row_scale.asDiagonal() * workspace.scaled;
+    // Full pivoting tells the rank: partial pivoting divides by what is left of a singular matrix and goes on.
     workspace.decomposition.compute(workspace.scaled);
     if (!workspace.decomposition.isInvertible()) {
         return false;
@@ -309,6 +311,8 @@ Search EquationSystem::Compiled::search(Workspace& workspace, const double* star
         last_was_whole = length == 1.0;
         std::copy(z, z + u, workspace.unknowns.begin());
     }
+    // Steps that were only halving at the end point to a double solution, which more steps would approach without an
+    // end.
     return linear >= 3 ? Search::singular : Search::not_converged;
 }
 
@@ -426,6 +430,7 @@ void EquationSystem::Compiled::run(Workspace& workspace, const Eigen::VectorXd& 
         if (outcome == Search::no_value) {
             throw NoResultError(why_not_finite(workspace, tape.residual_step_count()));
         }
+        // Told as what it is: a step of the equations without a derivative, with its place, and not "singular".
         if (outcome == Search::singular && !workspace.slope.allFinite()) {
             throw NoResultError(why_no_derivative(workspace, tape.residual_step_count(), false));
         }

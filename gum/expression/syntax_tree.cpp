@@ -522,6 +522,7 @@ private:
             return;
         }
         const std::string gap = before.end == after.begin ? "" : " ";
+        // Reading goes on as if "*" stood there: the other faults are found in the same run.
         problems_.add("GC-MODEL-0010", after.column, "\"" + a + gap + b + "\": an operator is missing",
                       "a product is written with \"*\"", "Write " + a + "*" + b + (b == "(" ? "…)" : "") + ".");
     }
@@ -581,6 +582,8 @@ private:
                 check_depth(depth + 1);
                 ++position_;
                 const std::int32_t inner = sum(depth + 1);
+                // The parentheses belong to the excerpt of a message, so that what is quoted stands in the text as it
+                // is quoted.
                 node(inner).begin = token.begin;
                 node(inner).end = close(token);
                 return inner;

@@ -44,6 +44,7 @@ public:
         for (const std::size_t k : needed_) {
             const TapeStep& step = tape_.steps()[k];
             const std::optional<Enclosure> value =
+                // x·x of an interval with 0 in it: as a product of two unrelated numbers it would reach below 0.
                 is_square(step) ? std::optional(square(value_[slot_of(step.a)]))
                                 : enclose(step.operation, value_[slot_of(step.a)], value_[slot_of(step.b)]);
             if (!value || !value->is_finite()) {
@@ -198,6 +199,8 @@ double certain_remainder(BoxedTape& tape, const Box& box) {
         if (tape.values(point)) {
             return;
         }
+        // f − tangent at one point, with every rounding on the outside: the smallest size of it is certain, whatever
+        // rounding did.
         Enclosure remainder = tape.output() - f0;
         for (const std::size_t i : box.moving) {
             remainder = remainder - slope[i] * (point[i] - box.centre[i]);
@@ -267,6 +270,7 @@ TapeBound tangent_bound(const Tape& tape, std::size_t root, const Eigen::VectorX
     BoxedTape boxed(tape, root);
     const Box box = box_of(boxed, x, low, high);
     TapeBound result;
+    // One sweep of all steps for each leaf that varies: time grows with the product.
     if (boxed.steps().size() * box.moving.size() > k_largest_bounded_model) {
         return result;
     }

@@ -294,6 +294,8 @@ double Tape::gradient(TapeWorkspace& workspace, std::size_t root) const {
     }
     const std::size_t lowest = lowest_[root];
     const std::size_t top = slot - base;
+    // Steps before the first one that the root depends on are left alone: a budget of hundreds of results would
+    // otherwise clear the whole tape for each.
     std::fill(adjoint + base + lowest, adjoint + slot, 0.0);
     adjoint[slot] = 1.0;
     double rounding = 0.0;

@@ -162,6 +162,7 @@ private:
                 continue;
             }
             with_unit.insert(tree_.names[tree_.nodes[quantity].name]);
+            // 1/K, as a coefficient of expansion has it, multiplies differences of temperatures: it makes no law.
             const bool plain = (dimension * Dimension::temperature()).is_one();
             per_kelvin += dimension.exponent(k_kelvin) == -1.0 && !plain ? 1 : 0;
         }
@@ -254,6 +255,8 @@ private:
             return {};
         }
         const std::optional<double>& exponent = kinds_[right].constant;
+        // Whole powers stand in polynomials of t; a root or an inverse of a Celsius temperature in no formula that
+        // holds at and below 0 °C.
         const bool whole = exponent && *exponent == std::round(*exponent) && *exponent >= 0.0;
         if (!whole) {
             warn(node, "is a power of", contents_[left]);

@@ -147,6 +147,8 @@ private:
                 return kind;
             case Operation::absolute:
                 kind.dimension = a.dimension;
+                // |t| of a Celsius temperature changes at 0 °C, a place that has no meaning in nature; of a difference
+                // it is well defined.
                 return is_same_weight(a.celsius, 0.0) ? kind : not_a_difference(node, a);
             case Operation::sqrt:
                 kind.dimension = a.dimension.power(0.5);
@@ -224,6 +226,8 @@ private:
             }
             case Operation::multiply:
                 kind.dimension = a.dimension * b.dimension;
+                // Only a factor whose value is known gives a known weight: (t1 + t2)/2 is a Celsius temperature again,
+                // of w t nobody can tell.
                 kind.celsius = a.constant && a.dimension.is_one()   ? *a.constant * b.celsius
                                : b.constant && b.dimension.is_one() ? *b.constant * a.celsius
                                                                     : 0.0;
@@ -318,6 +322,7 @@ private:
                           exponent.dimension == Dimension::angle() ? "Divide the angle by rad."
                                                                    : "Divide by a quantity of the same unit.");
         }
+        // A number to any power is a number; only a base with a unit needs to know which unit results.
         if (is_number(base)) {
             return kind;
         }
@@ -373,6 +378,7 @@ QuantityKind QuantityKind::of(const Unit& unit, std::optional<double> constant) 
     QuantityKind kind;
     kind.dimension = unit.dimension();
     kind.celsius = unit.is_celsius_temperature() ? 1.0 : 0.0;
+    // 1 K is 1.8 degF and 1 degC.
     kind.fahrenheit = unit.is_celsius_temperature() && unit.difference_from_si(1.0) > 1.5;
     kind.constant = constant;
     kind.unit = unit.text();
