@@ -7,6 +7,8 @@
 namespace gumcert::certificate {
 
 bool is_of_calibration_laboratories(const std::string& text) {
+    // Names of standards bodies and their publications. Every word has to be one of them, the number or an edition: one
+    // other word can turn the sentence round.
     constexpr std::u32string_view k_bodies =
         U" iso iec cei din en bs nf une uni cns abnt nbr ntp nmx ntc iram nch unit gb cnas jis q ks ss ns ds sn onorm "
         U"oenorm "
@@ -21,6 +23,8 @@ bool is_of_calibration_laboratories(const std::string& text) {
             standard = true;
         } else if (digits && standard) {
             const bool edition =
+                // Years of the editions of 2005 and 2017 and of their national adoptions; a year between belongs to
+                // neither. "03" is the month of an edition.
                 (word.size() == 4 && ((year >= "2005" && year <= "2010") || (year >= "2017" && year <= "2024"))) ||
                 (word.size() == 2 && year <= "12");
             others = others || !edition;

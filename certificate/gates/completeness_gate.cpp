@@ -223,6 +223,8 @@ void conditions(FindingList& found, const CertificateData& data) {
         const Condition& c = data.conditions[i];
         const bool outside =
             (c.lower_limit && c.minimum < *c.lower_limit) || (c.upper_limit && c.maximum > *c.upper_limit);
+        // What was measured outside of the limits of the method is a deviation from it (7.8.2.1 n), and the reader must
+        // learn so.
         if (outside && !any_statement(data.method.deviations)) {
             found.critical("E01", iso_17025("7.8.2.1 n"), place_in("/conditions", i),
                            "\"" + c.quantity.in("en") + "\" left the limits of the method, and no deviation is stated",

@@ -31,6 +31,8 @@ void add_sections(const Certificate& certificate, std::vector<Finding>& all) {
     const std::vector<SectionData>& sections = certificate.data.sections;
     for (std::size_t i = 0; i < sections.size(); ++i) {
         Certificate part;
+        // The gates look at the section as if it were a certificate of its own, so that no rule is written twice. Kept
+        // is only what belongs to what the section states itself; the rest was told for the certificate already.
         part.data = data_of_section(certificate.data, sections[i].section);
         part.profile = certificate.profile;
         for (const CertifiedTable& table : certificate.tables) {
@@ -73,6 +75,7 @@ void pass_gates(Certificate& certificate, const std::vector<Finding>& audit) {
     }
     add_sections(certificate, all);
     certificate.findings.clear();
+    // The symbol claims that something on the page is accredited: without such a value it would be misused.
     certificate.symbol = certificate.data.status == "accredited" && has_accredited_value(certificate);
     add_findings(certificate, all);
 }

@@ -18,6 +18,8 @@ bool of_one_kind(const Unit& a, const Unit& b) {
 
 double value_for_scope(double value, const Unit& of, const Unit& unit) {
     const double in_unit = unit.from_si(of.to_si(value));
+    // Scopes state magnitudes, "up to 1000 V"; the sign of a temperature in degrees Celsius is part of the place on its
+    // scale.
     return unit.is_celsius_temperature() ? in_unit : std::abs(in_unit);
 }
 
@@ -42,6 +44,8 @@ const ShownColumn* error_column(const CertifiedTable& table, const std::string& 
 }  // namespace
 
 Measured measured_at(const CertifiedTable& table, const CertifiedColumn& column, std::size_t row, const Unit& unit) {
+    // An error of 2 µV at 10 V was measured at 10 V: held against the range by its own value it would be at the lower
+    // end of every scope.
     if (const ShownColumn* error = error_column(table, column.result)) {
         for (const std::string_view role : k_places) {
             for (const PointColumn& place : table.layout->columns) {
@@ -87,6 +91,8 @@ std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::
     if (is_nominal_of(claimed, value)) {
         return std::nullopt;
     }
+    // A capability mostly grows with the quantity: taken at a smaller number it would allow a smaller U than the scope
+    // does.
     const bool larger = std::abs(value) > std::abs(claimed);
     return Finding{.id = "X12",
                    .clause = "ILAC-P14:09/2020",

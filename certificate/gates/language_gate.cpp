@@ -59,6 +59,7 @@ public:
         for (const std::string& language : languages_) {
             const bool stated = std::any_of(text.by_language.begin(), text.by_language.end(),
                                             [&](const auto& one) { return one.first == language; });
+            // A plain text holds for every language, as a number or a name does.
             if (!text.by_language.empty() && text.plain.empty() && !stated) {
                 found_.add(FindingSeverity::minor, "R17", iso_17025("7.8.1.2"), at,
                            "the text is not given in \"" + language + "\", a language of the certificate",

@@ -64,6 +64,7 @@ void same_texts(FindingList& found, const CertificateData& data) {
         if (first == all.begin() + static_cast<std::ptrdiff_t>(i) || names(*first, all[i])) {
             continue;
         }
+        // Two equal fields may be a slip; one text in three or more of them was filled in to satisfy a form.
         const auto number = std::count_if(all.begin(), all.end(),
                                           [&](const IdentifyingText& t) { return t.letters == all[i].letters; });
         found.add(number > 2 ? FindingSeverity::critical : FindingSeverity::major, "Q01", iso_17025("7.8.2.1"),
@@ -112,6 +113,7 @@ void plausible_persons(FindingList& found, const CertificateData& data, const Pr
 /// Nobody certifies something to himself.
 void customers(FindingList& found, const CertificateData& data) {
     const auto check = [&](const std::optional<Person>& person, const char* key, FindingSeverity severity) {
+        // Compared by letters alone, so that a space or a capital letter makes no other person.
         if (person && is_stated(person->name) && letters_of(person->name) == letters_of(data.customer.name.in("en"))) {
             found.add(severity, "P13", iso_17025("4.1"), "/persons/" + std::string(key),
                       person->name + " acts for the laboratory and is the customer",
@@ -228,6 +230,7 @@ std::string impossible(const Condition& c) {
     }
     if (is_short_for_humidity(c) ||
         is_of(c, "humidity", {U"humidity", U"feuchte", U"feuchtigkeit", U"humedad", U"濕度", U"湿度"})) {
+        // An absolute humidity has a unit such as g/m³, and no upper limit that could be named here.
         if (c.kind == "humidity" && !unit.dimension().is_one() && low < 0.0) {
             return text::shortest(c.minimum) + " " + c.unit + " of water are less than none";
         }

@@ -41,6 +41,7 @@ bool judge_printed_languages(Certificate& certificate, const std::vector<std::st
     Certificate as_printed = certificate;
     as_printed.data.languages = printed;
     std::vector<Finding> lacking = language_findings(as_printed);
+    // What the gates told already for the languages of the data is not told twice.
     std::erase_if(lacking, [&](const Finding& finding) { return is_among(certificate.findings, finding); });
     certificate.findings.insert(certificate.findings.begin(), left_out.begin(), left_out.end());
     certificate.findings.insert(certificate.findings.end(), lacking.begin(), lacking.end());

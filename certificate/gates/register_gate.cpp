@@ -28,6 +28,8 @@ void standards(FindingList& found, const LaboratoryRegister& registered) {
         if (use.answer == "yes") {
             continue;
         }
+        // "No" is known to be wrong. Where nobody knows, the issue is not blocked, but the certificate does not stay
+        // silent.
         const bool is_refuted = use.answer == "no";
         found.add(is_refuted ? FindingSeverity::critical : FindingSeverity::major, "T11", iso_17025("6.4"), use.input,
                   std::string(is_refuted ? "the standard \"" + use.standard + "\" cannot be used here: "

@@ -29,6 +29,7 @@ using gum::Unit;
 void validity(FindingList& found, const Accreditation& a) {
     constexpr long k_longest_in_days = 20 * 366;
     if (a.valid_from.empty() || a.valid_to.empty()) {
+        // With one of the two days the dates of the work can still be held against the scope, with none they cannot.
         const bool both = a.valid_from.empty() && a.valid_to.empty();
         found.add(both ? FindingSeverity::critical : FindingSeverity::major, "X09", k_p8,
                   a.valid_to.empty() ? "/accreditation/valid_to" : "/accreditation/valid_from",
@@ -142,6 +143,8 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
             }
             const double value = value_for_scope(measured.value, of, unit);
             const double claimed = value_for_scope(parameter.value, stated, unit);
+            // Below a range of magnitudes lies 0, the result of a zero point or of a small error; that an item was
+            // better than the range is no breach of it.
             const double low = unit.is_celsius_temperature() ? range.low : 0.0;
             if (is_nominal_of(claimed, value) && !is_beyond(value, low, range.high)) {
                 continue;
@@ -200,6 +203,8 @@ std::vector<std::vector<ArgumentValue>> places_of(const ScopeEntry& entry) {
             }
         }
         places = std::move(more);
+        // Nine places for each argument: four arguments would make 6561 of them. The check is one for slips, and may
+        // stay incomplete.
         if (places.size() > 1000) {
             return {};
         }
@@ -247,6 +252,7 @@ std::optional<double> best_reference(const CertificateData& data, const Unit& un
         }
         const Unit of = Unit::parse(s.unit);
         if (of.dimension() == unit.dimension() && !unit.dimension().is_one()) {
+            // For k = 2, as capabilities are stated.
             const double U = 2.0 * of.difference_to_si(*s.U) / s.k.value_or(2.0);
             best = std::min(best.value_or(U), U);
         }
@@ -276,6 +282,8 @@ void capability_against_reference(FindingList& found, const ScopeEntry& entry, c
     for (std::size_t v = 0; v < covered.values.size(); ++v) {
         const CertifiedValue& value = *covered.values[v];
         const Unit unit = Unit::parse(covered.columns[v]->unit);
+        // Only a result whose own U is not below that of the standard is of the kind of the standard: at the lower end
+        // of a wide range both may be far apart rightly.
         const bool comparable = value.U && value.capability &&
                                 unit.dimension() == Unit::parse(entry.capability.unit).dimension() &&
                                 2.0 * unit.difference_to_si(*value.U) >= best;

@@ -103,6 +103,7 @@ void agreement(FindingList& found, const CertificateData& data, const AgreedSpec
                     name + " was agreed on " + s.agreed_on + ", more than ten years before the work",
                     "Correct the date.");
     }
+    // A rule that is chosen when the values are known can be chosen by the wanted verdict.
     if (is_after(s.agreed_on, data.dates.performed_from)) {
         found.add(data.status == "accredited" ? FindingSeverity::critical : FindingSeverity::major, "D02",
                   iso_17025("7.1.3"), where("agreed_on"),

@@ -77,6 +77,8 @@ void accreditation(FindingList& found, const CertificateData& data) {
                            "Issue the certificate without the accreditation, or correct the dates.");
         }
     };
+    // On the days of the work and on that of the issue: results are accredited by the scope under which they were made,
+    // and the certificate by that under which it is issued.
     valid_on(data.dates.performed_from, "performance");
     if (data.dates.performed_to != data.dates.performed_from) {
         valid_on(data.dates.performed_to, "the end of the performance");

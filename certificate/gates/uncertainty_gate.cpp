@@ -41,6 +41,7 @@ void digits(FindingList& found, const std::string& where, const CertifiedValue& 
                     "value " + value.printed_value + " and U " + value.printed_U + " end at different decimal places",
                     "Round the value to the last place of U.");
     }
+    // An interval of Monte Carlo has no k that anything was multiplied by.
     if (value.printed_k.empty() && value.coverage != "monte_carlo") {
         found.critical("R04", k_p14, where, "U is stated without its coverage factor", "State k.");
     }
