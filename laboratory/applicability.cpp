@@ -15,6 +15,7 @@ constexpr double k_same_value = 1e-9;
 
 /// Keeps the first "no", else the first "unknown".
 void put(Applicability& verdict, Answer answer, std::string because) {
+    // "No" outweighs "unknown": what is refuted is not made open again by what nobody knows.
     if (verdict.answer == Answer::yes || (verdict.answer == Answer::unknown && answer == Answer::no)) {
         verdict = {answer, std::move(because)};
     }
@@ -50,6 +51,7 @@ bool narrow(Results& results, std::string CalibrationResult::*member, const std:
         keep(results, member, stated);
         return true;
     }
+    // A certificate that is silent on the range may still hold for it; one that names other ranges only does not.
     if (values.contains("")) {
         put(verdict, Answer::unknown,
             std::string("the certificate does not say for which ") + word + " it holds, and the use is in \"" + stated +
@@ -119,6 +121,8 @@ void by_value(const StandardRecord& record, const StandardUse& use, const Result
 }  // namespace
 
 bool is_same_value(double a, double b) {
+    // Relative: nominal values of 1e-12 F and of 1e9 Ω are compared alike, and a conversion of units must not separate
+    // them.
     return std::abs(a - b) <= k_same_value * std::max(std::abs(a), std::abs(b));
 }
 

@@ -21,6 +21,7 @@ namespace {
 Drift uniform_within(double half_width) {
     Drift drift;
     drift.half_width = half_width;
+    // A limit without more knowledge: rectangular (JCGM 100:2008, 4.3.7).
     drift.u = half_width / std::sqrt(3.0);
     return drift;
 }
@@ -38,6 +39,8 @@ Drift drift_as_last_difference(std::span<const SeriesPoint> series, double days)
     }
     const SeriesPoint& before = series[series.size() - 2];
     const double change = std::abs(series.back().value - before.value);
+    // Two calibrations show no direction that could be relied on, so that the change is a half-width and not a
+    // correction. Within the first interval it counts in full: when the standard moved is not known.
     return uniform_within(change * std::max(1.0, days / (series.back().days - before.days)));
 }
 
@@ -59,6 +62,7 @@ Drift linear_drift(std::span<const SeriesPoint> series, bool weighted, double da
     }
     t_mean /= W;
     y_mean /= W;
+    // About the mean of t: intercept and slope are uncorrelated there, and u² is a sum of squares alone.
     double S = 0.0, S_ty = 0.0;
     for (const SeriesPoint& p : series) {
         S += weight(p) * (p.days - t_mean) * (p.days - t_mean);
@@ -78,10 +82,15 @@ Drift linear_drift(std::span<const SeriesPoint> series, bool weighted, double da
     Drift drift;
     drift.value = y_mean + slope * (days - t_mean);
     if (weighted) {
+        // Stated uncertainties are enlarged where the history contradicts them, and never made smaller: a few points on
+        // a line by chance do not show that the laboratories were better than they said.
         const double c = std::max(1.0, squares / nu);
         drift.u = std::sqrt(c * (1.0 / W + distance) + (c - 1.0) * series.back().u * series.back().u);
+        // With c = 1 nothing was estimated from the scatter.
         drift.nu = squares > nu ? nu : drift.nu;
     } else {
+        // The 1 under the root: the standard scatters about its line as it did before, and one further value is asked
+        // for, not the line.
         drift.u = std::sqrt(squares / nu * (1.0 + 1.0 / n + distance));
         drift.nu = nu;
     }

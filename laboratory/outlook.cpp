@@ -28,6 +28,7 @@ std::string line_in_words(const CalibrationResult& line) {
 StandardRecord up_to(const StandardRecord& record, const Calibration& last, std::string_view day) {
     StandardRecord then = record;
     const auto behind = (&last - record.calibrations.data()) + 1;
+    // A question about a past day is answered with what was known on that day.
     then.calibrations.erase(then.calibrations.begin() + behind, then.calibrations.end());
     if (then.interval) {
         std::erase_if(then.interval->readings,
@@ -58,6 +59,7 @@ void propose(CalibrationOutlook& out, const StandardRecord& record, std::string_
             trouble = trouble.empty() ? error.diagnostics().front().what : trouble;
             continue;
         }
+        // One line that is due makes the whole standard due: it is sent away as a whole.
         const bool is_earlier = !next->due.empty() && (out.next.empty() || certificate::is_after(out.next, next->due));
         if (is_earlier || out.why.empty()) {
             const std::string words = lines.size() > 1 ? line_in_words(line) : "";

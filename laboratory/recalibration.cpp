@@ -68,6 +68,7 @@ TimeInUse time_in_use(const IntervalPlan& plan, double last_reading, double days
     TimeInUse out;
     out.used = last_reading - plan.hours_at_calibration;
     out.left = plan.hours - out.used;
+    // Without use, or on the day of the calibration, no rate is known and no day follows from it.
     const double rate = days > 0.0 ? out.used / days : 0.0;
     if (rate > 0.0) {
         out.days_left = static_cast<long>(std::floor(std::clamp(out.left / rate, -1e6, 1e6)));

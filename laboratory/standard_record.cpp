@@ -19,6 +19,8 @@ double standard_uncertainty(const CalibrationResult& result) {
                                               .rule = "an expanded uncertainty means something with k or p only",
                                               .action = "state k, or p, as the certificate does"});
     }
+    // Without k the certificate states p: U is taken back to u with the t-distribution of its ν, normal where none is
+    // stated.
     return result.U / gum::coverage_factor(*result.p, result.nu.value_or(std::numeric_limits<double>::infinity()));
 }
 

@@ -87,6 +87,8 @@ StandardValue nearest(const StandardRecord& record, const Calibration& calibrati
     const CalibrationResult& near = at - *below.nominal <= *above.nominal - at ? below : above;
     StandardValue out = of_line(record, calibration, near, days);
     out.value = base_at(near, at) + correction(near);
+    // The correction is taken from the nearer point; how far it may have changed on the way grows with the distance, up
+    // to the whole difference at the other point.
     out.interpolation_half_width = std::abs(correction(above) - correction(below)) * std::abs(at - *near.nominal) /
                                    (*above.nominal - *below.nominal);
     return out;
@@ -104,6 +106,8 @@ StandardValue linear(const StandardRecord& record, const Calibration& calibratio
     const double l = (at - *below.nominal) / (*above.nominal - *below.nominal);
     const StandardValue low = of_line(record, calibration, below, days);
     const StandardValue high = of_line(record, calibration, above, days);
+    // The remainder of linear interpolation is (x − x0)(x − x1) f″(ξ)/2, and f″/2 is estimated by the second divided
+    // differences of the points on both sides; the larger one counts.
     double bend = 0.0;
     if (upper >= 2) {
         bend = std::abs(second_divided_difference(*lines[upper - 2], below, above));
@@ -113,9 +117,11 @@ StandardValue linear(const StandardRecord& record, const Calibration& calibratio
     }
     StandardValue out = l <= 0.5 ? low : high;
     out.value = base_at(below, at) + (1.0 - l) * correction(below) + l * correction(above);
+    // Added as they are and not as squares: points of one certificate share its standard, so that nothing averages out.
     out.U = (1.0 - l) * standard_uncertainty(below) + l * standard_uncertainty(above);
     out.k = 1.0;
     out.p.reset();
+    // The least of them claims no more than is known.
     const double nu = std::min(below.nu.value_or(k_infinity), above.nu.value_or(k_infinity));
     out.nu = std::isinf(nu) ? std::nullopt : std::optional(nu);
     out.interpolation_half_width = std::abs((at - *below.nominal) * (at - *above.nominal)) * bend;
@@ -135,6 +141,7 @@ std::vector<SeriesPoint> history_of(const StandardRecord& record, const Calibrat
     for (const Calibration& calibration : record.calibrations) {
         const long days = certificate::days_between(last.calibrated, calibration.calibrated).value_or(0);
         const CalibrationResult* line = same_line(calibration, result);
+        // Later calibrations than `last` were not known when it was the last one.
         if (days > 0 || line == nullptr) {
             continue;
         }
