@@ -32,6 +32,7 @@ struct Neighbours {
 
 std::optional<Neighbours> neighbours(const std::vector<double>& points, double value) {
     for (std::size_t i = 0; i < points.size(); ++i) {
+        // On a point its own U holds, and no other: a scope may step there.
         if (same(points[i], value)) {
             return Neighbours{i, i, 0.0};
         }

@@ -6,6 +6,7 @@ namespace gumcert::certificate {
 
 namespace {
 
+// Dates are those of the Gregorian calendar; an earlier year on a certificate is a slip.
 constexpr int k_first_gregorian_year = 1583;
 
 /// The digits from one position of a text on; nothing where one is not a digit.
@@ -40,10 +41,12 @@ std::optional<std::chrono::year_month_day> calendar_date(std::string_view text) 
 bool is_after(std::string_view first, std::string_view second) {
     const auto a = calendar_date(first);
     const auto b = calendar_date(second);
+    // A date that cannot be read is neither before nor after: its own finding says what is wrong with it.
     return a && b && *a > *b;
 }
 
 bool is_within(std::string_view date, std::string_view from, std::string_view to) {
+    // A limit that is stated and cannot be read must not count as "no limit".
     const auto stated_and_wrong = [](std::string_view limit) { return !limit.empty() && !calendar_date(limit); };
     return calendar_date(date) && !stated_and_wrong(from) && !stated_and_wrong(to) && !is_after(from, date) &&
            !is_after(date, to);

@@ -23,6 +23,7 @@ LimitsAt without_limits(std::string problem) {
 
 /// ± half-width about 0, or about a value of the point.
 LimitsAt about(const AgreedSpecification& s, const PointLookup& point, double half_width) {
+    // Limits that coincide could be kept by nobody, and a negative half-width would turn them round.
     if (!std::isfinite(half_width) || !(half_width > 0.0)) {
         return without_limits("the maximum permissible error is " + text::shortest(half_width) + " " + s.unit +
                               ", which is not greater than 0");
@@ -74,6 +75,7 @@ LimitsAt of_accuracy(const AgreedSpecification& s, const PointLookup& point) {
         if (!reading) {
             return without_limits("the point has no value of " + text::in_quotes(limits.of) + " in " + s.unit);
         }
+        // Of the magnitude: a negative reading has the same limits as a positive one.
         half_width += std::abs(*reading) * *entry->percent_of_reading / 100.0;
     }
     return about(s, point, half_width);

@@ -24,6 +24,8 @@ double trusted(double number) {
 }
 
 bool below(const std::string& printed, double capability) {
+    // The printed number against the scope, for that is what a reader of both compares; the noise of a unit conversion
+    // must not decide.
     return number_of(printed).value_or(0.0) < trusted(capability);
 }
 
@@ -41,6 +43,7 @@ int own_decimals(double number) {
 
 StatedPair raised_to(double value, double capability) {
     const gum::RoundedPair floor =
+        // Rounded up, since the capability rounded to nearest may print below itself.
         gum::round_to_uncertainty(value, capability, k_digits_of_raised_U, gum::RoundingMode::up);
     return {.value = floor.value, .U = floor.U, .raised = true};
 }
@@ -82,6 +85,7 @@ StatedPair state_uncertainty(double value, double U, std::optional<double> capab
     if (!too_small && !lost_much(plain.U, U)) {
         return {.value = plain.value, .U = plain.U};
     }
+    // U itself is not below the scope, only its print: it is rounded up and not marked as raised (ADR 0018).
     if (!too_small || trusted(U) >= trusted(*capability)) {
         const gum::RoundedPair upwards = gum::round_to_uncertainty(value, U, rule.digits, gum::RoundingMode::up);
         return {.value = upwards.value, .U = upwards.U};
@@ -111,6 +115,7 @@ std::string printed_degrees_of_freedom(std::optional<double> nu_eff) {
 
 std::string printed_probability(double probability) {
     const double complement = 1.0 - probability;
+    // Far out a probability says more of the assumed form of the tail than of the item.
     if (probability < k_least_printed) {
         return "<0.01";
     }

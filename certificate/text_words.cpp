@@ -81,6 +81,7 @@ void add_small(std::u32string& word, char32_t c) {
     } else if (c >= 0xC0 && c <= 0xFF && k_latin_1[c - 0xC0] != '*') {
         c = static_cast<unsigned char>(k_latin_1[c - 0xC0]);
     }
+    // Letters that look alike count as one, so that a text cannot be made "another one" by a Cyrillic letter.
     const auto* const like =
         std::find_if(k_lookalikes.begin(), k_lookalikes.end(), [&](const auto& pair) { return pair.first == c; });
     word += like == k_lookalikes.end() ? c : static_cast<unsigned char>(like->second);
@@ -101,6 +102,7 @@ std::vector<std::u32string> words_of(std::string_view text) {
         const char32_t point = character.bytes == 0 ? char32_t{0xFFFD} : character.code;
         at += std::max<std::size_t>(character.bytes, 1);
         const bool without_image = point == 0xAD || (point >= 0x200B && point <= 0x200F) || point == 0xFEFF;
+        // Accents and characters without an image, as a soft hyphen, part no word.
         if (is_accent(point) || without_image) {
             continue;
         }
