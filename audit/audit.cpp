@@ -229,6 +229,8 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         AuditedResult result{.name = budget.name, .unit = budget.unit, .budget = i, .is_nested = nested.is_nested(i)};
         try {
             AuditedBudget of_rows = budget;
+            // What the rows alone give, beside what is claimed: their ratio is what no row explains, and other
+            // corrections keep it.
             of_rows.u_c_over_rows = of_rows.k_over_rows = of_rows.U_over_k_u_c = 1.0;
             result.recomputed = evaluate(of_rows);
             const BudgetOutcome evaluated = evaluate(budget);
@@ -252,6 +254,8 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (finding.effect && finding.effect_on_score && finding.effect->budget == finding.effect_on_score->budget) {
             finding.effect_on_score.reset();
         }
+        // A term that is not there has no size that could be corrected: told is how large it would have to be to be
+        // seen.
         if (finding.contribution_missing && !finding.budgets.empty()) {
             finding.missing_term = missing_term(subject.budgets[finding.budgets.front()]);
         }

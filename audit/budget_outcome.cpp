@@ -35,6 +35,7 @@ double combined_variance(const AuditedBudget& budget) {
 double effective_degrees_of_freedom(const AuditedBudget& budget, double u_c) {
     double denominator = 0.0;
     for (const AuditedRow& row : budget.rows) {
+        // In units of u_c: the fourth power of a contribution in metres may leave the range of numbers.
         const double part = contribution_of(row) / u_c;
         if (std::isfinite(row.used_nu) && row.used_nu > 0.0) {
             denominator += part * part * part * part / row.used_nu;
@@ -79,6 +80,8 @@ gum::Distribution distribution_of(const AuditedRow& row) {
     switch (row.shape) {
         case Shape::rectangular:
             distribution.kind = gum::DistributionKind::uniform;
+            // Half-width a of u = a/√3; below √6 of the triangular and √2 of the arcsine distribution (JCGM 100:2008,
+            // 4.3.7; JCGM 101:2008, 6.4).
             distribution.scale = row.used_u * std::sqrt(3.0);
             break;
         case Shape::triangular:
@@ -112,6 +115,7 @@ double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& cover
     if (coverage.kind == CoverageRule::Kind::fixed) {
         return coverage.k;
     }
+    // A convolution is the distribution of a sum of independent quantities; with correlations t_p(ν_eff) is taken.
     if (coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
         std::vector<gum::ConvolutionTerm> terms;
         for (const AuditedRow& row : budget.rows) {
@@ -171,6 +175,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
     }
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
+    // From the rows: what a claimed u_c has beyond them has no degrees of freedom that anybody stated.
     outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
     outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
@@ -234,6 +239,7 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         const Interval x = part(a), y = part(b);
         const double sign = a.used_sensitivity * b.used_sensitivity < 0.0 ? -2.0 : 2.0;
         const double one = sign * pair.r * x.low * y.low, other = sign * pair.r * x.high * y.high;
+        // The product of both intervals lies between its ends; added with the sign that makes the bound safe.
         low += std::min(one, other);
         high += std::max(one, other);
     }
@@ -249,6 +255,7 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         }
     }
     const double infinite = std::numeric_limits<double>::infinity();
+    // The smallest u_c over the largest terms, and the other way round: an outer bound, for both do not occur together.
     intervals.nu_eff = {most > 0.0 ? std::pow(intervals.u_c.low, 4) / most : infinite,
                         least > 0.0 ? std::pow(intervals.u_c.high, 4) / least : infinite};
     if (coverage.kind == CoverageRule::Kind::fixed) {

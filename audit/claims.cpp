@@ -28,6 +28,7 @@ Interval wide(const Interval& interval) {
 /// The number that stands for U may have been rounded up (JCGM 100:2008, 7.2.6).
 Interval before_rounding_up(const StatedNumber& U) {
     const Interval printed = printed_interval(U);
+    // Rounded up, a number may have been up to a whole unit of its last digit smaller.
     return {printed.low - 0.5 * (printed.high - printed.low), printed.high};
 }
 
@@ -151,6 +152,8 @@ ClaimCheck check_u_c(const AuditedBudget& budget) {
     if (budget.claims.u_c) {
         const Interval claimed = printed_interval(*budget.claims.u_c);
         check.u_c_outside = !claimed.meets(check.u_c);
+        // Contributions that were added up instead of their squares are a known slip; told only where the claim is
+        // explained by it.
         check.linear_sum = check.u_c_outside && budget.rows.size() > 1 && claimed.meets(linear_sum_of(budget));
     }
     return check;
@@ -216,6 +219,8 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     // A rule that gives the claimed k and U is the one that was used; else one that gives U.
     std::vector<CoverageRule> rules = fixed_rules(budget);
     rules.insert(rules.end(), student.begin(), student.end());
+    // From the rule that explains most of the claims to the one that explains least: a laboratory is accused of a
+    // number only if no usual way to it is left.
     for (const bool with_k : {true, false}) {
         if (!with_k && claims.U && has_decimals(claims.k) &&
             is_cut(*claims.U, allowed_U(budget, claims.k->interval(), u_c))) {
@@ -238,6 +243,8 @@ void note_unexplained(AuditedBudget& budget) {
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
     if (check.u_c_outside) {
+        // A ratio and no difference of variances: with a smaller row a difference could become negative (ADR 0048,
+        // decision 6).
         budget.u_c_over_rows = budget.claims.u_c->value / evaluate(budget).u_c;
     }
     if (check.nu_eff_outside) {

@@ -52,6 +52,8 @@ std::vector<double> exact_shares(Outcomes& outcomes, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) {
             if (!chosen[i]) {
                 chosen[i] = true;
+                // ln U, because corrections multiply U: factors of 2 and of 1/2 make no change together, which
+                // differences of U would not say.
                 shares[i] += weights[size] * (std::log(outcomes.of(chosen).U) - before);
                 chosen[i] = false;
             }
@@ -74,6 +76,7 @@ std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n, std::size_
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), 0U);
     for (std::size_t round = 0; round < orders; ++round) {
+        // Fisher and Yates: each order has the same probability.
         for (std::size_t i = n - 1; i > 0; --i) {
             std::swap(order[i], order[next(i + 1)]);
         }
@@ -147,6 +150,8 @@ std::vector<Effect> effects_of(std::size_t n, const ShareDivision& division,
     std::vector<Effect> effects(n);
     for (std::size_t i = 0; i < n; ++i) {
         ChosenCorrections only(n, false), all_others(n, true);
+        // "Alone" is what the correction does to the budget as it was claimed, "last" what it does when all others are
+        // made: the two may differ much, and a reader who fixes one thing sees the first.
         only[i] = true;
         all_others[i] = false;
         effects[i].claimed = claimed;

@@ -44,6 +44,7 @@ std::optional<RowFactors> row_factors(std::span<const AuditedBudget> claimed,
         for (std::size_t row = 0; row < claimed[i].rows.size(); ++row) {
             const double before = contribution_of(claimed[i].rows[row]);
             const double after = contribution_of(corrected[i].rows[row]);
+            // A row of 0 cannot be corrected by a factor, and the job knows its inputs by factors only.
             if (before == 0.0 && after > 0.0) {
                 return std::nullopt;
             }
@@ -96,6 +97,7 @@ bool NestedCorrections::changes(std::size_t finding) const {
         return false;
     }
     try {
+        // Tried once: a correction that leaves the job without a result must not end the audit later.
         return !subject_.nested->evaluate_again(*factors).empty();
     } catch (const gum::DiagnosedError&) {  // without this row there is no result
         return false;

@@ -33,6 +33,7 @@ struct NumberInText {
 std::optional<NumberInText> next_number(std::string_view text, std::size_t from, std::size_t within) {
     const std::size_t end = std::min(text.size(), from + std::min(within, text.size()));
     for (std::size_t at = from; at < end; ++at) {
+        // The digit of "pt100" or "x_1" is part of a name.
         const bool inside_word = at > 0 && ((text[at - 1] >= 'a' && text[at - 1] <= 'z') || text[at - 1] == '_');
         if (!is_number_start(text, at) || (inside_word && text[at] >= '0' && text[at] <= '9')) {
             continue;
@@ -154,6 +155,7 @@ void read_asymmetric_limits(std::string_view text, AuditedRow& row) {
         const char sign = text[first->from];
         if ((sign == '+' || sign == '-') && first->behind.starts_with('/')) {
             const std::optional<NumberInText> second = next_number(text, text.size() - first->behind.size() + 1, 2);
+            // Only of two signs: "+0.3/+0.5" are two values and no limits about an estimate.
             if (second && first->value * second->value < 0.0 && is_in_unit(second->behind, row.unit)) {
                 row.lower_limit = std::min(first->value, second->value);
                 row.upper_limit = std::max(first->value, second->value);

@@ -301,6 +301,8 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
     if (!unit) {
         return NumberOfRow{size, false};
     }
+    // A number of another dimension belongs to something else: 20 °C in the row of a length is the temperature of the
+    // room.
     const std::optional<gum::Unit> own = unit_of(row.unit);
     if (!own || !(own->dimension() == unit->dimension())) {
         return std::nullopt;
@@ -778,6 +780,7 @@ std::optional<double> divisor_of(Shape shape) {
 StatedNumber quotient(const StatedNumber& a, const StatedNumber& b) {
     StatedNumber result;
     result.value = a.value / b.value;
+    // To first order, all in the worst direction: a bound of what the digits leave open, not an uncertainty.
     result.half_step = std::abs(a.half_step / b.value) + std::abs(result.value / b.value) * b.half_step;
     return result;
 }
@@ -925,6 +928,8 @@ void complete_row(AuditedRow& row) {
     if (is_usable(row.u) && !row.stated && has_divisor && is_usable(row.contribution)) {
         const bool divided = agree(product(factor, *row.u), *row.contribution);
         const bool undivided = agree(product(factor, quotient(*row.u, *row.divisor)), *row.contribution);
+        // The contribution is what the sum was made of, so it tells whether a divisor has acted already. Where both
+        // readings fit, the head of the column is believed.
         if (undivided && !divided) {
             row.stated = std::exchange(row.u, std::nullopt);
         }
@@ -974,6 +979,7 @@ void settle_contributions(AuditedBudget& budget) {
         }
     }
     constexpr std::size_t k_few = 3;  // no more than every third row
+    // A slip is in few rows. A column that differs in most rows holds something else, such as shares in percent.
     const bool is_error = other.size() * k_few <= columns;
     for (AuditedRow* row : other) {
         if (!is_error) {

@@ -94,6 +94,7 @@ void FindingCollector::add(AuditFinding finding, FindingSeverity severity) {
     const bool elsewhere =
         same != nullptr && !finding.budgets.empty() &&
         std::find(same->budgets.begin(), same->budgets.end(), finding.budgets.front()) == same->budgets.end();
+    // The same at another point of a table is one finding with more places; twice in one budget it is two.
     if (same == nullptr || (!elsewhere && !finding.budgets.empty())) {
         by_place_and_text_.try_emplace(text, findings_.size());
         if (!finding.kind.empty()) {

@@ -284,6 +284,8 @@ std::optional<StatedNumber> take_number(Walk& walk) {
     if (error != std::errc{} || end != all.data() + all.size()) {
         return std::nullopt;
     }
+    // A whole number is meant exactly, as a divisor or a number of readings is; decimals say to which digit a number
+    // was rounded.
     number.half_step = digits->whole && !exponent ? 0.0 : 0.5 * std::pow(10.0, exponent.value_or(0) - digits->decimals);
     const std::size_t before = walk.position();
     walk.skip_spaces();
