@@ -43,6 +43,7 @@ BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
     }
     result.k = outcome->k;
     result.U = outcome->U;
+    // Half a unit of the last printed digit of U: what is smaller, no reader of the certificate sees.
     result.delta = 0.5 * std::pow(10.0, std::floor(std::log10(outcome->U)) - budget.digits + 1);
     const std::optional<BudgetModel> model = BudgetModel::of(budget);
     if (!model) {
@@ -91,6 +92,8 @@ void add_bound(const AuditSubject& subject, const BoundOfResult& result, Finding
         say("half a unit of the last digit = {delta:number}", in_words(result.delta, budget.unit))};
     finding.kind = certain ? "certain" : "possible";
     findings.add(std::move(finding),
+                 // A bound by interval arithmetic may be much larger than the truth: only what certainly is off counts
+                 // against anybody.
                  certain && !is_validated(budget) ? FindingSeverity::major : FindingSeverity::information);
 }
 

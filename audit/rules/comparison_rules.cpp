@@ -91,6 +91,8 @@ std::optional<double> sum_of_squared_zeta(std::span<const AuditedScore> scores) 
 std::optional<double> robust_deviation(std::span<const AuditedScore> scores) {
     std::vector<double> values;
     for (const AuditedScore& score : scores) {
+        // s* of values that were compared with different reference values would be the spread of the points and not of
+        // the laboratories.
         if (score.reference_value != scores.front().reference_value) {
             return std::nullopt;
         }
@@ -114,6 +116,8 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
     if (!p_low && chi_square && scores.size() > 1) {
         p_low = gum::chi_square_lower_tail(*chi_square, static_cast<double>(scores.size()));
     }
+    // Σ ζ² far below its expected value: not luck, but uncertainties that are too large, or results that were not
+    // independent of the reference.
     if (p_low && *p_low < k_low_tail) {
         AuditFinding finding = finding_of_comparison(
             say("the differences are too small for the stated uncertainties: p_low = {p_low:number}, threshold 0.025",
@@ -185,6 +189,7 @@ void score_does_not_follow(const AuditSubject& subject, FindingCollector& findin
         }
         // The score may have been computed of unrounded numbers.
         const double right = difference / U_difference, stated = budget.claims.en->value;
+        // What the printed digits of value, score and U leave open together, each by its derivative.
         const double digits = budget.claims.value->half_step / U_difference + budget.claims.en->half_step +
                               std::abs(right) * (budget.claims.U ? printed_half_step(*budget.claims.U) / *U : 0.0);
         if (std::abs(std::abs(stated) - std::abs(right)) <= digits + 0.01 * std::abs(right)) {
@@ -407,6 +412,7 @@ void counted_one_by_one(const AuditSubject& subject, FindingCollector& findings)
         const std::optional<double> en = en_of(score);
         return en && std::abs(*en) <= 1.0;
     });
+    // A common error makes all scores good or all of them bad: ten of them are then one success, not ten.
     if (scores.size() < k_least || !all_pass || comparison.shared_sources.empty() || comparison.p_low ||
         comparison.p_high) {
         return;

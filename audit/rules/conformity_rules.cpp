@@ -62,6 +62,8 @@ std::optional<BudgetOutcome> outcome_of_claims(const AuditedBudget& budget) {
     if (budget.claims.U) {
         printed.floor_applied = false;
         const std::optional<BudgetOutcome> bare = outcome_or_none(printed);
+        // The floor of the capability is in the claimed U already; applied once more it would move the limit of
+        // acceptance.
         printed.U_over_k_u_c *= budget.claims.U->value / (bare ? bare->U : outcome->U);
     }
     return outcome_or_none(printed);
@@ -161,6 +163,7 @@ void verdict_on_open_findings(const AuditSubject& subject, std::span<const Audit
         std::vector<std::string> open;
         for (const AuditFinding& other : others) {
             const bool touches = std::find(other.budgets.begin(), other.budgets.end(), i) != other.budgets.end();
+            // Findings on documents and persons leave the uncertainty, and with it the verdict, as they are.
             const bool of_uncertainty = other.correct || other.contribution_missing;
             if (touches && of_uncertainty && other.severity >= FindingSeverity::major &&
                 std::find(open.begin(), open.end(), other.rule) == open.end()) {

@@ -220,6 +220,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
         CoverageRule cut = as_it_is;
         cut.truncate = true;
         const BudgetOutcome whole = evaluate(budget, as_it_is), lower = evaluate(budget, cut);
+        // Told only where a reader would see it, or where one file does both.
         if (whole.printed_U == lower.printed_U && !some_truncate) {
             return;
         }
@@ -336,8 +337,11 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         // Without rows only the document knows ν_eff; where it does not say, it may be as small as 1.
         const double stated_nu = budget.claims.nu_eff ? budget.claims.nu_eff->interval().low : 1.0;
         const double fewest = std::floor(budget.rows.empty() ? stated_nu : shown.allowed.nu_eff.low);
+        // k of p grows when ν_eff falls: from that of the normal distribution to that of the fewest degrees of freedom
+        // that the rows, or the document, leave open.
         const double most =
             fewest >= 1.0 ? std::max(least, gum::coverage_factor(*words.p, fewest)) : std::max(least, k);
+        // A sum that a rectangular contribution dominates has a k below that of the normal distribution, 1.65 at 95 %.
         const bool narrow_shape = budget.coverage.kind == CoverageRule::Kind::convolution || k < 1.75;
         if ((k < 0.99 * least && !narrow_shape) || k > 1.06 * most) {
             AuditFinding finding =
@@ -418,6 +422,7 @@ void rectangular_dominance(const AuditSubject& subject, FindingCollector& findin
         AuditedBudget exact = budget;
         k_by_convolution(exact);
         const double k = evaluate(exact).k;
+        // The criterion of domination alone accuses nobody: only a k that the convolution does not give does.
         if (!(k < (1.0 - k_moved) * outcome.k)) {
             return;
         }
@@ -443,6 +448,7 @@ void wider_than_possible(const AuditSubject& subject, FindingCollector& findings
             if (!row.in_sum || row.used_u == 0.0) {
                 continue;
             }
+            // One row without bounds, and no sum of half-widths bounds the result.
             const std::optional<double> half = semi_range(row);
             if (!half) {
                 return;
@@ -518,6 +524,8 @@ void below_physical_limit(const AuditSubject& subject, FindingCollector& finding
     for_each_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
         std::optional<double> least = budget.physical_minimum;
         const std::string name = text::in_small_letters(budget.name);
+        // A form error is the distance of two enclosing surfaces, and a roughness or a concentration no less bounded:
+        // none of them can be negative.
         for (const char* form :
              {"flatness", "roundness", "straightness", "cylindricity", "form error", "roughness", "concentration",
               "ebenheit", "rundheit", "geradheit", "formabweichung", "rauheit", "konzentration"}) {

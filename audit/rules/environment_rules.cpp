@@ -61,6 +61,8 @@ void recorded_range_larger(const AuditSubject& subject, FindingCollector& findin
                 return;
             }
             const bool stated = at.is.origin == Origin::limits && at.is.origin_value;
+            // Where the row does not say what limits it stands for, u is taken back to the half-width of a rectangular
+            // distribution.
             const double budgeted = stated ? *at.is.origin_value : std::numbers::sqrt3 * at.is.used_u;
             constexpr double k_rounding = 1e-9;
             if (*recorded <= budgeted * (1.0 + k_rounding)) {
@@ -128,6 +130,7 @@ double trend_of(const std::vector<double>& readings) {
     }
     double sxx = 0.0, sxy = 0.0, syy = 0.0;
     for (std::size_t i = 0; i < readings.size(); ++i) {
+        // Both about their means: Σ y² − (Σ y)²/n would cancel for readings that share most of their digits.
         const double x = static_cast<double>(i) - 0.5 * (n - 1.0), y = readings[i] - mean;
         sxx += x * x;
         sxy += x * y;
@@ -168,6 +171,7 @@ void limits_in_place_of_observations(const AuditSubject& subject, FindingCollect
     const std::vector<Condition>& conditions = subject.certificate->data.conditions;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
         const Condition& condition = conditions[i];
+        // Two observed ends that equal two limits to the last digit were copied: chance does not do that.
         if (!condition.lower_limit || !condition.upper_limit || condition.minimum != *condition.lower_limit ||
             condition.maximum != *condition.upper_limit) {
             continue;

@@ -160,6 +160,8 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         if (full_width && !mentions(row, {"\u00B1", "+/-", "half-width", "half width", "halbweite", "halbbreite"})) {
             return;
         }
+        // The ratio of u to what it was made from says which slip it was: most of them are one division or root too
+        // many or too few.
         const NamedRatio* ratio = named(k_ratios, row, half_width);
         const bool right_divisor =
             row.divisor && std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor;
@@ -240,6 +242,8 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
                                     said.find_first_of("0123456789") == std::string::npos;
         const NamedRatio* ratio = named(k_ratios, row, step);
         // A column of half-widths may hold half of the step already.
+        // Told only where the ratio is that of a known slip. d/√12 is one reading, √2 d/√12 = d/√6 the difference of
+        // two.
         if (ratio == nullptr || !u_differs(row, step / std::sqrt(12.0)) || !u_differs(row, step / std::sqrt(6.0)) ||
             (in_column_only && ratio->ratio > 0.5)) {
             return;
@@ -302,6 +306,8 @@ void specification_beside_certificate(const AuditSubject& subject, FindingCollec
         finding.expected = say("{u:number}, with the corrections of the certificate applied", in_words(u, row.unit));
         finding.actual = say_number(in_words(row.used_u, row.unit));
         finding.correct = set_u(at.row, u);
+        // The specification is wider than the certificate: the budget is on the safe side, and the finding minor
+        // whatever its effect.
         if (u < row.used_u) {
             finding.at_most = FindingSeverity::minor;
         }
@@ -424,6 +430,7 @@ void another_point(const AuditSubject& subject, FindingCollector& findings) {
         }
         const double x = row.estimate->value, low = *row.certificate_low, high = *row.certificate_high;
         const double near = row.estimate->half_step + 1e-3 * std::max(std::abs(low), std::abs(high));
+        // A row of a fit or of an interpolation stands for the way from the calibrated points to this one.
         const bool interpolated = std::any_of(at.of.rows.begin(), at.of.rows.end(), [](const AuditedRow& other) {
             return other.contributor == Contributor::fit && other.in_sum && other.used_u > 0.0;
         });
@@ -451,6 +458,7 @@ void asymmetric_limits(const AuditSubject& subject, FindingCollector& findings) 
             return;
         }
         const double below = -*row.lower_limit, above = *row.upper_limit;
+        // Rectangular between the two limits (JCGM 100:2008, 4.3.8), whose middle is not the estimate.
         const double expected = (below + above) / std::sqrt(12.0);
         if (!(below > 0.0) || !(above > 0.0) || is_about(below, above, 0.02) || !u_differs(row, expected)) {
             return;
@@ -511,6 +519,7 @@ void reliability_without_nu(const AuditSubject& subject, FindingCollector& findi
         if (!row.reliability || !(*row.reliability > 0.0) || std::isfinite(row.used_nu)) {
             return;
         }
+        // ν = ½ (Δu/u)⁻² (JCGM 100:2008, G.4.2): "reliable to 25 %" is worth 8 degrees of freedom.
         const double nu = 0.5 / (*row.reliability * *row.reliability);
         AuditFinding finding =
             finding_at(at, "ν",
@@ -529,6 +538,8 @@ void cyclic_quantity(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
         const double amplitude = number_divided(row);
+        // A quantity that swings as a sine between ± a is longest at its limits: arcsine, u = a/√2. Readings and
+        // certificates know more of it than that.
         if (!row.cyclic || row.type_a.value_or(false) || row.origin == Origin::certificate || !(amplitude > 0.0) ||
             row.used_u + row.u_half_step >= 0.99 * amplitude / std::numbers::sqrt2) {
             return;

@@ -55,6 +55,8 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
         if (!x || !y || !(at.is.used_u > 0.0) || !at.is.in_sum) {
             return;
         }
+        // c = ∂f/∂x has the unit of the result per unit of the quantity; any other coefficient adds numbers of
+        // different kinds.
         const gum::Dimension expected = y->dimension() / x->dimension();
         if (const std::optional<gum::Unit> c = unit_in(at.is.sensitivity_unit)) {
             if (c->dimension() == expected) {
@@ -110,6 +112,7 @@ struct OtherDerivative {
 };
 
 bool agrees(double stated, double derivative, double digits) {
+    // Tables state |c| as often as c: the sign counts for correlated rows only.
     return std::abs(std::abs(stated) - std::abs(derivative)) <= digits + 0.01 * std::abs(derivative);
 }
 
@@ -134,6 +137,7 @@ std::vector<OtherDerivative> other_derivatives(const AuditSubject& subject, std:
         // The estimates were rounded, too.
         double digits = row.sensitivity_half_step;
         for (std::size_t j = 0; j < n; ++j) {
+            // How far the derivative may move within the rounding of the estimates at which it was taken.
             digits += std::abs((*h)[i * n + j]) * budget.rows[model->rows()[j]].estimate->half_step;
         }
         if (agrees(row.used_sensitivity, (*c)[i], digits)) {
@@ -279,6 +283,8 @@ std::optional<SecondOrder> second_order(const AuditedBudget& budget) {
         for (std::size_t j = 0; j < n; ++j) {
             const double curved = (*h)[i * n + j];
             const double term = (0.5 * curved * curved + (*c)[i] * third[i * n + j]) * u[i] * u[i] * u[j] * u[j];
+            // Pairs with a first-order term of 0 are told as a contribution that is missing; the others say how far the
+            // law of propagation is off where it has its terms.
             const bool missing = curved != 0.0 && u[i] > 0.0 && u[j] > 0.0 && (vanishes(i) || vanishes(j));
             (missing ? order.vanishing : order.others) += term;
             if (missing && j >= i) {
@@ -407,6 +413,8 @@ void too_few_trials(const AuditSubject& subject, FindingCollector& findings) {
         if (!trials || !outcome) {
             continue;
         }
+        // 10⁴/(1 − p) trials are a rule of thumb (JCGM 101:2008, 7.2), and the last criterion: it counts where neither
+        // a numerical error nor stability is stated.
         const double least = 1e4 / (1.0 - budget.coverage.probability);
         const double delta = half_digit(budget, outcome->U);
         Sentence what;
@@ -515,6 +523,7 @@ std::vector<SharedSource> shared_sources(const AuditSubject& subject) {
         }
         const std::size_t before = shared.size();
         for (const std::vector<std::size_t>* group : groups) {
+            // All pairs of hundreds of rows would be tens of thousands of findings that say one thing.
             for (std::size_t i = 0; i < (group->size() > k_many ? 1 : group->size()); ++i) {
                 for (std::size_t j = i + 1; j < group->size(); ++j) {
                     shared.push_back({b, (*group)[i], (*group)[j]});
@@ -676,6 +685,7 @@ void degrees_of_freedom_of_correlated_rows(const AuditSubject& subject, FindingC
         }
         for (const RowCorrelation& pair : budget.correlations) {
             const AuditedRow &first = budget.rows[pair.first], &second = budget.rows[pair.second];
+            // With infinite degrees of freedom the formula has nothing to combine, and correlation does no harm to it.
             if (pair.r == 0.0 || (!std::isfinite(first.used_nu) && !std::isfinite(second.used_nu)) ||
                 contribution_of(first) == 0.0 || contribution_of(second) == 0.0) {
                 continue;
@@ -826,6 +836,8 @@ bool is_same_contribution(const AuditedRow& a, const AuditedRow& b) {
                             a.contributor == Contributor::reference_resolution;
     const bool other_source = !a.source.empty() && !b.source.empty() && a.source != b.source;
     const bool other_estimate = a.estimate && b.estimate && a.estimate->value != b.estimate->value;
+    // Two displays of one step have equal rows rightly; so have two standards of one kind, where source or estimate
+    // differ.
     return !resolution && !other_source && !other_estimate && contribution_of(a) > 0.0 && a.used_u == b.used_u &&
            std::abs(a.used_sensitivity) == std::abs(b.used_sensitivity) && a.unit == b.unit && b.in_sum &&
            a.used_nu == b.used_nu;

@@ -169,6 +169,8 @@ void scatter_above_budget(const AuditSubject& subject, FindingCollector& finding
         return;
     }
     constexpr double k_family = 0.01;
+    // 1 − (1 − 0.01)^(1/tests), which for many tests would be a difference of two numbers close to 1. With 1 % for each
+    // of a hundred points two of three sound tables would be accused.
     const double level = -std::expm1(std::log1p(-k_family) / static_cast<double>(tests));
     for_each_row(subject, [&](const RowAt& at) {
         if (!is_compared(at.is)) {
@@ -176,6 +178,8 @@ void scatter_above_budget(const AuditSubject& subject, FindingCollector& finding
         }
         const double s = deviation_of(at.is.readings), pooled = *at.is.pooled_s;
         const double nu = static_cast<double>(at.is.readings.size() - 1);
+        // Both variances are estimates: F has ν of the readings and ν of the pooled estimate. χ² with the pooled s as
+        // exact would accuse more often where it comes from few series.
         const double p = gum::f_upper_tail(s * s / (pooled * pooled), nu, at.is.used_nu);
         if (p >= level) {
             return;
@@ -207,6 +211,7 @@ void identical_readings(const AuditSubject& subject, FindingCollector& findings)
                    (row.origin == Origin::resolution || row.contributor == Contributor::item_resolution ||
                     row.contributor == Contributor::reference_resolution);
         });
+        // Equal readings say that the scatter is below the resolution; a row for the resolution then stands for both.
         if (!equal || has_resolution) {
             return;
         }
@@ -236,6 +241,8 @@ std::optional<PooledSeries> pooled_series(const AuditedRow& row) {
             return std::nullopt;
         }
         const double nu = static_cast<double>(row.group_sizes[i] - 1), s = row.group_deviations[i];
+        // Variances weighted by their degrees of freedom (JCGM 100:2008, 4.2.4): the mean of standard deviations would
+        // be too small.
         sum += nu * s * s;
         pooled.nu += nu;
         pooled.largest = std::max(pooled.largest, s);
