@@ -115,6 +115,7 @@ long long LogRules::last_ordinal(const std::string& series) const {
 long long LogRules::next_amendment(const std::string& original) const {
     const std::string series = series_of_amendments(original);
     long long ordinal = last_ordinal(series) + 1;
+    // Drafts may carry such a number by hand; it is passed over and given to nobody else.
     while (life(series + std::to_string(ordinal)) != nullptr) {
         ++ordinal;
     }
@@ -181,10 +182,12 @@ std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& bod
         return Breach{Breach::Kind::order, "\"" + entry.kind + "\" stands here",
                       "the first entry, and no other one, is \"created\""};
     }
+    // As text: all times have one form, in UTC, so that their order is that of their characters.
     if (entry.at < last_at_) {
         return Breach{Breach::Kind::order, "the time " + entry.at + " is before " + last_at_,
                       "no entry is earlier than the one before"};
     }
+    // Both entries or none: between them an original would hold beside its replacement.
     if (!due_kind_.empty() && (entry.kind != due_kind_ || entry.certificate != due_certificate_)) {
         return Breach{Breach::Kind::amendment, "\"" + entry.kind + "\" " + entry.certificate + " stands here",
                       "an amendment is issued together with the entry of its original"};
@@ -210,6 +213,8 @@ std::optional<Breach> LogRules::breach_of_archive(const LogEntry& entry, const j
         return std::nullopt;
     }
     if (entry.kind == "settings") {
+        // The old settings are repeated, so that a reader of one entry sees what changed and a removed entry is
+        // noticed.
         if (member(body, "old") != to_json(settings_) || !settings_from_json(member(body, "new"))) {
             return Breach{Breach::Kind::settings, "old or new settings are others",
                           "a change of settings states the old and the new ones"};
@@ -338,6 +343,7 @@ std::optional<Breach> LogRules::breach_of_person(const LogEntry& entry) const {
     }
     const CertificateLife* const life = this->life(entry.certificate);
     const bool judged = entry.kind == "reviewed" || entry.kind == "authorised";
+    // Of all drafts, not only the last one: who drafted once knows what he wanted to see.
     if (settings_.four_eyes && judged && life != nullptr && life->authors.contains(entry.actor)) {
         return Breach{Breach::Kind::four_eyes, "\"" + entry.actor + "\" has drafted it",
                       "nobody reviews or authorises what he has drafted (four eyes)"};

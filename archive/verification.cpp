@@ -116,6 +116,7 @@ private:
         if (const std::optional<Breach> breach = rules_.accept(entry)) {
             add("GC-ARCHIVE-0043", where, breach->what, breach->rule,
                 "find out who wrote this entry, and with which program");
+            // Taken all the same: one breach would else make a breach of every entry that follows.
             rules_.take(entry);
         }
         if (!entry.request_key.empty() && !keys_.insert(entry.request_key).second) {

@@ -10,6 +10,8 @@ namespace gumcert::archive {
 namespace {
 
 std::string leaf_hash(const std::string& entry) {
+    // With different bytes in front a node cannot be passed off as a leaf: without them the hash of two children,
+    // presented as an entry, would have a valid proof.
     return encoding::sha256_bytes(std::string(1, '\0') + entry);
 }
 
@@ -59,6 +61,8 @@ void MerkleTree::add(const std::string& entry) {
         }
         rows_[row].push_back(std::move(hash));
         const std::size_t count = rows_[row].size();
+        // A node exists only above two complete halves: rows never change once they are written, so that the roots of
+        // all earlier sizes can still be given.
         if (count % 2 == 1) {
             return;
         }
@@ -111,6 +115,7 @@ std::optional<std::string> root_of_proof(const std::string& entry, std::size_t i
         root = way.joins_to_the_left() ? node_hash(beside, root) : node_hash(root, beside);
         way.up_to_joint();
     }
+    // A proof that is too short ends below the root, and what it gives there is no root.
     return way.is_at_the_root() ? std::optional(root) : std::nullopt;
 }
 
@@ -146,6 +151,7 @@ bool is_extended(std::size_t earlier, const std::string& earlier_root, std::size
         return proof.empty() && earlier_root == root;
     }
     std::vector<std::string> path = proof;
+    // An earlier tree of 2^n leaves is a whole part of the later one, and the proof leaves its root out.
     if (std::has_single_bit(earlier)) {
         path.insert(path.begin(), earlier_root);
     }
@@ -163,6 +169,7 @@ bool is_extended(std::size_t earlier, const std::string& earlier_root, std::size
             return false;
         }
         if (way.joins_to_the_left()) {
+            // What stands to the left belongs to both trees, what stands to the right to the later one only.
             found_earlier = node_hash(path[i], found_earlier);
             found = node_hash(path[i], found);
         } else {

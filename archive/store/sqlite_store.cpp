@@ -58,6 +58,8 @@ Database open_database(const fs::path& file, int flags) {
         refuse_sqlite(database.get(), result, file.string());
     }
     (void)sqlite3_busy_timeout(database.get(), k_patience_ms);
+    // No statement may write the tables of SQLite itself, by which the triggers that refuse changes could be taken
+    // away.
     (void)sqlite3_db_config(database.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     return database;
 }
@@ -83,6 +85,7 @@ constexpr std::array<Setting, 2> k_settings_of_writers = {
 void set(sqlite3* database, const Setting& setting, const fs::path& file) {
     const std::string name = setting.name;
     (void)pragma(database, name + " = " + setting.value, file.string());
+    // Read back: SQLite ignores a setting that it cannot keep without a word, WAL on some file systems for one.
     if (const std::string now = pragma(database, name, file.string()); now != setting.read_back) {
         refuse_store("GC-ARCHIVE-0009", file, name + " is " + now,
                      "an archive is written with settings that survive a power cut",
@@ -170,6 +173,8 @@ public:
     [[nodiscard]] std::string name() const override { return file_.string(); }
 
     void read(const std::function<void()>& work) override { transact("BEGIN", work); }
+    // IMMEDIATE takes the right to write at the beginning: writers queue. A transaction that first reads and then
+    // writes could be refused in its middle.
     void write(const std::function<void()>& work) override { transact("BEGIN IMMEDIATE", work); }
 
     void append(const LogEntry& e) override {

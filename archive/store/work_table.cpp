@@ -62,6 +62,7 @@ public:
 
     void add(const SharedWork& work, const std::vector<WorkTask>& tasks) override {
         connection_.transact(k_begin, [&] {
+            // Two machines that begin at once would both find no table, and one of them would fail.
             connection_.execute("SELECT pg_catalog.pg_advisory_xact_lock(1735213427)");
             if (!has_tables()) {
                 connection_.execute(k_work_schema);
@@ -99,6 +100,8 @@ public:
         std::size_t done = 0;
         connection_.transact(k_begin, [&] {
             const PostgresqlRows rows = connection_.query(
+                // The rows stay locked while they are worked on, and others pass them over. A worker that is killed
+                // loses its transaction, and its tasks are free again: no clock and no lease is needed (ADR 0060).
                 "SELECT name, input FROM gumcert_work.task WHERE work = $1 AND result IS NULL ORDER BY name LIMIT " +
                     std::to_string(most) + " FOR UPDATE SKIP LOCKED",
                 {{id}});
@@ -134,6 +137,7 @@ public:
 
     void each_result(const std::string& id,
                      const std::function<void(const std::string&, const std::string&)>& visit) override {
+        // By pages of names, and not by OFFSET, which would count all earlier rows anew for every page.
         std::string after;
         while (true) {
             const PostgresqlRows rows = connection_.query(
