@@ -93,6 +93,8 @@ CertificateHandle certificate_from_der(const Bytes& der) {
     const auto* const end = at + der.size();
     CertificateHandle certificate(d2i_X509(nullptr, &at, static_cast<long>(der.size())));
     ERR_clear_error();
+    // Bytes behind the certificate would be taken along and never read: the digest that names a certificate is that of
+    // all the bytes.
     return at == end ? std::move(certificate) : CertificateHandle();
 }
 
@@ -141,6 +143,8 @@ std::vector<std::string> names_of(X509* certificate) {
 }
 
 std::string weakness_of_issue(X509* certificate) {
+    // What a root says of itself proves nothing: it is trusted because it was put into the trust store. So the digest
+    // with which it was signed does not matter.
     if (X509_NAME_cmp(X509_get_subject_name(certificate), X509_get_issuer_name(certificate)) == 0) {
         return {};
     }
@@ -198,6 +202,7 @@ bool is_list_for(X509_CRL* list, X509* certificate, const std::vector<X509*>& is
     if (X509_NAME_cmp(X509_CRL_get_issuer(list), X509_get_issuer_name(certificate)) != 0) {
         return false;
     }
+    // The name alone is not enough: anybody can write a list with this name.
     return std::any_of(issuers.begin(), issuers.end(), [&](X509* issuer) {
         return X509_check_issued(issuer, certificate) == X509_V_OK &&
                X509_CRL_verify(list, X509_get0_pubkey(issuer)) == 1;
@@ -242,6 +247,8 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
             signer_checked = signer_checked || certificate == path.front();
             spoken_of = certificate;
             X509_REVOKED* entry = nullptr;
+            // The date of revocation is not compared with the time of signing. Whoever has the key can write any time
+            // into a signature.
             if (X509_CRL_get0_by_cert(list.get(), &entry, certificate) == 1) {
                 const std::optional<std::int64_t> since = seconds_of(X509_REVOKED_get0_revocationDate(entry));
                 found.push_back({.code = "GC-SIGN-0137",
@@ -255,6 +262,7 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
             }
         }
         const std::optional<std::int64_t> next = seconds_of(X509_CRL_get0_nextUpdate(list.get()));
+        // An old list proves that a certificate was revoked, but not that it is still in force.
         if (spoken_of != nullptr && (!next || *next < now)) {
             found.push_back({.code = "GC-SIGN-0138",
                              .where = where,
@@ -313,6 +321,7 @@ std::string unfitness_for_documents(X509* certificate) {
     if (X509_check_ca(certificate) != 0) {
         return "it is that of an authority, which may issue certificates";
     }
+    // A certificate without these extensions is not restricted by them, so a missing one is no reason to refuse.
     if ((flags & EXFLAG_KUSAGE) != 0 &&
         (X509_get_key_usage(certificate) & (KU_DIGITAL_SIGNATURE | KU_NON_REPUDIATION)) == 0) {
         return "its key usage has neither digitalSignature nor nonRepudiation";
@@ -343,6 +352,7 @@ bool verifies(X509* certificate, const char* digest_name, const Bytes& digest, c
     const Handle<EVP_PKEY_CTX> context(EVP_PKEY_CTX_new_from_pkey(nullptr, key, nullptr));
     bool good = context != nullptr && EVP_PKEY_verify_init(context.get()) == 1;
     if (good && EVP_PKEY_get_base_id(key) == EVP_PKEY_RSA) {
+        // Said and not left to the default of the library: a signature of another kind must not pass as this one.
         good = EVP_PKEY_CTX_set_rsa_padding(context.get(), RSA_PKCS1_PADDING) == 1;
     }
     good = good && EVP_PKEY_CTX_set_signature_md(context.get(), EVP_get_digestbyname(digest_name)) == 1 &&
@@ -391,7 +401,10 @@ std::vector<gum::Diagnostic> check_chain(const std::string& where, const std::ve
     X509_STORE_CTX_init(context.get(), store.get(), signer, others.get());
     X509_VERIFY_PARAM* rules = X509_STORE_CTX_get0_param(context.get());
     X509_VERIFY_PARAM_set_time(rules, static_cast<std::time_t>(time));
+    // Whoever puts an intermediate authority, or the signer's own certificate, into the trust store trusts that and not
+    // the root above it. Without this flag the path would have to go on to a root.
     X509_VERIFY_PARAM_set_flags(rules, X509_V_FLAG_PARTIAL_CHAIN);
+    // Level 2 of OpenSSL: it refuses keys of RSA below 2048 bits, and certificates issued with SHA-1 or MD5.
     constexpr int k_112_bits_of_security = 2;
     X509_VERIFY_PARAM_set_auth_level(rules, k_112_bits_of_security);
     const int answer = X509_verify_cert(context.get());

@@ -48,6 +48,8 @@ Bytes signed_attributes(CMS_SignerInfo* info) {
         OPENSSL_free(der);
     }
     // Octets count as unsigned numbers.
+    // The order is part of what is signed. A verifying program encodes the attributes again and takes the digest of
+    // that, so another order would give another digest.
     std::sort(encoded.begin(), encoded.end(), [](const Bytes& a, const Bytes& b) {
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
             return static_cast<unsigned char>(x) < static_cast<unsigned char>(y);
@@ -84,6 +86,9 @@ Bytes detached_cms(const Bytes& data_digest, const Signer& signer) {
             CMS_signed_add1_attr_by_NID(info, NID_pkcs9_messageDigest, V_ASN1_OCTET_STRING, data_digest.data(),
                                         static_cast<int>(data_digest.size())) == 1,
         "attributes");
+    // What is signed is not the digest of the document but that of the attributes, among which the digest of the
+    // document stands (RFC 5652, 5.4). There is no signing-time among them: at the baseline levels of ETSI EN 319 142-1
+    // the time stands in /M of the dictionary, which is within the signed bytes.
     const Bytes value = checked_signature(signer, encoding::sha256_bytes(signed_attributes(info)));
     require(
         ASN1_OCTET_STRING_set(CMS_SignerInfo_get0_signature(info), reinterpret_cast<const unsigned char*>(value.data()),

@@ -60,12 +60,15 @@ void check_signer(SignatureReport& report, const std::string& where, const std::
             report.signing_time = time_text(time);
         }
     }
+    // A signature can seem to come from the future where the clocks of two computers differ.
     constexpr std::int64_t k_clocks_may_differ = 300;  // seconds
     if (time > now + k_clocks_may_differ) {
         add_error(report, "GC-SIGN-0134", where,
                   "signed at " + time_text(time) + ", which is after the present time " + time_text(now),
                   "a signature is made before it is checked", "check the clock of this computer");
     }
+    // Judged at the time of signing and not at the present: certificates of calibration are kept longer than those of
+    // their signers last.
     for (gum::Diagnostic& finding : check_chain(where, chain, trusted.certificates, time)) {
         report.findings.push_back(std::move(finding));
     }

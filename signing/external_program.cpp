@@ -87,8 +87,11 @@ pid_t start(std::vector<std::string> command, int input, int output) {
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    // The environment of the caller is not passed on: it could choose other libraries for the program that holds the
+    // key.
     std::vector<std::string> environment = {"PATH=/usr/local/bin:/usr/bin:/bin", "LC_ALL=C.UTF-8"};
     pid_t child = 0;
+    // A cleanup between the start and the note of its number would miss the child.
     const system::CleanupLock lock = system::hold_cleanup();
     const int failure = ::posix_spawn(&child, command[0].c_str(), &actions, &attributes, pointers(command).data(),
                                       pointers(environment).data());
@@ -220,6 +223,8 @@ std::string run_program(const std::vector<std::string>& command, const std::stri
         if (Clock::now() >= deadline) {
             refuse(command[0], too_long);
         }
+        // The end of the program does not wake up poll where another process holds the pipe open, so it is looked at
+        // again and again.
         constexpr int k_look_again = 10;  // [ms]
         pollfd waiting{.fd = is_open ? answer.number() : -1, .events = POLLIN, .revents = 0};
         if (::poll(&waiting, 1, k_look_again) > 0) {

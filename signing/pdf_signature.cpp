@@ -147,10 +147,13 @@ Bytes sign_pdf(const Bytes& pdf, const Signer& signer, std::int64_t signing_time
     const std::size_t range_at = position(bytes, range, written.signature_at);
     const std::size_t contents_at = position(bytes, contents, written.signature_at);
     const std::size_t after = contents_at + contents.size();
+    // The positions must have the same length as what stood in their place: one byte more would move everything behind
+    // it, and the table of positions in the PDF would be wrong.
     put(bytes, range_at, range.size(),
         "[ 0 " + std::to_string(contents_at) + ' ' + std::to_string(after) + ' ' +
             std::to_string(bytes.size() - after) + " ]");
 
+    // The ByteRange is within the signed bytes, so it is filled in first. The value alone stands in the gap.
     const Bytes cms = detached_cms(encoding::sha256_bytes(bytes.substr(0, contents_at) + bytes.substr(after)), signer);
     if (cms.size() > room) {
         throw std::runtime_error("the CMS signature is longer than the room for it");

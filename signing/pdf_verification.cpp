@@ -138,6 +138,8 @@ private:
         if (gap.front() == '<' && gap.back() == '>') {
             value = bytes_from_pdf_hexadecimal(gap.substr(1, gap.size() - 2));
         }
+        // The range says which bytes are not signed, /Contents says which value is checked. Where they are two
+        // different places, one value is checked while something else lies in the bytes that nobody signed.
         if (!value || !contents.isString() || contents.getStringValue() != *value) {
             error("GC-SIGN-0141", "the gap of its ByteRange holds something else than the signature",
                   "nothing can be hidden in what is not signed");
@@ -147,6 +149,8 @@ private:
         report_.covers.push_back("the whole file without the digits of this signature: " +
                                  std::to_string(range.gap_at + range.end - range.gap_end) + " of " +
                                  std::to_string(file_.size()) + " bytes");
+        // A PDF is changed by adding to its end: a later object takes the place of an earlier one of the same number.
+        // The signed bytes stay as they are, and the page shows other values.
         if (range.end != file_.size()) {
             report_.not_covered.push_back(std::to_string(file_.size() - range.end) + " bytes behind what was signed");
             error("GC-SIGN-0142",
@@ -161,6 +165,8 @@ private:
         const Handle<CMS_ContentInfo> cms(d2i_CMS_ContentInfo(nullptr, &at, static_cast<long>(cms_bytes_.size())));
         ERR_clear_error();
         const auto* const end = reinterpret_cast<const unsigned char*>(cms_bytes_.data()) + cms_bytes_.size();
+        // The room for the value is made before its length is known, so zeros follow. Anything else behind it is not
+        // covered by the signature.
         const bool filled = std::all_of(at, end, [](unsigned char c) { return c == 0; });
         if (!filled || cms == nullptr || OBJ_obj2nid(CMS_get0_type(cms.get())) != NID_pkcs7_signed ||
             CMS_is_detached(cms.get()) != 1) {
@@ -168,6 +174,7 @@ private:
             return;
         }
         STACK_OF(CMS_SignerInfo)* signers = CMS_get0_SignerInfos(cms.get());
+        // With two signers the check could pass for the one and the report name the other.
         if (sk_CMS_SignerInfo_num(signers) != 1) {
             error("GC-SIGN-0143", "not exactly one signer", "a PDF signature has one signer");
             return;
@@ -191,6 +198,8 @@ private:
         CMS_SignerInfo_set1_signer_cert(info, signer);
         check_algorithms(info);
         check_attributes(info, pades, signer, certificates.get());
+        // Where the shape is not right, a value that fits would say nothing. Bytes added later are the one exception:
+        // it helps to know that the earlier state of the file was signed.
         if (report_.findings.empty() || only_later_bytes()) {
             check_value(cms.get(), range);
         }
@@ -245,6 +254,8 @@ private:
         int within_digest = NID_undef;
         int key = NID_undef;
         const bool rsa_alone = signature_nid == NID_rsaEncryption;
+        // Some programs write rsaEncryption, which names no digest; others name the digest twice, and then both must be
+        // the same.
         const bool known = rsa_alone || OBJ_find_sigid_algs(signature_nid, &within_digest, &key) == 1;
         const bool rsa = rsa_alone || key == NID_rsaEncryption;
         const bool ecdsa = key == NID_X9_62_id_ecPublicKey;
@@ -344,6 +355,8 @@ private:
 /// Dictionaries with a ByteRange, wherever they are.
 std::vector<Object> signatures_of(QPDF& pdf) {
     std::vector<Object> found;
+    // Not the fields of the form alone: a signature that no field names would not be checked, but some readers would
+    // show it.
     for (Object object : pdf.getAllObjects()) {
         if (!object.isDictionary()) {
             continue;
@@ -402,6 +415,7 @@ std::vector<SignatureReport> attachment_reports(QPDF& pdf, const std::string& na
         reports.push_back(std::move(report));
         return reports;
     }
+    // One limit for all of them: a limit for each would be multiplied by their number.
     std::size_t left = k_largest_attachments;
     for (Object stream : files) {
         if (!stream.isStream()) {
@@ -443,6 +457,7 @@ Verification verify_pdf(const Bytes& pdf, const std::string& name, const Trusted
     Verification verification;
     QPDF document;
     document.setSuppressWarnings(true);
+    // A damaged file can be repaired in more than one way. What is checked here must be what another program shows.
     document.setAttemptRecovery(false);
     try {
         document.processMemoryFile("PDF", pdf.data(), pdf.size());

@@ -94,6 +94,8 @@ public:
         std::size_t size = 0;
         good = good && EVP_PKEY_CTX_set_signature_md(context.get(), EVP_sha256()) == 1 &&
                EVP_PKEY_sign(context.get(), nullptr, &size, data, digest.size()) == 1;
+        // The first call asks for the most bytes; an ECDSA signature in DER is often shorter, so the length is set
+        // again below.
         Bytes signature(size, '\0');
         good = good && EVP_PKEY_sign(context.get(), reinterpret_cast<unsigned char*>(signature.data()), &size, data,
                                      digest.size()) == 1;
@@ -149,6 +151,7 @@ public:
 private:
     /// A short text lies in the string itself, and stays there when it is moved away.
     static void wipe(std::string& text) {
+        // The length alone is not enough: what was longer before lies behind the end of the text.
         text.resize(text.capacity());
         OPENSSL_cleanse(text.data(), text.size());
         text.clear();
@@ -353,6 +356,7 @@ DescribedSigner described_signer(const fs::path& file) {
     }
     Secret passphrase(std::move(passphrase_file.bytes));
     if (!description.passphrase_file.empty()) {
+        // Editors end a file with a new line, which is no part of the passphrase. Blanks may be one, and stay.
         passphrase.text().erase(passphrase.text().find_last_not_of("\r\n") + 1);
         result.files.push_back(secret);
         warn_of_access(secret, result.warnings);
@@ -365,6 +369,8 @@ DescribedSigner described_signer(const fs::path& file) {
 }
 
 Bytes checked_signature(const Signer& signer, const Bytes& digest) {
+    // A card may hold several keys, and a program may use another padding. It is better to learn this now than from the
+    // customer who checks the certificate.
     Bytes signature = signer.sign_sha256(digest);
     const CertificateHandle certificate = certificate_from_der(signer.certificates().front());
     if (certificate == nullptr || !verifies(certificate.get(), "SHA2-256", digest, signature)) {
@@ -415,6 +421,8 @@ void require_a_chain(const Signer& signer, std::int64_t signing_time) {
                    "take it out, or put in the one that has issued it");
         }
     }
+    // The last certificate of the path stands for the trust store of the reader, which is not known here: what fails
+    // even then cannot be accepted anywhere.
     const std::vector<gum::Diagnostic> problems =
         check_chain("signer", chain, {signer.certificates().at(path.back())}, signing_time);
     if (!problems.empty()) {

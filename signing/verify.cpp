@@ -60,6 +60,8 @@ Verification verify_signatures(const Bytes& file, const std::string& name, const
             show_safely(report);
         }
     }
+    // Each signature must be valid, for nobody knows which of two a reader relies upon. A file of which the attachment
+    // alone is signed is not valid: the pages that people read are then signed by nobody.
     verification.valid = !verification.signatures.empty() && all_valid(verification.signatures) &&
                          all_valid(verification.attachment_signatures);
     return verification;

@@ -121,6 +121,8 @@ Bytes signature_value(const Signer& signer, const Bytes& signature) {
 
 /// The signature as the last child of the root; every other byte of the document stays.
 Bytes with_signature(const Bytes& dcc, const std::string& info, const std::string& value, const std::string& rest) {
+    // The document is not written anew from its tree: blanks within tags, quotation marks and character references
+    // could change, and the laboratory would sign another file than the one that it checked.
     const std::size_t end = dcc.rfind("</");
     return dcc.substr(0, end) + "<ds:Signature xmlns:ds=\"" + k_dsig_namespace + "\" Id=\"" + k_signature_id + "\">" +
            info + element("ds:SignatureValue", value) + rest + "</ds:Signature>" + dcc.substr(end);
@@ -150,11 +152,16 @@ Bytes sign_dcc(const Bytes& dcc, const Signer& signer, std::int64_t signing_time
     const xmlNode* properties = only_child(
         only_child(only_child(signature, k_dsig_namespace, "Object"), k_xades_namespace, "QualifyingProperties"),
         k_xades_namespace, "SignedProperties");
+    // First the two digests, then the value: SignedInfo holds the digests, and the value is of SignedInfo. The
+    // canonical form is taken from the whole tree and not from a piece of text, since the namespaces in force depend on
+    // where an element stands.
     const std::string info = signed_info(
         signer.algorithm(),
         encoding::base64(encoding::sha256_bytes(exclusive_canonical_xml(draft_tree.get(), nullptr, signature))),
         encoding::base64(encoding::sha256_bytes(exclusive_canonical_xml(draft_tree.get(), properties, nullptr))));
 
+    // The first reference leaves out the signature, the second is of the properties alone: putting the digests into
+    // SignedInfo changes neither of them.
     const XmlDocument whole = parse_xml(with_signature(dcc, info, "", rest), "DCC");
     const xmlNode* whole_info = only_child(signature_in(whole), k_dsig_namespace, "SignedInfo");
     const Bytes digest = encoding::sha256_bytes(exclusive_canonical_xml(whole.get(), whole_info, nullptr));

@@ -231,6 +231,7 @@ private:
                   "a signature has one of each");
             return;
         }
+        // Canonical XML leaves comments out, so one can be put in after signing and the digest still fits.
         if (const xmlNode* split = element_with_split_text(elements_); split != nullptr) {
             error("GC-SIGN-0121",
                   "the text of the element " + name_of(split) + " in line " + std::to_string(xmlGetLineNo(split)) +
@@ -242,6 +243,9 @@ private:
                   "the attributes of SignedInfo are those of XML signatures alone");
         }
         check_method(info);
+        // The known attack (signature wrapping) keeps the signed part under its identifier in another place, and puts a
+        // part that nobody signed where programs read. A reference to the whole document, and to nothing by a name of
+        // the author's choice, leaves no such place.
         int document_references = 0;
         for (const xmlNode* reference : children_of(info, k_dsig_namespace, "Reference")) {
             if (has_attribute(reference, "URI") && attribute(reference, "URI").empty()) {
@@ -319,6 +323,7 @@ private:
             }
         }
         const std::string id = attribute(properties_, "Id");
+        // Where an identifier is there twice, xmlsec and the reader of the properties may each take another of the two.
         if (id.empty() || attribute(reference, "URI") != '#' + id || count_of_id(elements_, id) != 1) {
             error("GC-SIGN-0114", "the signed properties are not found by their identifier, or it is there twice",
                   "the second reference points to the properties within the same signature");
@@ -361,6 +366,8 @@ private:
                     const std::optional<Bytes> der = encoding::bytes_from_base64(text_of(element));
                     CertificateHandle certificate = der ? certificate_from_der(*der) : CertificateHandle();
                     if (certificate != nullptr) {
+                        // The digest of the signed properties is of these bytes. A certificate that is encoded again
+                        // could differ from them.
                         encoded_.push_back(*der);
                         chain_.push_back(std::move(certificate));
                     }
@@ -392,6 +399,7 @@ private:
             encoding::bytes_from_base64(text_of(only_child(stated, k_dsig_namespace, "DigestValue")));
         for (std::size_t i = 0; name != nullptr && value && i < chain_.size(); ++i) {
             if (encoding::sha2_bytes(name, encoded_[i]) == *value) {
+                // KeyInfo is not signed, so its order says nothing about which certificate is the signer's.
                 std::swap(chain_[0], chain_[i]);
                 report_.format = newer && !claimed_time().empty() ? "XAdES-BASELINE-B" : "XAdES";
                 return;
@@ -407,8 +415,11 @@ private:
         if (properties_ != nullptr) {
             xmlAttr* id = xmlHasProp(properties_, reinterpret_cast<const xmlChar*>("Id"));
             const std::string value = attribute(properties_, "Id");
+            // Without a schema or a DOCTYPE the parser does not know that "Id" is an identifier, and the reference
+            // would find nothing.
             xmlAddID(nullptr, signature_->doc, reinterpret_cast<const xmlChar*>(value.c_str()), id);
         }
+        // No store of keys is given, so nothing but the key set below can be used.
         const std::unique_ptr<xmlSecDSigCtx, ContextFree> context(xmlSecDSigCtxCreate(nullptr));
         if (context == nullptr) {
             throw std::runtime_error("xmlsec has no memory");
@@ -419,6 +430,8 @@ private:
             static_cast<xmlSecTransformUriType>(xmlSecTransformUriTypeEmpty | xmlSecTransformUriTypeSameDocument);
         const bool done = context->signKey != nullptr && xmlSecDSigCtxVerify(context.get(), signature_) >= 0;
         if (!done || context->status != xmlSecDSigStatusSucceeded) {
+            // Two different things can have happened: another content, or another key. The laboratory is asked for
+            // something else in each case.
             const bool changed = done && a_reference_differs(*context);
             error(changed ? "GC-SIGN-0117" : "GC-SIGN-0118",
                   changed ? "the document or the signed properties were changed after signing (the digest differs)"
@@ -520,6 +533,8 @@ std::vector<SignatureReport> verify_xml(const Bytes& xml, const std::string& nam
                std::none_of(proper.begin(), proper.end(),
                             [&](const xmlNode* signature) { return is_inside(element, signature); });
     };
+    // It covers "the whole document" by its own words, but a program may take it as the signature of the part that it
+    // stands in.
     if (std::any_of(elements.begin(), elements.end(), misplaced)) {
         refuse("GC-SIGN-0119", "a signature that is not a child of the root element",
                "the signature of a digital certificate stands at the end of its root element");
