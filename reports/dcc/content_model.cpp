@@ -89,6 +89,7 @@ std::optional<Part> ModelReader::alternatives() {
             all = other;
         }
     }
+    // Where one of several parts is enough, none of their elements can be missing by itself.
     for (std::size_t i = begin; several && i < model_.places.size(); ++i) {
         model_.places[i].required = false;
     }
@@ -107,9 +108,13 @@ std::optional<Part> ModelReader::sequence() {
             all = all ? all : one;
             continue;
         }
+        // For each place the ones that may follow it are worked out here, once for a version. So a document is checked
+        // in one pass over its children, without going back, whatever its length.
         for (const std::size_t end : all->last) {
             model_.places[end].next.insert(one->first.begin(), one->first.end());
         }
+        // What may be left out hides neither beginning nor end: behind an optional first part the second one may begin,
+        // and before an optional last part the one before may end.
         if (all->may_be_empty) {
             all->first.insert(one->first.begin(), one->first.end());
         }
@@ -176,6 +181,8 @@ std::optional<Part> ModelReader::with_suffixes(std::optional<Part> part, std::si
         int limit = 0;
         const auto [end, failure] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), limit);
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+        // The places go away with the part: otherwise an element of another version would be known, but "at the wrong
+        // place".
         if (limit > 0 ? version_ < limit : version_ > -limit) {
             model_.places.resize(begin);
             return std::nullopt;

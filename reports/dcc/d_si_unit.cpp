@@ -126,6 +126,9 @@ public:
             return std::nullopt;
         }
         // Halves, quarters, eighths and fifths are decimal numbers.
+        // A unit here has an exact fraction as exponent, so that units can be compared and cancelled without rounding.
+        // A third has no finite decimal form, so 0.333333 could be another number as well as a third: it is refused and
+        // not guessed.
         for (const int denominator : {1, 2, 4, 5, 8}) {
             const double numerator = std::round(*value * denominator);
             constexpr double k_noise = 1e-12;  // of a product with a fifth
@@ -167,6 +170,7 @@ bool is_multiple(std::string_view prefix, std::string_view unit) {
     const auto exponent =
         std::find_if(k_exponents.begin(), k_exponents.end(), [&](const auto& e) { return e.first == prefix; });
     try {
+        // Asked of the parser itself: a list of the symbols that collide would have to follow every new unit.
         const gum::Unit multiple = gum::Unit::parse(std::string(prefix) + std::string(unit));
         const gum::Unit one = gum::Unit::parse(unit);
         const double expected = one.difference_to_si(std::pow(10.0, exponent->second));
@@ -257,6 +261,7 @@ std::optional<std::string> unit_from_d_si(std::string_view text) {
             result += (result.empty() ? "" : " ") + *factor;
         }
     }
+    // \per without a unit behind it, or a text without any unit.
     if (!complete) {
         return std::nullopt;
     }

@@ -142,6 +142,8 @@ std::optional<certificate::Condition> condition_of(const XmlElement& stated) {
     if (values.empty()) {
         return std::nullopt;
     }
+    // Documents state a condition as one value, as two limits or as a series: least and largest are what all of them
+    // tell.
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     condition.minimum = *low;
     condition.maximum = *high;
@@ -169,6 +171,7 @@ void read_persons(const XmlElement* all, certificate::Persons& persons) {
     };
     for (const XmlElement* one : stated) {
         const std::string signer = one->child_text("dcc:mainSigner");
+        // Before the roles are looked at: the role is a free text in any language, the mark of the main signer is not.
         if (signer == "true" || signer == "1" || stated.size() == 1) {
             take(persons.authorised_by, *one);
         }

@@ -81,6 +81,7 @@ void certificate_of(DccWriter& w, const certificate::StandardUsed& s) {
     w.xml.element("dcc:value", s.sha256.empty() ? not_stated : s.sha256);
     const std::string performed = date_or_nothing(w.data().dates.performed_to);
     const std::string valid_to = date_or_nothing(s.valid_to);
+    // The statement is about the day of the calibration, not about the day of issue. Dates of this form sort as texts.
     if (!performed.empty() && !valid_to.empty()) {
         const std::string calibrated = date_or_nothing(s.calibrated);
         w.xml.element("dcc:inValidityRange", calibrated <= performed && performed <= valid_to ? "true" : "false");

@@ -74,6 +74,7 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
                 {"schemaVersion", "3.3.0"}});
     write_administrative_data(w);
     w.xml.open("dcc:measurementResults");
+    // The joint results are of all sections together, so they are written once, with the last one.
     const auto measurement_result = [&](const std::string& item, const Text& name, bool is_last) {
         w.xml.open("dcc:measurementResult", {{"refId", item}});
         w.text("dcc:name", name);
@@ -103,6 +104,8 @@ std::string render_dcc(const EvaluationRecord& record, const RenderAssets& asset
     std::string document = written(record, words, ref_types);
     std::vector<gum::Diagnostic> breaches =
         business_rule_breaches(read_dcc_root(document, "digital certificate"), "digital certificate");
+    // A document that its own check refuses is not handed out: the mistake is then in the program or in what the job
+    // stated, and it would otherwise be the customer who finds it.
     std::erase_if(breaches, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
     if (!breaches.empty()) {
         throw gum::NoResultError(std::move(breaches));

@@ -34,6 +34,7 @@ struct DifferenceUnit {
     bool one_name = false;  ///< one unit, with a prefix or without, and no product
 
     explicit DifferenceUnit(const std::string& udunits) : d_si(d_si_unit(unit_of_uncertainty(udunits))) {
+        // Behind a product an exponent would belong to its last factor alone.
         one_name = std::all_of(udunits.begin(), udunits.end(),
                                [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
     }
@@ -75,6 +76,8 @@ struct Region {
 
 Region region_of(const EvaluationRecord& record) {
     const auto& region = record.region;
+    // The factor of a region depends on the number of results that are in it. One of a part of them would be too large
+    // or too small for the matrix.
     if (!region || record.results.size() != record.covariance->names.size()) {
         return {};
     }
@@ -210,6 +213,8 @@ void write_joint_results(DccWriter& w) {
         return;
     }
     const ResultCovariance& c = *record.covariance;
+    // A product with a unit that D-SI does not have would need a definition of its own for each element of the matrix.
+    // The table in CSV states the units of the results instead.
     const bool in_d_si = std::none_of(c.units.begin(), c.units.end(), needs_unit_definition);
     const bool known = std::all_of(c.names.begin(), c.names.end(),
                                    [&](const std::string& name) { return result_of(record, name) != nullptr; });

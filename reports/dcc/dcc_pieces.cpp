@@ -56,6 +56,8 @@ SetPieces::SetPieces(const EvaluationRecord& record,
                            .serial_number = word_of_role(points, "serial_number", row),
                            .identification = word_of_role(points, "identification", row),
                            .nominal = nominal_of(points, row)};
+            // Without a number of its own a row cannot be told from another of the same nominal value: it is one more
+            // point of the item.
             if (piece.serial_number.empty() && piece.identification.empty()) {
                 of_point_[points.points[row]] = item;
                 continue;

@@ -106,6 +106,8 @@ void write_unit_definition(DccWriter& w, const std::string& udunits) {
 
 std::string unit_of_uncertainty(const std::string& udunits) {
     try {
+        // An uncertainty is a difference: U of a temperature in °C is in kelvins, since D-SI would read 0.1 °C as a
+        // temperature with its origin.
         return gum::unit_of_difference(udunits);
     } catch (const gum::InputError&) {
         return udunits;  // not a unit: it is written as the text that it is

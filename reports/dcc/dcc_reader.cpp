@@ -151,6 +151,8 @@ std::string contradiction_of_k_and_p(const ImportedNumber& number) {
         return "";
     }
     constexpr double k_printed = 0.01;  // of k: as it is rounded on certificates
+    // An arcsine distribution of half-width a has u = a/√2, and the fraction p of it lies within a·sin(πp/2): so
+    // k = √2 sin(πp/2). At smaller p the factor of the normal distribution is less; the limit is the lesser of the two.
     const double least = std::numbers::sqrt2 * std::sin(0.5 * std::numbers::pi * *p);
     const double normal = gum::coverage_factor(*p, std::numeric_limits<double>::infinity());
     const double most = gum::coverage_factor(*p, 1.0);
@@ -188,6 +190,8 @@ void add_statement(const ImportedNumber& stated, ImportedNumber& number) {
             return a && b && std::abs(*a - *b) > k_rounding * std::max(std::abs(*a), std::abs(*b));
         };
         const bool comparable = first && second;
+        // Standard uncertainties are compared where both can be told: two U may differ and say the same, with two
+        // factors.
         if (differ(first, second) || (!comparable && differ(first_U, second_U))) {
             number.objection =
                 "its uncertainty is stated twice, as " + statement_of(number) + " and as " + statement_of(stated);
@@ -281,6 +285,9 @@ void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber
             for (const std::string& spelling : {"si:" + std::string(name), "si:" + std::string(name) + "XMLList"}) {
                 if (const XmlElement* const child = stated.child(spelling); child != nullptr) {
                     const bool fits = place_list(*child, numbers, into);
+                    // Probability and distribution describe an uncertainty, and it can be used without them. Where the
+                    // numbers themselves have the wrong length, nobody knows which value they belong to: taking the
+                    // first ones could give a value too small a U.
                     whole = whole && (fits || into == &ImportedNumber::p || into == &ImportedNumber::distribution);
                 }
             }
@@ -390,6 +397,7 @@ Form Reader::real_list(const XmlElement& element) {
         const std::string own = one->child_text("si:unit");
         unit(own.empty() ? element.child_text("si:listUnit") : own, *one, number);
         uncertainty_in(*one, {&number, 1});
+        // What is stated for the whole list is for the elements that state nothing themselves.
         if (number.kind == "none") {
             uncertainty_in(element, {&number, 1});
         }
@@ -557,6 +565,8 @@ void add_conformity(const XmlElement& quantity, std::size_t row, std::size_t row
         const XmlElement* const list = data->child("dcc:conformityXMLList");
         const XmlElement* const one = list == nullptr ? data->child("dcc:conformity") : list;
         const std::optional<std::string> word = one == nullptr ? std::nullopt : entry(xml_list(one->text), row, rows);
+        // There may be several statements, one for each specification. "noPass" also stands in rows that a
+        // specification does not apply to, so any other word takes its place.
         if (word && (imported.conformity.empty() || imported.conformity == "noPass")) {
             imported.conformity = *word;
             imported.conformity_id = data->attribute("refId");
@@ -613,6 +623,8 @@ void Reader::add_quantity(const XmlElement& quantity, const Context& context) {
         if (forms.empty()) {
             continue;
         }
+        // Of the same quantity in two units the one with the uncertainty is imported: a value without one would become
+        // a constant.
         auto main = std::find_if(forms.begin(), forms.end(), [](const Form& f) { return f.has_uncertainty(); });
         main = main == forms.end() ? forms.begin() : main;
         std::vector<const Form*> others;
@@ -644,6 +656,7 @@ std::vector<std::size_t> Reader::items_of(const XmlElement& element) const {
     }
     for (const std::string& id : xml_list(element.attribute("refId"))) {
         const auto item = item_of_id_.find(id);
+        // With one unknown reference the order of the others no longer fits the rows of the table.
         if (item == item_of_id_.end()) {
             return {};
         }

@@ -21,6 +21,7 @@ using certificate::CertifiedValue;
 using certificate::Verdict;
 
 constexpr const char* k_nothing = "NaN";
+// JCGM 100:2008, 7.2.6: at most two digits of an uncertainty say something.
 constexpr int k_digits_of_u = 2;
 
 /// What is stated of the uncertainty of a value. A column whose values state different things is written once for each
@@ -36,6 +37,8 @@ Stated stated_of(const CertifiedValue& v) {
         return Stated::interval;
     }
     if (!v.printed_U.empty()) {
+        // D-SI has no coverage factor below 1. U is then left out and the standard uncertainty is stated, with a text
+        // that says why.
         return has_usable_factor(v) ? Stated::expanded : Stated::standard;
     }
     return v.coverage == "none" && v.u > 0.0 ? Stated::standard : Stated::nothing;
@@ -66,6 +69,7 @@ struct Column {
 
 /// Coverage probability of a value: of its result where that states its own.
 double probability_of(const EvaluationRecord& record, const Column& c, std::size_t row) {
+    // One result name can stand for many points, and each of them may state a probability of its own.
     const bool has_points = c.table.argument && c.table.argument->name == "point";
     const std::string point = has_points ? c.table.argument->printed[row] : "";
     for (const Result& r : record.results) {
@@ -83,6 +87,8 @@ void number_or_list(DccWriter& w, const Column& c, const std::string& name, cons
 
 void uncertainty(DccWriter& w, const Column& c, Stated stated) {
     const auto only = [&](const std::function<std::string(const CertifiedValue&)>& text) {
+        // A list of D-SI needs one entry a value, so a row that states something else has NaN here and its numbers in
+        // the other list.
         return c.entries([&](const CertifiedValue& v) { return stated_of(v) == stated ? text(v) : k_nothing; });
     };
     const std::string suffix = c.list ? "XMLList" : "";
@@ -216,6 +222,8 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     for (const CertifiedValue& v : c.column.values) {
         const Verdict* const verdict = verdict_for(v, specification);
         first = first == nullptr ? verdict : first;
+        // A row without a specification must have an entry, and the format has none for "not decided". "noPass" claims
+        // least: it says neither that the row conforms nor that it does not.
         verdicts.push_back(verdict == nullptr ? "noPass" : conformity_word(verdict->verdict));
         exact.push_back(verdict == nullptr ? "none" : verdict->verdict);
     }
@@ -300,6 +308,8 @@ void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_da
     }
     w.xml.open(c.list ? "si:realListXMLList" : "si:real");
     w.xml.element(c.list ? "si:labelXMLList" : "si:label", as_token(c.column.result));
+    // The text that is printed, not the number behind it: a reader of the XML and a reader of the page must get the same
+    // value.
     const std::vector<std::string> values =
         c.entries([&](const CertifiedValue& v) { return required_d_si_number(v.printed_value, c.column.result); });
     w.xml.element(c.list ? "si:valueXMLList" : "si:value", full_list(values));

@@ -66,6 +66,7 @@ public:
 private:
     void report(const char* code, const XmlElement& at, const std::string& what, const std::string& rule,
                 const std::string& action, gum::Severity severity = gum::Severity::error) {
+        // One mistake of a program is in every row of its tables. The first ones tell all there is to know.
         if (found_.size() == k_most_breaches) {
             return;
         }
@@ -453,6 +454,9 @@ bool Rules::contradicts(const XmlElement& relative, const XmlElement& form, doub
             continue;
         }
         const double expected = U->value / std::abs(value->value);
+        // All three numbers are printed, so each may be off by half a unit of its last digit. The terms are the partial
+        // derivatives of U/|y| times these; the sum and not the root of squares, because the largest possible
+        // difference is asked for.
         const double allowed = scale * w->half_unit + U->half_unit / std::abs(value->value) +
                                expected * value->half_unit / std::abs(value->value);
         constexpr double k_noise = 1e-9;

@@ -65,6 +65,7 @@ std::optional<double> factor_between(const std::string& to, const std::string& f
     }
     const std::optional<std::string> a = unit_from_d_si(to);
     const std::optional<std::string> b = unit_from_d_si(from);
+    // A factor alone does not lead from °C to K. Two values in °C have the same unit and were answered above.
     if (!a || !b || *a == "degC" || *b == "degC") {
         return std::nullopt;
     }
@@ -160,6 +161,7 @@ void Statements::siblings(const XmlElement& parent) {
         }
     }
     for (const XmlElement* quantity : decided) {
+        // With several decided quantities nobody can know which of them a limit beside belongs to.
         conformity(*quantity, decided.size() == 1 ? beside : std::vector<Limit>());
     }
 }
@@ -188,6 +190,8 @@ int outside(const Numbers& value, const Limit& limit, std::size_t row) {
         const auto end = printed_number(entry(form.texts, row));
         if (factor && y && end) {
             const double beyond = (limit.lower ? -1.0 : 1.0) * (y->value - *factor * end->value);
+            // Printed numbers stand for a range of half a unit of the last digit on both sides. A value is called
+            // outside only if every value in its range is outside of every limit in the limit's range.
             const double rounding = (y->half_unit + *factor * end->half_unit) * (1.0 + 1e-9);
             return beyond > rounding ? 1 : beyond < -rounding ? -1 : 0;
         }
@@ -205,6 +209,8 @@ void Statements::verdicts(const XmlElement& at, const std::vector<std::string>& 
             bool beyond = false;
             for (const Limit& limit : limits) {
                 const int where = outside(value, limit, row);
+                // With acceptance limits the verdict follows from them; a tolerance limit that stands beside them
+                // decides nothing. Without them the tolerance limits decide.
                 beyond = beyond || (where > 0 && limit.acceptance == acceptance);
                 inside += where < 0 ? 1U : 0U;
             }
@@ -216,6 +222,8 @@ void Statements::verdicts(const XmlElement& at, const std::vector<std::string>& 
                        "correct the conformity, the value or the limit");
                 return;
             }
+            // A warning only: a rule may demand more than the limits that are stated, so a value inside of them can
+            // still fail.
             if (word == "fail" && inside > 0 && inside == limits.size()) {
                 report("GC-DCC-0116", at, "fail for " + number + ", which is inside of all limits beside it",
                        "what fails lies outside of a limit", "correct the conformity, the value or the limit",
@@ -244,6 +252,7 @@ std::optional<double> factor_of(const std::string& distribution, double p) {
     if (name == "normal" || name == "gaussian" || name == "gauss") {
         return gum::coverage_factor(p, std::numeric_limits<double>::infinity());
     }
+    // A rectangle of half-width a has u = a/√3, and its fraction p lies within p·a: so k = √3 p.
     return name == "uniform" || name == "rectangular" ? std::optional(std::sqrt(3.0) * p) : std::nullopt;
 }
 

@@ -72,7 +72,8 @@ public:
         }
         return nullptr;
     }
-    /// Goes on behind a later place of a child, over what is missing in between; nothing where there is none.
+    /// Goes on behind a later place of a child, over what is missing in between; nothing where there is none. So one
+    /// missing element is reported once, and not again for each element behind it.
     const ContentModel::Place* leap(const std::string& element) {
         for (std::size_t i = model_.any_order ? model_.places.size() : at_; i < model_.places.size(); ++i) {
             if (model_.places[i].element == element && !open_.contains(i) && (i > at_ || !begun_)) {
@@ -306,6 +307,7 @@ const ContentModel::Place* Structure::place_of_child(const XmlElement& e, const 
     const std::set<std::string> missing = walk.missing();
     const std::set<std::string> possible = walk.possible();
     const ContentModel::Place* const later = walk.leap(child.name);
+    // What seems to be missing may stand further behind: then the order is wrong, and nothing is to be added.
     const bool stands_later = std::any_of(e.children.begin(), e.children.end(), [&](const XmlElement& other) {
         return missing.contains(short_name(other.name));
     });
@@ -314,6 +316,7 @@ const ContentModel::Place* Structure::place_of_child(const XmlElement& e, const 
                "the schema of the DCC demands it", "add it; the order counts");
         return later;
     }
+    // A second element at the wrong place follows from the first one in most cases.
     if (told.empty()) {
         report("GC-DCC-0113", child, name + " in " + short_name(e.name) + " stands at the wrong place, or too often",
                possible.empty() ? "nothing more may stand there" : choice_of(possible) + " may stand there",

@@ -174,6 +174,7 @@ bool is_date_time(std::string_view text) {
         !at.two_digits(59)) {
         return false;
     }
+    // XML Schema allows 24:00:00 as the end of a day, and no later time of hour 24.
     const bool midnight = text.substr(k_day + 1, 2) != "24" || text.substr(k_day + 1, 8) == "24:00:00";
     const bool fraction = !at.take('.') || at.digits() > 0;
     return midnight && fraction && at.time_zone() && at.at_end();

@@ -145,6 +145,8 @@ void DccWriter::contents(const Text& text) {
 
 void DccWriter::text(const std::string& element, const Text& text, const XmlWriter::Attributes& attributes) {
     xml.open(element, attributes);
+    // The format demands a text here. "Not stated" is better than an element that is empty, or a whole document that is
+    // refused.
     contents(without_outer_blanks(text.first()).empty() ? not_stated() : text);
     xml.close();
 }
@@ -214,6 +216,8 @@ std::string required_d_si_number(const std::string& printed, const std::string& 
 }
 
 std::string d_si_coverage_factor(const std::string& printed) {
+    // The schema has a factor of at least 1, without sign and exponent. Anything else would make the whole document
+    // invalid, so it becomes NaN here.
     const bool fits = !printed.empty() && printed.front() >= '1' && printed.front() <= '9' &&
                       plain_decimal_at(printed, 0) == printed.size();
     return fits ? printed : std::string(k_not_a_number);

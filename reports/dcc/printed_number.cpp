@@ -23,6 +23,8 @@ std::optional<PrintedNumber> printed_number(std::string_view text) {
         std::from_chars(rest.data(), rest.data() + rest.size(), exponent);
     }
     const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(digits.size() - point - 1);
+    // A number printed to d decimals stands for all numbers within half a unit of its last digit, zeros at its end
+    // included.
     number.half_unit = 0.5 * std::pow(10.0, exponent - decimals);
     return number;
 }
