@@ -308,8 +308,7 @@ void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_da
     }
     w.xml.open(c.list ? "si:realListXMLList" : "si:real");
     w.xml.element(c.list ? "si:labelXMLList" : "si:label", as_token(c.column.result));
-    // The text that is printed, not the number behind it: a reader of the XML and a reader of the page must get the same
-    // value.
+    // The text that is printed, not the number behind it: readers of the XML and of the page must get the same value.
     const std::vector<std::string> values =
         c.entries([&](const CertifiedValue& v) { return required_d_si_number(v.printed_value, c.column.result); });
     w.xml.element(c.list ? "si:valueXMLList" : "si:value", full_list(values));
