@@ -109,6 +109,7 @@ const BudgetInput& input_at(const Budget& budget, std::size_t input, std::option
 
 InputTotal input_total(const BudgetInput& input) {
     if (input.components.size() == 1) {
+        // As stated, bit for bit: a square and a root could change the last digit.
         const StatedQuantity& only = input.components.front();
         return {.value = only.value, .u = only.u, .degrees_of_freedom = only.degrees_of_freedom};
     }

@@ -65,6 +65,8 @@ bool has_intercept(const EquationCurve& curve, const engine::CurveData& data, Ei
     Eigen::VectorXd by_parameter;
     Eigen::VectorXd by_x;
     const Eigen::VectorXd at = Eigen::VectorXd::Constant(parameters, 1.0);
+    // Without such a parameter the residuals need not have the mean 0, and R² about the mean of the data could be
+    // negative.
     std::vector<bool> constant(static_cast<std::size_t>(parameters), true);
     Eigen::VectorXd first;
     for (Eigen::Index i = 0; i < data.x.rows(); ++i) {

@@ -13,6 +13,7 @@
 namespace gumcert::gum {
 
 bool is_without_scatter(const BudgetFit& fit, const engine::CurveFit& solved) {
+    // Where the curve goes through all points, what is left are roundings of terms as large as the ordinates.
     constexpr double k_roundings = 64.0;
     if (fit.y_uncertainty.size() > 0 || solved.residuals.size() == 0) {
         return false;

@@ -16,6 +16,8 @@ StatedQuantity state_uncertainty(double value, double u, double degrees_of_freed
     stated.value = value;
     stated.u = u;
     stated.degrees_of_freedom = degrees_of_freedom;
+    // Scale u and ν say what repeated readings tell of the quantity (JCGM 101:2008, 6.4.9): for finite ν the trials
+    // scatter by more than u. With ν infinite it is the normal distribution.
     stated.distribution = Distribution::student_t(value, u, degrees_of_freedom);
     return stated;
 }
@@ -24,6 +26,7 @@ StatedQuantity state_distribution(Distribution distribution) {
     StatedQuantity stated;
     stated.statement = "distribution";
     stated.value = expectation(distribution);
+    // u is worked out and not asked for: two statements could contradict each other.
     stated.u = standard_deviation(distribution);
     require_finite(stated.value, "expectation");
     require_positive(stated.u, "standard deviation");

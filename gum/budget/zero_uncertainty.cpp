@@ -23,6 +23,8 @@ std::set<std::string> names_behind(const Budget& budget, const std::string& outp
         unknowns.insert(canonical_name(unknown.name));
     }
     std::set<std::string> names;
+    // The equations are read, and not their derivatives: in x − x, or where a derivative vanishes, those are 0 although
+    // x is uncertain.
     std::vector<std::string> left{canonical_name(output)};
     while (!left.empty()) {
         const std::string name = left.back();

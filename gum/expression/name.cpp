@@ -200,6 +200,7 @@ std::optional<std::string> nearest_name(std::string_view name, std::span<const s
         return std::nullopt;
     }
     const auto folded = [](char32_t code) { return U'A' <= code && code <= U'Z' ? code + (U'a' - U'A') : code; };
+    // Of short names, such as those of most quantities, nearly every other one is two letters away.
     const std::size_t allowed = wanted.size() <= 3 ? 2 : wanted.size() <= 5 ? 4 : 6;  // in halves of a letter
     std::optional<std::string> nearest;
     std::size_t least = allowed + 1;

@@ -126,6 +126,7 @@ bool is_kept_exactly(std::string_view digits, double value) {
     while (digits.size() > 1 && digits.front() == '0') {
         digits.remove_prefix(1);
     }
+    // Whole numbers above 2^53 are not all doubles. The largest double has 309 digits, which 400 characters hold.
     std::array<char, 400> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 0).ptr;
     return std::string_view(text.data(), end) == digits;

@@ -221,6 +221,7 @@ double certain_remainder(BoxedTape& tape, const Box& box) {
     if (!(length > 0.0)) {
         return certain;
     }
+    // With one input moved alone the mixed second derivatives stay out of sight. Here all inputs move together.
     std::vector<Enclosure> up = box.centre, down = box.centre;
     for (const std::size_t i : box.moving) {
         const double x = box.centre[i].low, d = middle(i) * reach(i) / length * reach(i);

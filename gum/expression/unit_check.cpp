@@ -12,6 +12,7 @@ namespace gumcert::gum {
 namespace {
 
 bool is_same_weight(double a, double b) {
+    // Weights are sums of constants such as 1/3, which are rounded.
     return std::fabs(a - b) < 1e-9;
 }
 
@@ -156,6 +157,8 @@ private:
             case Operation::sin:
             case Operation::cos:
             case Operation::tan:
+                // A plain number is refused as well: whether degrees or radians are meant is not seen in it, and the
+                // slip is a factor of 57.
                 if (a.zero || a.dimension == Dimension::angle()) {
                     return kind;
                 }
