@@ -38,6 +38,8 @@ void FindingList::append(std::vector<Finding> findings) {
 }
 
 bool FindingList::add_gravest(const std::vector<Finding>& of_points) {
+    // One slip in an entry of the scope shows at every point of a table. Told once, it does not hide the other
+    // findings.
     const auto gravest = std::ranges::max_element(of_points, {}, &Finding::severity);
     if (gravest == of_points.end()) {
         return false;

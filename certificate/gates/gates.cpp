@@ -85,6 +85,7 @@ void add_findings(Certificate& certificate, const std::vector<Finding>& later) {
     all.insert(all.end(), later.begin(), later.end());
     std::stable_sort(all.begin(), all.end(),
                      [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    // A specimen shows the form, with placeholders for what is not known, so gaps do not block it.
     const bool critical = !all.empty() && all.front().severity == FindingSeverity::critical;
     certificate.blocked = critical && certificate.data.status != "specimen";
     certificate.symbol = certificate.symbol && !critical;

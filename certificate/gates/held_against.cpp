@@ -67,12 +67,14 @@ Measured measured_at(const CertifiedTable& table, const CertifiedColumn& column,
 }
 
 bool is_nominal_of(double claimed, double value) {
+    // The true value of an item is near its nominal value, but is never the same number.
     constexpr double k_same = 0.1;
     return std::abs(value - claimed) <= k_same * std::max(std::abs(value), std::abs(claimed));
 }
 
 bool is_beyond(double value, double low, double high) {
     constexpr double k_a_little = 0.01;
+    // An item whose nominal value is the end of the range may measure a little more.
     const double little = k_a_little * (high - low);
     return value > high + little || value < low - little;
 }

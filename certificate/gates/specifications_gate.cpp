@@ -49,6 +49,8 @@ bool is_of_the_laboratory(const CertificateData& data, const std::string& text) 
 
 /// A parameter that leaves next to nothing of what the rule is named for.
 void empty_parameter(FindingList& found, const AgreedSpecification& s, std::size_t i) {
+    // The name of a rule tells the reader how well he is protected. With such a parameter it is simple acceptance under
+    // the name of a stricter rule.
     constexpr double k_least_factor = 0.1;       // of U, as a guard band
     constexpr double k_least_ratio = 1.0;        // U as large as half of the tolerance
     constexpr double k_least_probability = 0.8;  // to prove

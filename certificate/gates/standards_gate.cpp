@@ -180,6 +180,8 @@ void repetitions(FindingList& found, const CertificateData& data) {
 /// a rotary table are differences, which lack what its standards have in common: they may be three times better.
 std::optional<double> largest_u(const Certificate& certificate, const gum::Unit& unit) {
     constexpr double k_better_as_a_difference = 3.0;
+    // The largest and not the smallest: a standard that is used for one of several results has to be good enough for
+    // that one only.
     std::optional<double> largest;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
@@ -202,6 +204,7 @@ std::optional<double> largest_u(const Certificate& certificate, const gum::Unit&
 
 /// Nothing that is compared with a standard of the same kind is known better than the standard.
 void against_results(FindingList& found, const Certificate& certificate, const StandardUsed& s, std::size_t i) {
+    // Of ratios nobody can tell whether they are of the same kind.
     if (!s.U || s.unit.empty() || s.unit == "1" || s.unit == "percent") {
         return;
     }
