@@ -77,6 +77,7 @@ double reach_of(const AuditedRow& row, double k) {
         return 0.0;
     }
     switch (row.shape) {
+        // A quantity between limits has no values beyond them, whatever k is.
         case Shape::rectangular:
             return std::numbers::sqrt3 * row.used_u;
         case Shape::triangular:
@@ -153,6 +154,8 @@ std::optional<BudgetModel> BudgetModel::of(const AuditedBudget& budget) {
     }
     model.result_unit_ = result_unit.value_or(gum::Unit());
     model.compile(equations, budget);
+    // Some tables write their equation for the numbers in their units, with a factor such as 1000 in it. The stated
+    // value tells which of the two is meant; where neither gives it, the equation with units stays.
     if (any_unit && budget.value && !model.gives_value(budget)) {
         BudgetModel of_numbers = model;
         of_numbers.system_.reset();

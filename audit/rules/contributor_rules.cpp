@@ -119,6 +119,7 @@ std::vector<RequiredContributor> asked_of(const AuditedBudget& budget) {
 void required_contributor_missing(const AuditSubject& subject, FindingCollector& findings) {
     std::vector<std::pair<Sentence, std::vector<std::size_t>>> gaps;  // sentence and budgets, in their order
     const auto note = [&gaps](const Sentence& what, std::size_t budget) {
+        // The points of a table have their rows in common, and so their gaps: one finding for all of them.
         const auto same = std::find_if(gaps.begin(), gaps.end(), [&](const auto& gap) { return gap.first == what; });
         if (same == gaps.end()) {
             gaps.emplace_back(what, std::vector{budget});
@@ -182,6 +183,7 @@ void drift_missing(const AuditSubject& subject, FindingCollector& findings) {
 
 /// B03
 void drift_of_few_calibrations(const AuditSubject& subject, FindingCollector& findings) {
+    // A line through two calibrations leaves no residual, so nothing says how well the drift is known.
     constexpr std::size_t k_least = 3;
     for_each_row(subject, [&findings](const RowAt& at) {
         if (at.is.contributor != Contributor::reference_drift) {

@@ -429,6 +429,7 @@ void another_point(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         const double x = row.estimate->value, low = *row.certificate_low, high = *row.certificate_high;
+        // Certificates name their points by nominal values, and the estimate is a measured value near one of them.
         const double near = row.estimate->half_step + 1e-3 * std::max(std::abs(low), std::abs(high));
         // A row of a fit or of an interpolation stands for the way from the calibrated points to this one.
         const bool interpolated = std::any_of(at.of.rows.begin(), at.of.rows.end(), [](const AuditedRow& other) {

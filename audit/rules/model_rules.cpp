@@ -266,6 +266,7 @@ std::optional<SecondOrder> second_order(const AuditedBudget& budget) {
             continue;
         }
         std::vector<double> above = x, below = x;
+        // The difference is central: what it leaves out is smaller by u_i² once more, and so beyond second order.
         above[i] += 0.5 * u[i];
         below[i] -= 0.5 * u[i];
         const std::optional<std::vector<double>> up = model->second_derivatives(above),
@@ -776,6 +777,8 @@ void implausible_constant(const AuditSubject& subject, FindingCollector& finding
         if (!(si.dimension() == unit->dimension())) {
             return;
         }
+        // The ranges are of the constants themselves. A difference of two of them, which the words above tell, may have
+        // any size.
         const double value = unit->to_si(at.is.estimate->value);
         const double digits = unit->difference_to_si(at.is.estimate->half_step);
         if (value + digits >= range->low && value - digits <= range->high) {

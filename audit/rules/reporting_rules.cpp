@@ -99,6 +99,7 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
                 continue;
             }
             const double u = std::abs(row.stated->value / row.divisor->value);
+            // A printed u that is not the rounded quotient has another cause than rounding, and other rules tell it.
             if (row.u->interval().contains(u)) {
                 row.used_u = u;
                 row.u_half_step = 0.0;
@@ -199,6 +200,7 @@ void unit_or_sign_unclear(const AuditSubject& subject, FindingCollector& finding
 bool has_lost_exponent(const std::string& text) {
     for (const std::string sign : {"10-", "10−"}) {
         const std::size_t at = text.find(sign);
+        // A digit before it makes another number, as in "2010-6".
         if (at != std::string::npos && at > 0 && at + sign.size() < text.size() &&
             is_ascii_digit(text[at + sign.size()]) && !is_ascii_digit(text[at - 1])) {
             return true;

@@ -31,6 +31,7 @@ std::u32string identity_of(const StandardUsed& standard) {
 }
 bool row_names(const AuditedRow& row, const std::string& name) {
     const std::u32string wanted = certificate::letters_of(name);
+    // One letter stands in nearly every text.
     return wanted.size() > 1 && certificate::letters_of(words_of_row(row)).find(wanted) != std::u32string::npos;
 }
 

@@ -180,6 +180,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         }
         const double divisor = at.is.divisor->value;
         const std::optional<double> expected = divisor_of_shape(at.is.shape);
+        // 1.732 that is typed for √3 is 3E-5 off, and a cell does not say how many of its digits count.
         const double allowed = std::max(at.is.divisor->half_step, 2e-4 * divisor);
         Sentence known;
         for (const Divisor& other : k_divisors) {
@@ -187,6 +188,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
                 known = other.name;
             }
         }
+        // √12 is right of a full width; whether the number is one, U08 asks.
         const bool full_step = at.is.shape == Shape::rectangular && is_about(divisor, std::sqrt(12.0), 2e-4);
         const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
                                         : at.is.shape == Shape::normal && !known.empty() &&
@@ -383,6 +385,8 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
 // W05 -----------------------------------------------------------------------------------------------------------------
 
 bool has_absolute_reference(const Formula& formula) {
+    // A relative address moves when its row is copied. An absolute one stays, and the copy reads the cell of the row
+    // that it comes from.
     return std::any_of(formula.references.begin(), formula.references.end(), [](const workbook::Reference& reference) {
         return reference.first.row_is_absolute || reference.first.column_is_absolute;
     });
@@ -458,6 +462,7 @@ std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
         CopiedRun run;
         std::uint32_t last_row = 0;
         const auto close = [&] {
+            // Of two cells nobody can tell whether they are copies of one column.
             if (run.formulas.size() >= 3) {
                 runs.push_back(run);
             }
@@ -564,6 +569,7 @@ void for_each_correction(
     const std::vector<StandardTable> tables = standard_tables(view);
     std::map<std::tuple<std::size_t, std::uint32_t, std::uint32_t>, std::uint32_t> next_heads;
     std::vector<std::uint32_t> ends(tables.size());
+    // From the last table to the first: the heads further down end the table above them, however many rows it has.
     for (std::size_t i = tables.size(); i-- > 0;) {
         std::uint32_t& next =
             next_heads.try_emplace({tables[i].sheet, tables[i].correction, tables[i].U}, workbook::k_most_rows + 1)
