@@ -113,6 +113,7 @@ LogEntry first_entry(const Settings& settings, const std::string& software, cons
     require_numbering(settings);
     LogEntry entry = entry_for(request, "created");
     entry.seq = 1;
+    // The hash of this entry names the archive: with the nonce no two archives that begin alike have one name.
     entry.body = gumcert::json::canonical_json({{"schema", "gumcert/archive/1"},
                                                 {"settings", to_json(settings)},
                                                 {"software", software},
@@ -363,6 +364,7 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
         if (kind == "issued" && !life.amends.empty()) {
             LogEntry of_original =
                 entry_for(request, life.amendment_kind == "replaced" ? "superseded" : "amended-by", life.amends);
+            // The key belongs to the first of the two entries; both are written by one request.
             of_original.request_key.clear();
             const CertificateLife original = *rules.life(life.amends);
             of_original.record = original.record;

@@ -274,6 +274,7 @@ Evidence evidence_of(Store& store, const std::string& certificate) {
         }
         WalkedLog log;
         store.each_entry([&](const LogEntry& entry) {
+            // Who may do what follows from the settings of that time, so a reader of the evidence needs all of them.
             if (entry.kind == "created" || entry.kind == "settings") {
                 entries.emplace(entry.seq, entry);
             }

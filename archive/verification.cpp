@@ -100,6 +100,8 @@ private:
 
     void look_at(const LogEntry& entry) {
         const std::string where = entry_name(entry.seq);
+        // Three tests, for each sees another thing: the number an entry that was removed, the hash before it one that
+        // was put in its place, its own hash a field that was changed.
         const std::string expected_prev = log_.tree().size() == 0 ? std::string(32, '\0') : log_.without_root().chain;
         if (entry.seq != static_cast<std::int64_t>(log_.tree().size()) + 1) {
             add("GC-ARCHIVE-0042", where, "stands where entry " + std::to_string(log_.tree().size() + 1) + " belongs",
