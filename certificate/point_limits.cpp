@@ -40,6 +40,7 @@ LimitsAt about(const AgreedSpecification& s, const PointLookup& point, double ha
 }
 
 LimitsAt of_columns(const AgreedSpecification& s, const PointLookup& point) {
+    // A difference: in degrees Celsius the zero of the scale has no part in it.
     if (const auto mpe = point.number("mpe", s.unit, true)) {
         return about(s, point, *mpe);
     }
@@ -67,6 +68,8 @@ LimitsAt of_accuracy(const AgreedSpecification& s, const PointLookup& point) {
     const auto in_unit = [&](double v) {
         return entry->unit.empty() || entry->unit == s.unit ? v : target.difference_from_si(stated.difference_to_si(v));
     };
+    // The parts add up and are not taken as the root of squares: each is a limit, and the instrument may be at all of
+    // them at once.
     double half_width =
         in_unit(entry->full_scale.value_or(0.0) * entry->percent_of_range.value_or(0.0) / 100.0 +
                 entry->digits.value_or(0.0) * entry->digit.value_or(0.0) + entry->constant.value_or(0.0));
