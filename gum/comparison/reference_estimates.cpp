@@ -224,6 +224,7 @@ std::optional<double> robust_standard_deviation(const LaboratoryData& data) {
 
 std::optional<double> pooled_standard_deviation(const LaboratoryData& data) {
     const std::optional<Replicates> stated = replicates(data);
+    // Algorithm S has one number of degrees of freedom for all standard deviations.
     if (!stated || std::any_of(stated->observations.begin(), stated->observations.end(),
                                [&](std::size_t n) { return n != stated->observations.front(); })) {
         return std::nullopt;

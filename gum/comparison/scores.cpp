@@ -186,6 +186,7 @@ ComparisonSummary summarise(std::span<const ComparisonScore> scores) {
     const auto m = static_cast<double>(summary.points);
     summary.mean_absolute_en = sum_of_absolute_en / m;
     summary.rms_en = std::sqrt(sum_of_squared_en / m);
+    // Both tails: a sum that is too small tells of overstated uncertainties, or of points that are correlated.
     summary.p_low = chi_square_lower_tail(summary.sum_of_squared_zeta, m);
     summary.p_high = chi_square_upper_tail(summary.sum_of_squared_zeta, m);
     return summary;
