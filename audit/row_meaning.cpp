@@ -38,6 +38,8 @@ bool names_item(const WordLine& words) {
 
 /// What a row is made of, whatever device it belongs to; `other` where the words name no kind of effect.
 Contributor kind_of_effect(const WordLine& words, std::string_view raw) {
+    // The order decides where words name two effects: temperature comes late, since its words stand in the names of
+    // many others, as in "thermal expansion" or "resolution of the temperature sensor".
     if (words.has_any({"dead path", "deadpath", "totstrecke", "totweg"})) {
         return Contributor::dead_path;
     }
@@ -677,6 +679,7 @@ Reading origin_in(const Pieces& pieces, const AuditedRow& row) {
         {Origin::certificate, find_keyword(pieces, k_of_certificate, row)},
         {Origin::limits, find_keyword(pieces, k_of_limits, row)},
     }};
+    // A keyword with its number says more than one without, whichever comes first in the text.
     for (const auto& [origin, found] : candidates) {
         if (found.value) {
             return {origin, found.value};
