@@ -183,6 +183,7 @@ std::optional<std::string> reason_against_name(std::string_view name) {
         return "mixes Latin letters with " + code_point_text(*look_alike_of_ascii) +
                ", which only looks like the Latin " + std::string(1, *look_alike(*look_alike_of_ascii));
     }
+    // Greek letters beside Latin ones are how quantities are written (ΔT). Cyrillic letters look like both.
     if (has(Script::cyrillic) && (has(Script::latin) || has(Script::greek))) {
         return "mixes Cyrillic letters with letters of another script";
     }

@@ -85,6 +85,7 @@ bool is_ascii_digit(char c) {
 
 void append_ascii(char c, std::string& plain) {
     if (is_ascii_digit(c)) {
+        // T_01 and T_1 are one name for whoever reads them.
         const bool leading = c == '0' && (plain.empty() || !is_ascii_digit(plain.back()));
         plain += leading ? "" : std::string(1, c);
     } else if (c >= 'a' && c <= 'z') {

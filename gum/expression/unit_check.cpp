@@ -497,6 +497,7 @@ Unit preferred_unit(const Unit& coherent, std::span<const Unit* const> used) {
     if (coherent.dimension().is_one()) {
         return coherent;
     }
+    // Who states lengths in millimetres reads a result in millimetres, too.
     for (const Unit* unit : used) {
         if (unit->dimension() == coherent.dimension() &&
             unit->is_celsius_temperature() == coherent.is_celsius_temperature()) {
