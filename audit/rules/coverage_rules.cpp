@@ -19,6 +19,7 @@
 namespace gumcert::audit {
 namespace {
 
+// That of k = 2 and a normal distribution.
 constexpr double k_usual_probability = 0.9545;
 
 /// Walks over budgets with an outcome.
@@ -482,6 +483,7 @@ void one_term(const AuditSubject& subject, FindingCollector& findings) {
             // Of what the rows add up to: a claim beyond them has no shares.
             const double part =
                 row.in_sum ? row.used_sensitivity * row.used_u * budget.u_c_over_rows / outcome.u_c : 0.0;
+            // With correlated rows the variance is no sum over rows, and no row has a share of its own.
             if (part * part <= k_share || !budget.correlations.empty()) {
                 continue;
             }

@@ -63,6 +63,8 @@ void always_the_capability(const AuditSubject& subject, FindingCollector& findin
         }
         all = all && is_about(*U, *budget.capability, k_noise);
         const std::optional<double> computed = computed_U(budget);
+        // Where the rows stay below the capability at each point, it is rightly stated in the place of U at all of
+        // them.
         explained = explained && computed && *computed <= *budget.capability;
         equal.push_back(i);
     }

@@ -321,6 +321,7 @@ void deviation_of_deviations(const AuditSubject& subject, FindingCollector& find
             return;
         }
         const double s = deviation_used(at.is), spread = deviation_of(at.is.group_deviations);
+        // A spread as large as the pooled s may be the pooled s itself.
         if (std::abs(s - spread) > digits_of_deviation(at.is) + 0.01 * spread || !(spread < 0.9 * pooled->s)) {
             return;
         }

@@ -224,6 +224,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
 void volatile_function(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for (const SheetFormula& formula : view->formulas()) {
+        // Elsewhere the day of today does no harm: a date of printing, the days left to a calibration.
         if (view->stands_under_results(formula.cell) &&
             calls(formula.formula, {"NOW", "TODAY", "RAND", "RANDBETWEEN"})) {
             AuditFinding finding =
@@ -817,6 +818,8 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
             continue;
         }
         const std::string label = view->label(formula.cell);
+        // Many cells are read by nobody, notes and checks for instance. Only these words tell that something is missing
+        // in the result.
         if (says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung", "uncertainty",
                          "unsicherheit"})) {
             AuditFinding finding =
