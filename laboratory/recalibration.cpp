@@ -42,6 +42,7 @@ long staircase_interval(const IntervalPlan& plan, double found) {
     const double factor = std::abs(found) > plan.limit                    ? plan.reduce_by
                           : std::abs(found) <= k_well_within * plan.limit ? plan.extend_by
                                                                           : 1.0;
+    // Downwards: a day less is on the safe side.
     const double days = std::floor(static_cast<double>(plan.present_days) * factor);
     return std::clamp(static_cast<long>(std::min(days, 1e6)), plan.least_days, plan.most_days);
 }
