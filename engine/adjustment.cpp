@@ -117,6 +117,8 @@ void Adjustment::hold(BlockId block, int component) {
 Adjustment::GroupId Adjustment::add_observations(std::shared_ptr<const ObservationModel> model,
                                                  std::vector<BlockId> blocks, Eigen::VectorXd observed,
                                                  const Eigen::MatrixXd& covariance) {
+    // V = L Lᵀ. Residuals and derivatives times L⁻¹ have the variance 1 and no correlation: from here on a correlated
+    // group is added up like any other, and V is never inverted.
     groups_.push_back({std::move(model), std::move(blocks), std::move(observed), cholesky_factor(covariance), false});
     return groups_.size() - 1;
 }
@@ -167,6 +169,7 @@ NormalEquations Adjustment::structure() const {
     normal.workers_ = workers_;
     normal.column_of_.resize(blocks_.size());
     std::vector<std::size_t> eliminated_of(blocks_.size(), blocks_.size());
+    // Border first, then the eliminated blocks: an index says at once to which of them a parameter belongs.
     for (const bool eliminated : {false, true}) {
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
             const Block& block = blocks_[b];
@@ -196,6 +199,8 @@ NormalEquations Adjustment::structure() const {
     }
     normal.groups_.resize(groups_.size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
+        // A group touches at most one eliminated block (a distance has one pose). On that the block form rests: no
+        // product of two eliminated blocks ever appears.
         std::size_t touched = blocks_.size();
         for (const BlockId block : groups_[g].blocks) {
             touched = std::min(touched, eliminated_of[block]);
@@ -217,6 +222,7 @@ NormalEquations Adjustment::linearise() const {
 }
 
 void Adjustment::linearise(NormalEquations& normal) const {
+    // Of a fixed size, which does not depend on the threads: sums of rounded numbers depend on how they are parted.
     constexpr std::size_t k_groups_of_a_part = 256;
     const FixedParts parts(groups_.size(), k_groups_of_a_part);
     parts.run(workers_, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -243,6 +249,7 @@ void Adjustment::linearise(NormalEquations& normal) const {
             whitened.resize(n, static_cast<Eigen::Index>(linear.columns.size()));
             Eigen::Index column = 0;
             for (std::size_t k = 0; k < group.blocks.size(); ++k) {
+                // A held component has no column: its derivatives are left out, and it stays where it is.
                 const std::vector<Eigen::Index>& of = normal.column_of_[group.blocks[k]];
                 for (std::size_t c = 0; c < of.size(); ++c) {
                     if (of[c] >= 0) {
@@ -303,6 +310,9 @@ Eigen::Index NormalEquations::first_column(std::size_t block) const {
     return free == column_of_[block].end() ? -1 : *free;
 }
 
+// Normal equations have the square of the condition number of the design: 3·10³ of a usual measurement becomes 10⁷,
+// which leaves nine digits of a standard uncertainty (design note rotary-table.md, 4e). What this cannot carry is found
+// by rank() beforehand.
 void NormalEquations::accumulate() {
     gradient_ = Eigen::VectorXd::Zero(parameter_count());
     const auto none = [this] {
@@ -339,6 +349,7 @@ void NormalEquations::accumulate() {
     for (const std::size_t group : groups_of_border_) {
         add(groups_[group], nullptr, all);
     }
+    // In the order of the parts, whichever thread made them.
     for (const Sums& part : sums) {
         all.border += part.border;
         all.eliminated += part.eliminated;
@@ -369,6 +380,8 @@ RankReport NormalEquations::rank(double tolerance) const {
             add_names((diagonal.array() > 0.0).select(Eigen::VectorXd::Zero(diagonal.size()), 1.0), block.first);
             continue;
         }
+        // With columns of unit length metres, radians and scales can be compared: without it the unit of a parameter
+        // would decide whether it counts as determined.
         const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
             Eigen::MatrixXd(scale.asDiagonal() * block.normal * scale.asDiagonal()));
@@ -378,6 +391,7 @@ RankReport NormalEquations::rank(double tolerance) const {
             add_names(eigen.eigenvectors().col(0), block.first);
         }
     }
+    // With a singular block the elimination is not defined, and the border says nothing.
     if (report.deficient || border_ == 0) {
         return report;
     }
@@ -417,7 +431,10 @@ BorderedCovariance NormalEquations::bordered_covariance() const {
         Eigen::MatrixXd& covariance = result.border_covariance_;
         covariance = factor.solve(Eigen::MatrixXd::Identity(border_, border_));
         covariance = (scale.asDiagonal() * covariance * scale.asDiagonal()).eval();
+        // Symmetric to the last bit: what is read above and below the diagonal is the same number.
         covariance = (0.5 * (covariance + covariance.transpose())).eval();
+        // N = Uᵀ U of the scaled border, so that U⁻¹ is a root of its inverse. Variances made of a root cannot be
+        // negative.
         const Eigen::MatrixXd root = factor.matrixU().solve(Eigen::MatrixXd::Identity(border_, border_));
         result.border_root_ = scale.asDiagonal() * root;
     }
@@ -470,6 +487,7 @@ double BorderedCovariance::operator()(Eigen::Index row, Eigen::Index column) con
     if (row < b || column < b) {
         return cross_(std::max(row, column) - b, std::min(row, column));
     }
+    // Two parameters of one block share its own covariance; two of different blocks only what the border brings in.
     const std::size_t block = own_of_[static_cast<std::size_t>(row - b)];
     if (block == own_of_[static_cast<std::size_t>(column - b)]) {
         const Own& own = own_[block];
@@ -566,6 +584,8 @@ Eigen::VectorXd NormalEquations::step() const {
     return step;
 }
 
+// Where the last step is negligible, the linear model knows its residuals without another evaluation. At a minimum the
+// gradient is 0.
 void NormalEquations::move(const Eigen::VectorXd& step) {
     Eigen::VectorXd local;
     for (LinearisedGroup& group : groups_) {
@@ -615,6 +635,8 @@ double largest_eigenvalue(const Operator& apply, Eigen::Index size) {
         basis.push_back(next);
         next = apply(basis.back());
         diagonal[k] = basis.back().dot(next);
+        // Twice: what rounding leaves along the earlier vectors after one pass would come back as copies of eigenvalues
+        // that were found already.
         for (int repeat = 0; repeat < 2; ++repeat) {
             for (const Eigen::VectorXd& earlier : basis) {
                 next -= earlier.dot(next) * earlier;
@@ -623,6 +645,7 @@ double largest_eigenvalue(const Operator& apply, Eigen::Index size) {
         const double length = next.norm();
         beside[k] = length;
         const bool last = k + 1 == most || !(length > 0.0);
+        // The eigenvalues of the small matrix cost more than a product: they are asked for every fifth step only.
         if (last || k % 5 == 4) {
             Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
             eigen.computeFromTridiagonal(diagonal.head(k + 1), beside.head(k));
@@ -669,6 +692,7 @@ double NormalEquations::condition_number() const {
     return square > 0.0 && std::isfinite(square) ? std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
 
+// Residuals are whitened: the sum of their squares is vᵀ V⁻¹ v, priors included.
 double NormalEquations::chi_square() const {
     double sum = 0.0;
     for (const LinearisedGroup& group : groups_) {
@@ -723,6 +747,8 @@ SolveSummary Adjustment::refine(const SolverOptions& options, NormalEquations& n
             summary.message.clear();
             break;
         }
+        // The first steps may grow while the parameters come near. Near a minimum they shrink; where they do not, there
+        // is none.
         if (iteration > 5 && size > last) {
             summary.message = "Gauss-Newton steps grow";
             break;
@@ -761,6 +787,7 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
             pointers.push_back(values.data() + first[block]);
             used[block] = true;
         }
+        // A prior is what is known beforehand. The loss looks for readings that disagree, and a prior is none.
         const bool robust = options.robust_scale > 0.0 && !group.is_prior;
         problem.AddResidualBlock(new WhitenedCost(group, blocks_),
                                  robust ? new ceres::CauchyLoss(options.robust_scale) : nullptr, pointers);
@@ -792,14 +819,19 @@ SolveSummary Adjustment::solve(const SolverOptions& options) {
     solver.linear_solver_ordering.reset(ordering);
     // The border is dense and small. Eigen, unlike SuiteSparse with a BLAS that is chosen at run time, rounds the same on
     // every machine.
+    // Factorisations only: an iterative solver without a preconditioner comes to a stop before the minimum at these
+    // condition numbers (design note rotary-table.md, 4f).
     solver.linear_solver_type = any_eliminated ? ceres::DENSE_SCHUR : ceres::SPARSE_NORMAL_CHOLESKY;
     solver.dense_linear_algebra_library_type = ceres::EIGEN;
     solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+    // A very large region: the first step is that of Gauss and Newton. The region shrinks where a step does not lower
+    // the sum.
     solver.initial_trust_region_radius = 1e12;
     solver.max_trust_region_radius = 1e20;
     solver.max_num_iterations = options.max_iterations;
     solver.function_tolerance = 1e-6;
+    // Gradients of metres, radians and kelvin have no common scale: no criterion is taken from them.
     solver.gradient_tolerance = 1e-300;
     solver.parameter_tolerance = 1e-14;
     solver.num_threads = 1;  // the same bytes for any machine

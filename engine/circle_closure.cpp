@@ -71,6 +71,8 @@ void remove_own(const CircleClosureMeasurement& m, MatrixXd& matrix) {
         for (Index r = 0; r < own.rows(); ++r) {
             part.col(r) = matrix.col(at(rows[static_cast<std::size_t>(r)]));
         }
+        // The projection off the columns of a series is what is left after its zero and slope have been fitted.
+        // Eliminated so, hundreds of series add no unknowns.
         part -= (part * own).eval() * own.transpose();
         for (Index r = 0; r < own.rows(); ++r) {
             matrix.col(at(rows[static_cast<std::size_t>(r)])) = part.col(r);
@@ -109,6 +111,8 @@ std::pair<MatrixXd, double> cofactors_of(const CircleClosureMeasurement& m) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(R + weight * datum));
     const double least = eigen.eigenvalues()(0);
     const double most = eigen.eigenvalues()(2 * n - 1);
+    // That the positions suffice is arithmetic (common_divisor). What missing readings leave open shows only in the
+    // eigenvalues.
     if (!(least > k_rank_tolerance * most)) {
         throw gum::NoResultError(gum::Diagnostic{
             .code = "GC-CLOSURE-0010",
@@ -122,6 +126,8 @@ std::pair<MatrixXd, double> cofactors_of(const CircleClosureMeasurement& m) {
     }
     MatrixXd inverse =
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+    // In the two directions of the datum the eigenvalue is the weight that was put there: what it makes of the inverse
+    // is no variance.
     inverse -= datum / weight;
     return {0.5 * (inverse + inverse.transpose()), most / least};
 }
@@ -224,6 +230,7 @@ std::optional<ClosureTest> misfit_of(const CircleClosureMeasurement& m, const Ci
 
 void fill_scatter(const CircleClosureMeasurement& m, CircleClosureSolution& solution) {
     // N readings, less a zero (and a slope) a series, less T and P with n − 1 free deviations each.
+    // One sum of T and one of P is fixed by the datum.
     const double own = static_cast<double>(m.series.size()) * (m.removes_drift ? 2.0 : 1.0);
     solution.degrees_of_freedom =
         static_cast<double>(m.readings.size()) - own - 2.0 * (static_cast<double>(m.steps) - 1.0);
@@ -248,6 +255,7 @@ void fill_scatter(const CircleClosureMeasurement& m, CircleClosureSolution& solu
     for (const ClosureReading& reading : m.readings) {
         largest = std::max(largest, std::abs(reading.value));
     }
+    // Residuals of pure rounding would give an uncertainty of 10⁻¹² of the readings, which no instrument has.
     constexpr double k_rounding = 1e-12;  // of the readings
     if (!has_scatter || !(solution.u_reading > k_rounding * largest)) {
         throw gum::NoResultError(gum::Diagnostic{
@@ -267,6 +275,8 @@ double range_of(const VectorXd& values, Index first, Index count) {
 }  // namespace
 
 std::size_t common_divisor(const CircleClosureMeasurement& m) {
+    // Positions whose differences all have a divisor g with n never bring sides together that lie less than g apart:
+    // deviations that repeat g times a turn look alike in all of them.
     std::size_t divisor = m.steps;
     for (const ClosureSeries& series : m.series) {
         const std::size_t first = m.series.front().position;
@@ -280,6 +290,8 @@ CircleClosureSolution solve_circle_closure(const CircleClosureMeasurement& m) {
     auto [cofactors, condition] = cofactors_of(m);
     solution.cofactors = std::move(cofactors);
     solution.condition_number = condition;
+    // The solution as a matrix, not only as values: uncertainties, effects and residuals all need how each reading
+    // acts.
     solution.from_readings.resize(at(2 * m.steps), at(m.readings.size()));
     VectorXd values(at(m.readings.size()));
     for (std::size_t r = 0; r < m.readings.size(); ++r) {
@@ -319,6 +331,8 @@ CircleClosureModel::CircleClosureModel(const CircleClosureMeasurement& m,
         }
         group.covariance = MatrixXd::Constant(basis_, 1, variance);
     } else {
+        // The readings share one s. Drawn one by one, each with a t of its own, they would give deviations with lighter
+        // tails than one variance has (ADR 0033): so the deviations are drawn together.
         from_basis_ = MatrixXd::Identity(basis_, basis_);
         group.value = solved.deviations;
         group.covariance = variance * solved.cofactors;
@@ -355,6 +369,8 @@ void CircleClosureModel::add_effects(const CircleClosureMeasurement& m) {
         } else if (effect.pattern == ClosurePattern::step || effect.pattern == ClosurePattern::side) {
             count = steps_;
         } else if (effect.pattern == ClosurePattern::once_per_turn) {
+            // The phase of an eccentricity is not known. Cosine and sine of one amplitude have a sum whose uncertainty
+            // is the same at every angle.
             count = 2;
         }
         if (effect.pattern == ClosurePattern::scale) {
@@ -386,6 +402,7 @@ void CircleClosureModel::add_effects(const CircleClosureMeasurement& m) {
                                        ? solution_->from_readings
                                        : MatrixXd(solution_->from_readings * pattern);
             for (Index c = 0; c < count; ++c) {
+                // An effect is in the readings; correcting for it takes it off.
                 columns.emplace_back(-moved.col(c));
                 additive_.push_back(next + c);
             }
@@ -421,6 +438,8 @@ void CircleClosureModel::evaluate_trials(const Eigen::Ref<const MatrixXd>& x, Ei
     for (const Index scale : scales_) {
         factor += x.col(scale);
     }
+    // A scale acts on deviations as a factor, hence on what the readings give and not on the corrections of other
+    // effects.
     MatrixXd deviations = x.leftCols(basis_) * from_basis_.transpose();
     deviations.array().colwise() *= factor.array();
     if (!additive_.empty()) {

@@ -118,8 +118,10 @@ public:
     /// \param damping  rows that pull the step to zero are added: √damping times scale, one a parameter
     explicit Factorisation(const Matrix& design, Real damping = 0.0L, const Vector& damping_scale = {})
         : rows_(design.rows()), scale_(design.colwise().norm()) {
+        // A column of zeros stays one: its parameter is named later as not determined.
         scale_ = (scale_.array() > 0.0L).select(scale_, 1.0L).eval();
         if (damping > 0.0L) {
+            // A damped column has the length of its derivatives or that of its damping, whichever is larger.
             scale_ = scale_.cwiseMax(std::sqrt(damping) * damping_scale).eval();
             Matrix extended(rows_ + design.cols(), design.cols());
             extended.topRows(rows_) = design;
@@ -137,6 +139,7 @@ public:
         Vector right = Vector::Zero(scaled_.rows());
         right.head(rows_) = residual;
         Vector step = qr_.solve(right);
+        // One step of refinement makes good what the factorisation lost by rounding.
         step += qr_.solve(Vector(right - scaled_ * step));
         return step.cwiseQuotient(scale_);
     }
@@ -150,6 +153,8 @@ public:
     }
 
     /// (JᵀJ)⁻¹
+    // From R⁻¹ of the factorisation. JᵀJ would square the condition number, and half the digits would be gone before
+    // the inversion.
     [[nodiscard]] Matrix cofactor() const {
         const Eigen::Index p = scaled_.cols();
         Matrix inverse = Matrix::Identity(p, p);
@@ -241,6 +246,7 @@ public:
                 x[0] = state.abscissae[i];
             }
             const double value = curve_.evaluate(x, state.parameters, by_parameter, by_x);
+            // A search meets such a point as a wall: the step is refused and shortened.
             if (!std::isfinite(value) || !by_parameter.allFinite() || (uncertain_x() && !by_x.allFinite())) {
                 return result;
             }
@@ -254,6 +260,8 @@ public:
         result.sum = white.squaredNorm();
         result.reduced = result.residual;
         result.spread = y_spread_;
+        // Errors in both variables: linearised about ξ, y − f(ξ) − F (x − ξ) has the covariance V_y + F V_x Fᵀ. So n
+        // further unknowns are eliminated, and the system stays of the size of p.
         if (uncertain_x()) {
             const Vector shift = data_.x.col(0).cast<Real>() - state.abscissae.cast<Real>();
             result.sum += x_spread_->whitened(shift).squaredNorm();
@@ -262,6 +270,8 @@ public:
         }
         result.design = result.spread.whitened(result.by_parameter);
         result.right = result.spread.whitened(result.reduced);
+        // What a computation in double can tell at all: 4 ε of the terms that the residuals are differences of. A step
+        // that is shorter means nothing.
         const Vector magnitude =
             y_.cwiseAbs() + result.by_parameter.cwiseAbs() * state.parameters.cast<Real>().cwiseAbs();
         result.rounding = result.spread.whitened(magnitude).norm();
@@ -276,6 +286,8 @@ public:
 
     /// Columns of the design that are powers of the only regressor, again from its decimal digits.
     /// \pre exact x
+    // With powers of the doubles 7.6 digits of the NIST set Filip are left, because its data are decimal numbers
+    // (docs/accuracy.md#fits-of-curves).
     void sharpen_powers(Linearised& at) const {
         if (data_.x.cols() != 1) {
             return;
@@ -285,6 +297,8 @@ public:
         for (Eigen::Index j = 0; j < p_; ++j) {
             Vector power = Vector::Ones(n_);
             for (int k = 0; k <= k_highest_power; ++k) {
+                // A column counts as a power of x where it is one within its rounding to double. So no curve has to say
+                // what it is made of.
                 const Vector difference = (at.by_parameter.col(j) - power).cwiseAbs();
                 const Real rounding = 2.0L * static_cast<Real>(k + 1) * k_double_epsilon;
                 if ((difference.array() <= rounding * power.cwiseAbs().array()).all()) {
@@ -337,6 +351,8 @@ public:
         while (at.finite && iterations < k_descent_iterations && damping < 1e24L) {
             ++iterations;
             const Vector length = at.design.colwise().norm().transpose();
+            // Scaled by the longest column met, a parameter whose derivative fades away far from the minimum gets no
+            // long steps.
             scale = longest ? Vector(scale.cwiseMax(length)) : length;
             const Vector safe = (scale.array() > 0.0L).select(scale, 1.0L);
             Step trial = step(state, at, damping, safe);
@@ -379,6 +395,7 @@ public:
         Vector scale = attempt.at.design.colwise().norm().transpose();
         scale = (scale.array() > 0.0L).select(scale, 1.0L).eval();
         attempt.offset = step(attempt.state, attempt.at, 0.0L, scale).length;
+        // Converged is what moves no parameter by more than a part of its standard uncertainty, or what rounding hides.
         const auto reached = [&](Real wanted) {
             return attempt.offset <= std::max(wanted * spread_of(attempt.at.sum), attempt.at.rounding);
         };
@@ -396,10 +413,13 @@ public:
                     continue;
                 }
                 Linearised there = linearise(next);
+                // Near the minimum the sum may grow by its rounding although the step is right.
                 if (!there.finite || there.sum > attempt.at.sum * (1.0L + 1e-9L) + there.rounding * there.rounding) {
                     continue;
                 }
                 const Real offset = step(next, there, 0.0L, scale).length;
+                // An undamped step has to gain a tenth: near the minimum it gains much more. A smaller gain is no
+                // convergence.
                 if (offset < (damping == 0.0L ? 0.9L : 0.999L) * attempt.offset) {
                     attempt.state = next;
                     attempt.at = std::move(there);
@@ -488,6 +508,7 @@ int search(const Problem& problem, State& state, ceres::TrustRegionStrategyType 
     Eigen::VectorXd scale(problem.p());
     for (Eigen::Index k = 0; k < scale.size(); ++k) {
         const Real norm = at.design.col(k).norm() / divisor;
+        // A parameter without an effect at the start has no length of its own: its size stands in.
         scale[k] = norm > 0.0L ? static_cast<double>(1.0L / norm) : std::max(1.0, std::abs(state.parameters[k]));
     }
     if (!scale.allFinite() || !(scale.minCoeff() > 0.0)) {
@@ -530,6 +551,8 @@ int search(const Problem& problem, State& state, ceres::TrustRegionStrategyType 
 std::vector<Attempt> search_all(const Problem& problem, const Eigen::VectorXd& start) {
     std::vector<Attempt> attempts;
     const auto add = [&](const State& state, int iterations) {
+        // Whether a search has converged is judged by the next step of the polish, not by the solver, whose tolerances
+        // look at the sum of squares.
         Attempt attempt = problem.polish(state);
         attempt.iterations += iterations;
         if (attempt.at.finite) {
@@ -604,11 +627,13 @@ void require_rank(const Linearised& at, const std::vector<std::string>& names) {
 
 /// The lowest minimum of the attempts.
 Attempt best_of(std::vector<Attempt> attempts, const std::vector<std::string>& names, bool& several_minima) {
+    // Two answers are looked for: the lowest minimum that was reached, and the lowest sum that was met at all.
     const Attempt* lowest = nullptr;
     const Attempt* best = nullptr;
     int iterations = 0;
     for (const Attempt& attempt : attempts) {
         iterations += attempt.iterations;
+        // Also of searches that did not converge: one that went below all minima shows that none of them is the lowest.
         if (lowest == nullptr || attempt.at.sum < lowest->at.sum) {
             lowest = &attempt;
         }
@@ -647,6 +672,7 @@ Attempt best_of(std::vector<Attempt> attempts, const std::vector<std::string>& n
                        "Give start values nearer to the solution, or a curve with fewer parameters."));
     }
     several_minima = false;
+    // A valley in which the curve no longer depends on a parameter is no minimum of its own.
     for (const Attempt& attempt : attempts) {
         several_minima =
             several_minima || (attempt.converged && above(attempt, *best) && not_determined(attempt.at, names).empty());
@@ -683,6 +709,7 @@ public:
             add("GC-FIT-0007", "uncertainty of x", "stated, but the uncertainty of y is not",
                 "errors in both variables are weighed against each other", "State the uncertainty of y too.");
         }
+        // s² is a sum over n − p: with n = p nothing scatters.
         const bool scaled = data.scale_by_residuals || data.y_uncertainty.size() == 0;
         if (p > 0 && n_ < p + (scaled ? 1 : 0)) {
             add("GC-FIT-0003", "curve fit", std::to_string(n_) + " points for " + std::to_string(p) + " parameters",
@@ -756,6 +783,7 @@ private:
             add("GC-FIT-0005", name, "a covariance is not a finite number", "must be finite", "Correct the matrix.");
             return;
         }
+        // As correlations, so that points of very different uncertainty are judged alike.
         const Eigen::VectorXd scale = values.diagonal().cwiseSqrt().cwiseInverse();
         const Eigen::MatrixXd correlation = scale.asDiagonal() * values * scale.asDiagonal();
         if ((correlation - correlation.transpose()).cwiseAbs().maxCoeff() > 1e-10) {
@@ -765,6 +793,7 @@ private:
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
         const double smallest = eigen.eigenvalues()[0];
+        // With r = ±1 the difference of two points would be known exactly and have an infinite weight.
         if (!(smallest > 1e-13 * static_cast<double>(n_))) {
             add("GC-FIT-0005", name,
                 "the covariance matrix is not positive definite: smallest eigenvalue of its correlations " +
@@ -826,9 +855,13 @@ LinearSolution solve_linear(const Problem& problem, const std::vector<std::strin
     if (!there.finite) {
         refuse_not_finite("the solution");
     }
+    // Residuals with the parameters in long double: rounded to double, those of an ill-conditioned polynomial would
+    // show the rounding of the parameters.
     solution.at.residual -= solution.at.by_parameter * solution.parameters;
     solution.at.right -= solution.at.design * solution.parameters;
     solution.at.sum = solution.at.right.squaredNorm();
+    // A curve that is linear has the residuals that its derivatives at 0 predict, but for rounding; a factor of 10⁶ of
+    // that is no rounding any more.
     if ((there.right - solution.at.right).norm() > 1e6L * (there.rounding + solution.at.rounding)) {
         throw gum::NoResultError(diagnostic("GC-FIT-0014", "curve fit",
                                             "the curve was said to be linear in its parameters, but is not",
@@ -925,6 +958,7 @@ CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::Vecto
     if (data.x_uncertainty.size() != 0) {
         by_x = covariance_by_x(at, covariance, spread_of(data.x_uncertainty, n));
     }
+    // The stated uncertainties are weights only, known up to a factor: s² of the residuals is its estimate.
     if (fit.covariance_scaled) {
         const Real factor = at.sum / static_cast<Real>(n - p);
         covariance *= factor;
@@ -933,6 +967,8 @@ CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::Vecto
     fit.covariance = covariance.cast<double>();
     fit.covariance_by_x = by_x.cast<double>();
     if (data.x_uncertainty.size() == 0) {
+        // TSS about the mean only where the curve has an intercept; else R² would compare with a curve that it does not
+        // hold.
         const Real total = total_sum(exact, has_intercept);
         if (total > 0.0L) {
             fit.r_squared = static_cast<double>(1.0L - at.sum / total);

@@ -65,6 +65,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
     std::vector<Adjustment::BlockId> constant_block;
     for (std::size_t i = 0; i < constants; ++i) {
         constant_block.push_back(
+            // Constants act linearly: any start value does, and 0 is that of an instrument without one.
             adjustment.add_parameters({"additive constant " + std::to_string(i + 1)}, Eigen::VectorXd::Zero(1)));
     }
     const auto with_constant = std::make_shared<DistanceModel>(true);
@@ -123,6 +124,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
         solution.joint_covariance = Eigen::MatrixXd::Zero(size, size);
         for (std::size_t i = 0; i < points.size(); ++i) {
             for (std::size_t k = 0; k < points.size(); ++k) {
+                // A fixed point has no columns: it is exact by definition, and its rows and columns stay 0.
                 if (!points[i].fixed && !points[k].fixed) {
                     solution.joint_covariance.block<3, 3>(static_cast<Eigen::Index>(3 * i),
                                                           static_cast<Eigen::Index>(3 * k)) =
@@ -146,6 +148,7 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
         const LinearisedGroup& group = normal.groups()[i];
         const auto size = static_cast<Eigen::Index>(group.columns.size());
         // r = 1 − J̃ C J̃ᵀ of a whitened distance, w = v/(σ √r), smallest bias that is found δ0 σ/√r (Baarda 1968).
+        // Of a point that three distances give, each has the leverage 1.
         double leverage = 0.0;
         for (Eigen::Index a = 0; a < size; ++a) {
             for (Eigen::Index b = 0; b < size; ++b) {
@@ -157,6 +160,8 @@ NetworkSolution adjust_distance_network(const std::vector<NetworkPoint>& points,
         NetworkReliability row;
         row.redundancy_number = 1.0 - leverage;
         row.residual = -group.residual[0] * distances[i].u;
+        // A distance that no other one controls has the redundancy 0: its error goes into the coordinates unseen, and a
+        // test value would be 0/0.
         if (row.redundancy_number > k_least_redundancy) {
             const double root = std::sqrt(row.redundancy_number);
             row.test_value = -group.residual[0] / root;

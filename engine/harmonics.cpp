@@ -53,11 +53,15 @@ int resolved_orders(const Eigen::Ref<const VectorXd>& angles, int most) {
 HarmonicAnalysis analyse_harmonics(const Eigen::Ref<const VectorXd>& angles, const Eigen::Ref<const VectorXd>& values,
                                    const std::function<MatrixXd(const MatrixXd&)>& covariance_of, int orders) {
     const MatrixXd columns = design(angles, orders);
+    // By an orthogonal factorisation: for unequal steps cosines and sines are not orthogonal, and the sums of the
+    // discrete Fourier transform would mix the orders.
     const Eigen::HouseholderQR<MatrixXd> factor(columns);
     const MatrixXd basis = factor.householderQ() * MatrixXd::Identity(angles.size(), columns.cols());
     const auto triangle = factor.matrixQR().topRows(columns.cols()).triangularView<Eigen::Upper>();
     const MatrixXd gain = triangle.solve(basis.transpose());  // (2 orders + 1)×n
     const VectorXd coefficients = gain * values;
+    // The coefficients are linear in the values: their covariance is that of the same combinations, with all
+    // correlations between the angles.
     const MatrixXd spread = covariance_of(gain);
     HarmonicAnalysis result;
     result.mean = coefficients[0];
@@ -65,6 +69,7 @@ HarmonicAnalysis analyse_harmonics(const Eigen::Ref<const VectorXd>& angles, con
     for (int k = 1; k <= orders; ++k) {
         const double a = coefficients[2 * k - 1];
         const double b = coefficients[2 * k];
+        // The phase of A cos(kθ − φ): of b over a.
         const double phase = std::atan2(b, a);
         result.orders.push_back(
             {.order = k,

@@ -63,6 +63,7 @@ Sample sample_of(const std::vector<double>& values, Real centre) {
 Sample pooled_of(std::span<const Sample> samples) {
     Sample pooled;
     for (const Sample& sample : samples) {
+        // Samples carry their size: of groups of different sizes each observation counts the same, not each group.
         pooled.size += sample.size;
     }
     for (const Sample& sample : samples) {
@@ -104,6 +105,8 @@ VarianceRatio ratio_of(const ExactLine& upper, const ExactLine& lower, double al
     VarianceRatio ratio;
     ratio.numerator_degrees_of_freedom = static_cast<double>(upper.degrees_of_freedom);
     ratio.denominator_degrees_of_freedom = static_cast<double>(lower.degrees_of_freedom);
+    // The lower line is the measure of what chance does. It may be 0 where readings are rounded to a coarse step and
+    // all readings of a group are equal.
     if (lower.mean_square() > 0.0L) {
         ratio.f = static_cast<double>(upper.mean_square() / lower.mean_square());
     } else {
@@ -138,6 +141,7 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     const auto j = static_cast<Real>(samples.size());
     const Sample pooled = pooled_of(samples);
     const Real n = pooled.size;
+    // J groups of one reading each leave N − J = 0 degrees of freedom: there is no scatter within them to test against.
     if (!(n > j)) {
         refuse("GC-GUM-0072", "analysis of variance", "every group has a single observation",
                "the scatter within groups is needed to judge the scatter between them",
@@ -155,6 +159,8 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
         squared_sizes += sample.size * sample.size;
     }
     Real spread_of_means = 0.0L;
+    // Each group counts once here, whatever its size: with an effect between groups it is the groups that are the
+    // sample, and J − 1 the degrees of freedom. Of balanced groups it is √(MS_between / K).
     for (const Sample& sample : samples) {
         spread_of_means += (sample.mean - mean_of_means) * (sample.mean - mean_of_means);
     }
@@ -187,6 +193,8 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
     result.r_squared = static_cast<double>(between.sum_of_squares / total.sum_of_squares);
     result.mean = static_cast<double>(centre + pooled.mean);
     result.mean_of_group_means = static_cast<double>(centre + mean_of_means);
+    // With an effect between groups, more readings in a group do not make the mean better known: only the J group means
+    // are independent of each other. Dividing by √N there would understate u.
     const Real of_means = root_of_square(spread_of_means / (j - 1.0L));
     result.standard_deviation_of_group_means = static_cast<double>(of_means);
     result.between_estimate = static_cast<double>(root_of_square(between.mean_square()));
@@ -199,6 +207,8 @@ OneWayAnalysis analyse(std::span<const Sample> samples, Real centre, double alph
         static_cast<double>(root_of_square((between.mean_square() - within.mean_square()) / effective_size));
     result.u_with_between_effect = static_cast<double>(of_means / std::sqrt(j));
     result.u_with_between_effect_degrees_of_freedom = static_cast<double>(j - 1.0L);
+    // Without an effect all N readings are one sample: the total line, with N − 1 degrees of freedom, is the best
+    // estimate of its variance.
     result.u_without_between_effect = static_cast<double>(root_of_square(total.mean_square() / n));
     result.u_without_between_effect_degrees_of_freedom = static_cast<double>(n - 1.0L);
     return result;
@@ -222,6 +232,7 @@ OneWayAnalysis one_way_analysis(std::span<const std::vector<double>> groups, dou
             require_finite(groups[j][k], "group " + std::to_string(j + 1) + ", observation " + std::to_string(k + 1));
         }
     }
+    // One observation is as good a centre as any. It takes off the digits that all have in common without rounding.
     const Real centre = groups[0][0];
     std::vector<Sample> samples;
     for (const std::vector<double>& group : groups) {
@@ -258,6 +269,7 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
     result.groups = readings.size();
     result.subgroups = readings.empty() ? 0 : readings[0].size();
     result.readings = result.subgroups == 0 ? 0 : readings[0][0].size();
+    // The expectations of the mean squares, on which the tests and the differences rest, are those of equal numbers.
     bool even = true;
     for (const auto& group : readings) {
         even = even && group.size() == result.subgroups;
@@ -299,6 +311,8 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
         subgroups.sum_of_squares += group_samples.back().sum_of_squares;
     }
     const Sample pooled = pooled_of(group_samples);
+    // The groups are compared by their means about the mean of all: J K readings stand behind each, which pooled_of()
+    // puts into the sum of squares.
     groups.sum_of_squares = pooled.sum_of_squares;
     const auto total = static_cast<double>(groups.sum_of_squares + subgroups.sum_of_squares + within.sum_of_squares);
     if (!std::isfinite(total)) {
@@ -311,6 +325,7 @@ NestedAnalysis nested_analysis(std::span<const std::vector<std::vector<double>>>
     result.mean = static_cast<double>(centre + pooled.mean);
     result.between_groups = groups.rounded();
     result.between_subgroups = subgroups.rounded();
+    // Days are tested against set-ups, not against readings: set-ups that differ would make days look different, too.
     result.within_subgroups = within.rounded();
     result.group_ratio = ratio_of(groups, subgroups, alpha);
     result.subgroup_ratio = ratio_of(subgroups, within, alpha);
@@ -337,6 +352,7 @@ double f_upper_tail(double f, double numerator_degrees_of_freedom, double denomi
         return 0.0;
     }
     require_not_negative(f, "F");
+    // Lower variance known: ν₁ F is χ² with ν₁ degrees of freedom.
     if (is_known) {
         return chi_square_upper_tail(numerator_degrees_of_freedom * f, numerator_degrees_of_freedom);
     }

@@ -37,6 +37,7 @@ void require_positive(double value, const std::string& name) {
 }
 
 void require_probability(double value, const std::string& name) {
+    // Both ends excluded, because a quantile may be infinite there; and written so that a NaN is refused.
     if (!(value > 0.0 && value < 1.0)) {
         refuse("GC-GUM-0004", name, text::shortest(value), "must lie between 0 and 1, both excluded",
                "State it as a fraction, e.g. 0.9545 for 95.45 %.");
@@ -45,6 +46,7 @@ void require_probability(double value, const std::string& name) {
 
 void require_degrees_of_freedom(double value, const std::string& name) {
     if (!(value > 0.0)) {
+        // Infinity stands for a variance that is known.
         refuse("GC-GUM-0005", name, text::shortest(value), "degrees of freedom must be greater than 0 or infinite",
                "Correct the value, or leave it out where it is infinite.");
     }

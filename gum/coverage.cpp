@@ -39,6 +39,7 @@ double coverage_factor(double coverage_probability, double degrees_of_freedom) {
     if (std::isinf(degrees_of_freedom)) {
         return boost::math::quantile(boost::math::complement(NormalDistribution(), tail));
     }
+    // ν as it is: the table of the GUM has whole numbers because it is a table.
     double k = std::numeric_limits<double>::infinity();
     try {
         k = boost::math::quantile(boost::math::complement(StudentDistribution(degrees_of_freedom), tail));
@@ -85,6 +86,7 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
 double effective_degrees_of_freedom(std::span<const UncertaintyContribution> contributions) {
     double largest = 0.0;
     for (const UncertaintyContribution& contribution : contributions) {
+        // A contribution counts by |c| u, so its sign has been lost before: a negative one is a mistake of the caller.
         require_not_negative(contribution.uncertainty, "uncertainty contribution");
         require_degrees_of_freedom(contribution.degrees_of_freedom, "degrees of freedom of a contribution");
         largest = std::max(largest, contribution.uncertainty);
@@ -125,6 +127,7 @@ double standard_normal_quantile(double probability) {
 
 double two_sided_normal_critical_value(double alpha) {
     require_probability(alpha, "alpha");
+    // α/2 from above: 1 − α/2 would round a small α away.
     return boost::math::quantile(boost::math::complement(NormalDistribution(), alpha / 2.0));
 }
 

@@ -62,8 +62,10 @@ double inverse_curved_tail(double value) {
     // Newton steps from there go down to the root and never pass it.
     double e = std::min(std::sqrt(2.0 * value), 1.0);
     for (int step = 0; step < 60; ++step) {
+        // h′(e) = −ln(1 − e) is infinite at e = 1; the last double below 1 keeps the step finite.
         const double slope = -std::log1p(-std::min(e, 1.0 - 1e-16));
         const double next = e - (curved_tail(e) - value) / slope;
+        // For the value 0 numerator and slope are both 0 and the quotient is NaN: e = 0 is the root then.
         if (!(next > 0.0)) {
             return e;
         }
@@ -80,6 +82,7 @@ double symmetric_tail(const Distribution& distribution, double s) {
     const double shape = distribution.shape;
     switch (distribution.kind) {
         case DistributionKind::normal:
+            // erfc and not 1 − erf, which has no digits left from 6 standard deviations on.
             return 0.5 * std::erfc(s / std::numbers::sqrt2);
         case DistributionKind::uniform:
             return s < 1.0 ? 0.5 * (1.0 - s) : 0.0;
@@ -91,6 +94,7 @@ double symmetric_tail(const Distribution& distribution, double s) {
             if (s >= 1.0) {
                 return 0.0;
             }
+            // (1 − β)(1 + β), not 1 − β²: where the trapezoid is nearly a rectangle the square would cancel.
             return s < shape ? 0.5 - s / (1.0 + shape) : 0.5 * (1.0 - s) * (1.0 - s) / ((1.0 - shape) * (1.0 + shape));
         case DistributionKind::curvilinear_trapezoid: {
             const double limit = 1.0 + shape;
@@ -179,6 +183,8 @@ bool standard_is_symmetric(DistributionKind kind) {
 /// P(S ≤ s), or P(S > s) for `upper`.
 double standard_tail(const Distribution& distribution, double s, bool upper) {
     if (standard_is_symmetric(distribution.kind)) {
+        // The half on the side of s is the small one. The other one is 1 minus it and loses nothing, being 1/2 at
+        // least.
         if (std::isinf(s)) {
             return (s > 0.0) == upper ? 0.0 : 1.0;
         }
@@ -219,6 +225,7 @@ double standard_tail(const Distribution& distribution, double s, bool upper) {
             break;
     }
     const std::vector<double>& samples = *distribution.samples;
+    // Equal samples all count on the side of "≤ s": P(X ≤ s) and P(X > s) then add up to 1.
     const auto first_above = std::upper_bound(samples.begin(), samples.end(), s);
     const auto count = upper ? samples.end() - first_above : first_above - samples.begin();
     return static_cast<double>(count) / static_cast<double>(samples.size());
@@ -227,10 +234,12 @@ double standard_tail(const Distribution& distribution, double s, bool upper) {
 /// The s with P(S ≤ s) = q, or with P(S > s) = q for `upper`.
 double standard_quantile(const Distribution& distribution, double q, bool upper) {
     if (standard_is_symmetric(distribution.kind)) {
+        // 1 − q is exact in double for q from 1/2 to 1: the upper half is the mirror of the lower one without a loss.
         const double s = q <= 0.5 ? symmetric_quantile(distribution, q) : -symmetric_quantile(distribution, 1.0 - q);
         return upper ? s : -s;
     }
     const double shape = distribution.shape;
+    // q = 0 and q = 1 are the limits of the distribution, which no iteration of the library has to find.
     const double lower_limit = q == (upper ? 1.0 : 0.0) ? 1.0 : 0.0;
     const double upper_limit = q == (upper ? 0.0 : 1.0) ? 1.0 : 0.0;
     switch (distribution.kind) {
@@ -278,6 +287,8 @@ double standard_density(const Distribution& distribution, double s) {
         case DistributionKind::triangular:
             return size < 1.0 ? 1.0 - size : 0.0;
         case DistributionKind::arcsine:
+            // (1 − s)(1 + s) keeps its digits at the limits, where the density becomes infinite and 1 − s² would
+            // cancel.
             return size <= 1.0 ? 1.0 / (k_pi * std::sqrt((1.0 - size) * (1.0 + size))) : 0.0;
         case DistributionKind::trapezoidal: {
             if (size > 1.0) {
@@ -289,6 +300,7 @@ double standard_density(const Distribution& distribution, double s) {
             if (shape < 1e-7) {
                 return size <= 1.0 ? 0.5 : 0.0;
             }
+            // The innermost part is flat: there the logarithm is that of (1 + r)/(1 − r), whatever s is.
             return size < 1.0 + shape ? std::log((1.0 + shape) / std::max(1.0 - shape, size)) / (4.0 * shape) : 0.0;
         case DistributionKind::student_t:
             return std::isinf(s) ? 0.0 : bm::pdf(StudentT(shape), s);
@@ -305,6 +317,7 @@ double standard_density(const Distribution& distribution, double s) {
             if (s < 0.0 || std::isinf(s)) {
                 return 0.0;
             }
+            // At its limit the density is infinite, 0 or finite: with the shape below, above or equal to 1.
             if (s == 0.0) {
                 return shape < 1.0 ? k_infinity : (shape > 1.0 ? 0.0 : 1.0);
             }
@@ -347,6 +360,7 @@ double location_and_scale(const Distribution& distribution, double s) {
 
 double standardised(const Distribution& distribution, double x) {
     const double difference = x - distribution.location;
+    // A constant has no scale to divide by: only the sign of the difference counts.
     return distribution.kind == DistributionKind::constant ? difference : difference / distribution.scale;
 }
 
@@ -392,6 +406,7 @@ std::string distribution_problem(const Distribution& distribution) {
             if (!std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); })) {
                 return "a sample that is not finite; samples must be finite";
             }
+            // Tails are counted and quantiles looked up by place.
             return std::is_sorted(samples.begin(), samples.end()) ? "" : "samples not in ascending order";
         }
         default:

@@ -46,6 +46,8 @@ std::vector<ProbedGroup> probed_groups(const MeasurementModel& model) {
         } else {
             probed.covariance = group.covariance;
             const Eigen::VectorXd u = group.covariance.diagonal().cwiseSqrt();
+            // Eigenvectors, not Cholesky: a group with r = ±1 is singular and still has to be probed. Scaled to
+            // correlations first, so that quantities of very different size keep their digits.
             const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_matrix(group.covariance));
             probed.root =
                 u.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -72,6 +74,8 @@ void keep_inside(Eigen::Ref<Eigen::RowVectorXd> point, const std::vector<ProbedG
     for (const ProbedGroup& group : groups) {
         for (std::size_t i = 0; i < group.limits.size(); ++i) {
             double& x = point(group.first + static_cast<Eigen::Index>(i));
+            // A point outside of the limits never occurs: the model may have no value there, and curvature there says
+            // nothing.
             x = std::min(std::max(x, group.limits[i].low), group.limits[i].high);
         }
     }
@@ -91,9 +95,13 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd& x, const std::vector<Pro
             for (Eigen::Index i = 0; i < size; ++i) {
                 const double r =
                     std::max(scattered(number, static_cast<std::uint64_t>(group.first + i)), k_least_number);
+                // Limits of correlated quantities bound a body that a product of intervals does not describe; these are
+                // probed as normal ones.
                 const bool is_bounded = group.root.isDiagonal() && static_cast<std::size_t>(i) < group.limits.size() &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].low) &&
                                         std::isfinite(group.limits[static_cast<std::size_t>(i)].high);
+                // r is even on −1 … 1. √3 r has the variance 1 of a uniform quantity, √2 erf⁻¹(r) is the quantile of a
+                // normal one.
                 s(i) = is_bounded ? std::numbers::sqrt3 * r : std::numbers::sqrt2 * boost::math::erf_inv(r, InDouble());
             }
             const Eigen::RowVectorXd off = (group.root * s).transpose();
@@ -126,6 +134,8 @@ double moved_ends(const Eigen::VectorXd& values, const Eigen::VectorXd& tangent,
     if (f.size() <= 2 * beyond) {
         return 0.0;
     }
+    // Model and tangent are sorted each for itself: what is reported are the ends of an interval, and which trial
+    // stands at an end is of no interest. A bend that maps points onto each other may leave the ends where they are.
     std::sort(f.begin(), f.end());
     std::sort(t.begin(), t.end());
     const std::size_t last = f.size() - 1 - beyond;
@@ -147,6 +157,7 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
 
     // Model against tangent at points that come in pairs x ± δ, scattered with the covariance of the inputs, and along
     // the direction in which each output moves most. The same points every time: a verdict must not depend on luck.
+    // Second derivatives at one point would see neither a kink inside of ±U nor x³ at 0.
     Eigen::MatrixXd points = x.transpose().replicate(2 * k_pairs + 4 * m, 1);
     for (Eigen::Index pair = 0; pair < k_pairs; ++pair) {
         Eigen::VectorXd s(n);
@@ -165,6 +176,8 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         if (!(u > 0.0)) {
             continue;
         }
+        // Along V cᵀ/u the tangent moves by just u for one step. It is the most probable way, for normal inputs, to
+        // have moved by so much.
         const std::array<double, 4> steps{-factor(k), -1.0, 1.0, factor(k)};
         for (const ProbedGroup& group : groups) {
             const Eigen::Index size = group.root.rows();
@@ -183,6 +196,7 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
     }
     Eigen::MatrixXd y(points.rows(), m);
     model.evaluate_trials(points, y);
+    // The tangent at the points as they are after the limits: what a limit cuts off is no curvature.
     const Eigen::MatrixXd tangent = ((points.rowwise() - x.transpose()) * propagation.jacobian.transpose()).rowwise() +
                                     propagation.value.transpose();
 
@@ -209,6 +223,8 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         double of_tangent = 0.0;
         double count = 0.0;
         for (Eigen::Index row = 0; row < 2 * k_pairs; row += 2) {
+            // Pairs x ± δ count only with both points. In the mean of a pair all odd terms cancel, the tangent first of
+            // all; a single point would leave its own.
             if (!std::isfinite(y(row, k)) || !std::isfinite(y(row + 1, k))) {
                 continue;
             }
@@ -225,6 +241,8 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
             mean /= count;
             const double rms = std::sqrt(square / count);
             check.spread = std::sqrt(of_model / count);
+            // The dispersion of f is taken about its own mean, that of the tangent about y: a shift of the mean is
+            // judged by itself, and is no dispersion.
             const double variance = std::max(0.0, of_model / count - mean * mean);
             const double ratio = of_tangent > 0.0 ? std::sqrt(variance / (of_tangent / count)) : 1.0;
             check.adequate = std::abs(mean) <= k_accepted_mean * u + rounding && rms <= k_accepted_rms * u + rounding &&
@@ -236,6 +254,8 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         for (Eigen::Index s = 0; s < 4; ++s) {
             const Eigen::Index row = 2 * k_pairs + 4 * k + s;
             const double residual = y(row, k) - tangent(row, k);
+            // An end where the model has no value lies outside of its domain: an interval ±U reaches where no measurand
+            // is.
             if (!std::isfinite(residual)) {
                 check.end_deviation = std::numeric_limits<double>::infinity();
             } else {
@@ -258,6 +278,8 @@ double linear_skewness(const MeasurementModel& model, const Propagation& propaga
     double sum = 0.0;
     Eigen::Index column = 0;
     for (const InputGroup& group : model.inputs()) {
+        // Symmetric inputs have the skewness 0. Of correlated ones the joint third moments are not known: only inputs
+        // of their own count.
         if (group.marginals.size() == 1 && !is_symmetric(group.marginals.front())) {
             // Third cumulants of independent inputs add up: γ(y) = Σ (c u/u(y))³ γ_i.
             const double part = propagation.jacobian(output, column) * std::sqrt(group.covariance(0, 0)) / u;

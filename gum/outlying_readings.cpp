@@ -10,6 +10,7 @@ namespace gumcert::gum {
 
 namespace {
 
+// The others of n readings have n − 2 degrees of freedom: below three readings there is no t to compare with.
 constexpr std::size_t k_least_readings = 3;
 constexpr std::size_t k_most_suspects = 10;
 constexpr std::size_t k_readings_a_suspect = 5;
@@ -20,6 +21,8 @@ struct Others {
     double mean = 0.0, standard_deviation = 0.0;
 };
 
+// Without the suspect, because an outlier makes the standard deviation of all so large that it may hide itself. The
+// first of the others is taken off before summing: common digits do not cost any.
 Others others_of(const std::vector<double>& readings, std::size_t suspect) {
     const auto m = static_cast<long double>(readings.size() - 1);
     const long double first = readings[suspect == 0 ? 1 : 0];
@@ -45,6 +48,7 @@ std::size_t farthest(const std::vector<double>& readings) {
     const long double mean = readings.front() + sum / static_cast<long double>(readings.size());
     std::size_t suspect = 0;
     for (std::size_t i = 1; i < readings.size(); ++i) {
+        // The first of equal distances, so that the result depends on nothing but the readings and their order.
         if (std::fabs(readings[i] - mean) > std::fabs(readings[suspect] - mean)) {
             suspect = i;
         }
@@ -67,6 +71,8 @@ OutlyingReading test_farthest(const std::vector<double>& readings, double least_
     }
     // With s of the others 0 and no step, the statistic is at its largest value, and the p-value 0.
     const double t = deviation / (s * std::sqrt(n / (n - 1.0)));
+    // Mean and squares of all follow from those of the others: x − x̄ = d (n − 1)/n and S = S_others + d² (n − 1)/n. G
+    // is what the tables of the test have; the p-value comes from t.
     const double all = std::sqrt(
         ((n - 2.0) * others.standard_deviation * others.standard_deviation + deviation * deviation * (n - 1.0) / n) /
         (n - 1.0));
@@ -74,6 +80,8 @@ OutlyingReading test_farthest(const std::vector<double>& readings, double least_
     using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
     const boost::math::students_t_distribution<double, InDouble> distribution(n - 2.0);
     const double tail = std::isfinite(t) ? boost::math::cdf(boost::math::complement(distribution, t)) : 0.0;
+    // The farthest of n readings was chosen after looking at them. n times the tail of one is what chance gives any of
+    // them at most (Bonferroni), and both sides count.
     tested.p_value = std::min(1.0, 2.0 * n * tail);
     return tested;
 }
@@ -86,6 +94,7 @@ double decimal_step(std::span<const double> readings) {
         const double scale = std::pow(10.0, decimals);
         const bool fits = std::all_of(readings.begin(), readings.end(), [&](double reading) {
             const double scaled = reading * scale;
+            // A decimal reading is not exact in binary: 0.3 times 10 is 3 but for its last bits.
             const double rounding = 4.0 * std::fabs(scaled) * 0x1p-52;
             return std::fabs(scaled - std::round(scaled)) <= std::max(rounding, 1e-12);
         });
@@ -111,12 +120,15 @@ std::vector<OutlyingReading> outlying_readings(std::span<const double> readings,
     if (readings.size() < k_least_readings) {
         return found;
     }
+    // The variance of a rounding step is step²/12. Where many readings are equal their scatter is below what rounding
+    // hides, and any other reading would be infinitely improbable.
     const double least_s = std::max(resolution, decimal_step(readings)) / std::sqrt(12.0);
     std::vector<double> left(readings.begin(), readings.end());
     std::vector<std::size_t> position(left.size());
     for (std::size_t i = 0; i < position.size(); ++i) {
         position[i] = i;
     }
+    // A fifth at most: where more readings disagree it cannot be told which of them are the good ones.
     const std::size_t suspects =
         std::clamp<std::size_t>(readings.size() / k_readings_a_suspect, std::size_t{1}, k_most_suspects);
     // All suspects are tested: a second outlier may hide the first one. Those before the last that is one are, too.

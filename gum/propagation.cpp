@@ -69,6 +69,8 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const Eigen::Index n = group.size();
     GroupFactor factor;
 
+    // NaN says that no degrees of freedom can be stated, and only together with the reason that a report will print.
+    // Without one it is a mistake.
     if (!(group.degrees_of_freedom > 0.0) &&
         !(std::isnan(group.degrees_of_freedom) && !group.no_degrees_of_freedom_because.empty())) {
         report("GC-GUM-0005", "degrees of freedom " + text::shortest(group.degrees_of_freedom),
@@ -96,6 +98,8 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
         return factor;
     }
     const Eigen::VectorXd variance = diagonal ? Eigen::VectorXd(V.col(0)) : Eigen::VectorXd(V.diagonal());
+    // A zero variance is a quantity that is known. A negative one has no meaning, and its root would be NaN far from
+    // here.
     for (Eigen::Index i = 0; i < n; ++i) {
         if (variance(i) < 0.0) {
             report("GC-GUM-0051", "variance of " + ordinal(i) + " is " + text::shortest(variance(i)),
@@ -112,6 +116,7 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
     const double tolerance = rounding_tolerance(n);
     for (Eigen::Index j = 0; j < n; ++j) {
         for (Eigen::Index i = j + 1; i < n; ++i) {
+            // Relative to u_i u_j, because an absolute limit would judge the same matrix differently in another unit.
             const double scale = factor.u(i) * factor.u(j);
             const double lower = V(i, j);
             const double upper = V(j, i);
@@ -131,6 +136,7 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
                        "a correlation coefficient lies between -1 and 1", "Correct the covariance.");
                 return factor;
             }
+            // A quantity of uncertainty 0 correlates with nothing; that its covariance is 0 has been asked above.
             R(i, j) = scale > 0.0 ? covariance / scale : 0.0;
             R(j, i) = R(i, j);
         }
@@ -157,6 +163,8 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
                "Correct the correlations of these quantities; they contradict each other.");
         return factor;
     }
+    // Any L with L Lᵀ = R gives the same V_y. Eigenvalues that are negative within rounding are the zeros of a singular
+    // matrix, for example of r = 1.
     factor.root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
     return factor;
 }
@@ -189,6 +197,7 @@ std::string output_place(const MeasurementModel& model, Eigen::Index output) {
 
 void require_finite_value(const MeasurementModel& model, const Eigen::VectorXd& value) {
     for (Eigen::Index i = 0; i < value.size(); ++i) {
+        // Refused here: a NaN would go through every sum below and come out as an uncertainty.
         if (!std::isfinite(value(i))) {
             no_result("GC-GUM-0055", output_place(model, i), "the model gives " + text::shortest(value(i)),
                       "a measurement model must be finite at the estimates",
@@ -221,6 +230,7 @@ void require_finite_jacobian(const MeasurementModel& model, const Eigen::MatrixX
 void divide_into_shares(BudgetContribution& contribution, const Eigen::VectorXd& total) {
     contribution.share = Eigen::VectorXd::Zero(total.size());
     for (Eigen::Index i = 0; i < total.size(); ++i) {
+        // With u(y) = 0 there is nothing to share out.
         if (total(i) > 0.0) {
             contribution.share(i) = contribution.variance(i) / total(i);
         }
@@ -233,6 +243,7 @@ std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& 
     std::vector<BudgetContribution> sources;
     std::unordered_map<std::string, std::size_t> index_of;
     for (std::size_t g = 0; g < groups.size(); ++g) {
+        // Order of first appearance, not of a hash: the same job gives the same table.
         const std::string& source = groups[g].source.empty() ? groups[g].name : groups[g].source;
         const auto [entry, is_new] = index_of.emplace(source, sources.size());
         if (is_new) {
@@ -277,9 +288,12 @@ UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::Vecto
     for (Eigen::Index i = 0; i < m; ++i) {
         bool stated = true;
         for (std::size_t g = 0; g < groups.size(); ++g) {
+            // A group enters Welch–Satterthwaite as one contribution, because the formula holds for independent ones,
+            // and the quantities in a group are not.
             contributions[g] = {.uncertainty = std::sqrt(result.budget[g].variance(i)),
                                 .degrees_of_freedom = groups[g].degrees_of_freedom};
             if (std::isnan(groups[g].degrees_of_freedom)) {
+                // A group without degrees of freedom matters only where it contributes; other outputs keep their ν_eff.
                 stated = stated && result.budget[g].variance(i) == 0.0;
                 contributions[g].degrees_of_freedom = k_infinity;
             }
@@ -323,6 +337,8 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const Eigen::Index n = groups[g].size();
         auto block = S.middleCols(first, n);
+        // First the columns of C times u, then the root of the correlation matrix: quantities of very different size
+        // are brought to the unit of y before they are mixed.
         block.array().rowwise() *= factors[g].u.transpose().array();
         if (factors[g].root) {
             const Eigen::MatrixXd product = block * *factors[g].root;
@@ -367,6 +383,7 @@ Eigen::MatrixXd input_covariance(const MeasurementModel& model, Eigen::Index n) 
 double total_variance(const Eigen::MatrixXd& V) {
     double sum = 0.0;
     for (Eigen::Index j = 0; j < V.cols(); ++j) {
+        // Var(v_ij) of a covariance matrix that is known with ν degrees of freedom is (v_ii v_jj + v_ij²)/ν.
         for (Eigen::Index i = 0; i <= j; ++i) {
             sum += V(i, i) * V(j, j) + V(i, j) * V(i, j);
         }
@@ -391,10 +408,12 @@ Eigen::VectorXd moments_beyond_normal(const MeasurementModel& model, const Propa
     std::vector<Input> inputs;
     Eigen::Index column = 0;
     for (const InputGroup& group : model.inputs()) {
+        // Only inputs of their own: the moments of correlated ones beyond the covariance are not known.
         if (group.size() == 1 && group.marginals.size() == 1 && group.covariance(0, 0) > 0.0) {
             const Distribution& marginal = group.marginals.front();
             const double skew = skewness(marginal);
             const double excess = kurtosis(marginal) - 3.0;
+            // A t has an infinite kurtosis for ν ≤ 4, hence the exception.
             if (marginal.kind != DistributionKind::student_t && std::isfinite(skew) && std::isfinite(excess) &&
                 (skew != 0.0 || excess != 0.0)) {
                 inputs.push_back({column, std::sqrt(group.covariance(0, 0)), skew, excess});
@@ -421,6 +440,8 @@ Eigen::VectorXd moments_beyond_normal(const MeasurementModel& model, const Propa
         for (Eigen::Index k = 0; k < m; ++k) {
             const double c = first_order.jacobian(k, input.column);
             const double h = H[static_cast<std::size_t>(k)](input.column, input.column);
+            // Third central difference, 2 h³ f‴. Below the rounding of the four values it is noise, and the division
+            // would make 500 times as much of it.
             double third = y(at + 3, k) - 2.0 * y(at + 2, k) + 2.0 * y(at + 1, k) - y(at, k);
             const double rounding = 32.0 * k_epsilon * y.col(k).segment(at, 4).cwiseAbs().maxCoeff();
             third = std::abs(third) > rounding ? third / (2.0 * k_step * k_step * k_step) : 0.0;  // times u³
@@ -455,6 +476,7 @@ double joint_effective_degrees_of_freedom(const MeasurementModel& model, const P
         const Eigen::Index size = group.size();
         const auto c = C.middleCols(first, size);
         first += size;
+        // A covariance that is known adds nothing to the denominator.
         if (std::isinf(group.degrees_of_freedom)) {
             continue;
         }
@@ -484,6 +506,7 @@ std::optional<SecondOrderPropagation> propagate_to_second_order(const Measuremen
     SecondOrderPropagation result{.standard_uncertainty = Eigen::VectorXd::Zero(m), .shift = Eigen::VectorXd::Zero(m)};
     const Eigen::VectorXd beyond_normal = moments_beyond_normal(model, first_order, x, H);
     for (Eigen::Index k = 0; k < m; ++k) {
+        // ½ tr(H V H V) is the variance, ½ tr(H V) the mean of the quadratic term of normal inputs, correlated or not.
         const Eigen::MatrixXd& Hk = H[static_cast<std::size_t>(k)];
         const Eigen::MatrixXd HV = Hk * V;
         const double u1 = first_order.standard_uncertainty(k);
@@ -519,6 +542,7 @@ Eigen::MatrixXd correlation_matrix(const Eigen::MatrixXd& covariance) {
     Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(m, m);
     for (Eigen::Index j = 0; j < m; ++j) {
         for (Eigen::Index i = 0; i < m; ++i) {
+            // Two roots and no root of a product: a product of variances in m² may leave the range of double.
             const double scale = std::sqrt(covariance(i, i)) * std::sqrt(covariance(j, j));
             if (i != j) {
                 correlation(i, j) = scale > 0.0 ? std::clamp(covariance(i, j) / scale, -1.0, 1.0) : 0.0;

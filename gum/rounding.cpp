@@ -83,15 +83,20 @@ Decimal rounded(const Decimal& number, int quantum_exponent, RoundingMode mode) 
         return result;
     }
     const int kept_count = number.leading_exponent() - quantum_exponent + 1;
+    // Only for ties to even. RoundingMode::up has cut the noise before, at twelve digits, or an excess in the last bit
+    // would move the printed U by a whole unit.
     if (mode == RoundingMode::half_even && number.digits.size() >= k_digits_of_a_computed_number &&
         kept_count <= k_most_digits_kept) {
         const int noise_exponent = number.leading_exponent() - k_digits_before_rounding_noise + 1;
         const Decimal without_noise = rounded(number, noise_exponent, mode);
+        // Fewer digits than before, so that this ends.
         if (without_noise.digits.size() < k_digits_of_a_computed_number) {
             return rounded(without_noise, quantum_exponent, mode);
         }
     }
     const auto dropped_count = static_cast<std::size_t>(quantum_exponent - number.exponent);
+    // Where the number lies wholly below the last place that is kept, zeros in front put its first digit where it
+    // belongs: 0.04 rounded to units has the half at the tenths, and they are 0.
     std::string kept = "0";
     std::string dropped = number.digits;
     if (dropped_count < number.digits.size()) {
@@ -115,6 +120,8 @@ Decimal rounded(const Decimal& number, int quantum_exponent, RoundingMode mode) 
 Decimal rounded_to_digits(const Decimal& number, int digits, RoundingMode mode) {
     const int quantum_exponent = number.leading_exponent() - digits + 1;
     Decimal result = rounded(number, quantum_exponent, mode);
+    // After a carry the number itself is rounded again, one place higher, and not the rounded one: rounding twice can
+    // make a tie of what was none.
     if (static_cast<int>(result.digits.size()) > digits) {
         result = rounded(number, quantum_exponent + 1, mode);
     }
@@ -171,6 +178,8 @@ RoundedPair round_to_uncertainty(double value, double U, int digits, RoundingMod
         uncertainty = rounded_to_digits(uncertainty, std::max(k_trusted_digits, digits), RoundingMode::half_even);
     }
     const Decimal printed_uncertainty = rounded_to_digits(uncertainty, digits, mode);
+    // The value is never rounded up, also where U is: that would move it. Both end at the same place (JCGM 100:2008,
+    // 7.2.6).
     const Decimal printed_value =
         rounded(shortest_decimal(value), printed_uncertainty.exponent, RoundingMode::half_even);
     return {.value = document_text(printed_value), .U = document_text(printed_uncertainty)};
@@ -201,6 +210,7 @@ std::string round_significant(double value, int digits) {
 std::string percent(double share) {
     require_finite(share, "share to print");
     Decimal number = shortest_decimal(share);
+    // In decimal the factor 100 is a shift of the exponent. A product of doubles would bring a rounding of its own.
     number.exponent += 2;
     return document_text(rounded(number, -1, RoundingMode::half_even));
 }

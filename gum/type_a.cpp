@@ -20,6 +20,8 @@ class Sum {
 public:
     void add(Real value) {
         const Real next = sum_ + value;
+        // What is lost is taken from the smaller of the two, whichever it is. Kahan's sum assumes that the sum is the
+        // larger one, and fails where a term exceeds it.
         lost_ += std::abs(sum_) >= std::abs(value) ? (sum_ - next) + value : (value - next) + sum_;
         sum_ = next;
     }
@@ -117,6 +119,8 @@ std::vector<double> autocorrelation(std::span<const double> observations, std::s
     }
     std::vector<double> coefficients;
     for (std::size_t lag = 0; lag <= largest_lag; ++lag) {
+        // Over the whole sum for every lag, as the e-Handbook has it: no coefficient exceeds 1 then, also where only
+        // few products are left.
         coefficients.push_back(static_cast<double>(lagged_sum(observations, mean, lag) / whole));
     }
     return coefficients;
@@ -125,6 +129,7 @@ std::vector<double> autocorrelation(std::span<const double> observations, std::s
 AutocorrelationCheck autocorrelation_check(std::span<const double> observations) {
     AutocorrelationCheck check;
     check.lag_one = autocorrelation(observations, 1)[1];
+    // Coefficients of independent observations scatter by 1/√n; two of that are one false alarm in twenty series.
     check.limit = 2.0 / std::sqrt(static_cast<double>(observations.size()));
     check.independent = std::abs(check.lag_one) <= check.limit;
     return check;
@@ -146,6 +151,8 @@ StandardDeviation pooled_standard_deviation(std::span<const StandardDeviation> s
     // Relative to the largest, because squares of uncertainties may leave the range of numbers.
     Sum squares;
     for (const StandardDeviation& one : series) {
+        // Series of one dispersion: each s² counts by its degrees of freedom. The mean of the s themselves would be too
+        // small, because the root of an unbiased s² is biased.
         const Real ratio = largest > 0.0 ? static_cast<Real>(one.value) / static_cast<Real>(largest) : 0.0L;
         squares.add(static_cast<Real>(one.degrees_of_freedom) * ratio * ratio);
     }
@@ -165,6 +172,7 @@ double relative_standard_deviation_of_s(std::size_t observations) {
         const double complement = e * (1.0 / 2.0 - e * (1.0 / 8.0 + e * (1.0 / 16.0 - e * 5.0 / 128.0)));
         return std::sqrt(complement / (1.0 - complement));
     }
+    // As quotients, because Γ itself overflows from n = 344 on.
     // Γ(n/2) / Γ((n − 1)/2) from n = 2 or 3 upwards.
     Real ratio = observations % 2 == 0 ? std::numbers::inv_sqrtpi_v<Real> : 0.5L / std::numbers::inv_sqrtpi_v<Real>;
     for (std::size_t k = observations % 2 == 0 ? 4 : 5; k <= observations; k += 2) {
@@ -186,6 +194,8 @@ SimultaneousMeans evaluate_simultaneous(const Eigen::MatrixXd& observations) {
     }
     const Eigen::Index q = observations.cols();
     const Eigen::Index n = observations.rows();
+    // About the means, in long double: as for a single series the common digits are taken off before products are
+    // formed.
     Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> deviation = observations.cast<Real>();
     SimultaneousMeans result;
     result.means.resize(q);
@@ -198,6 +208,7 @@ SimultaneousMeans evaluate_simultaneous(const Eigen::MatrixXd& observations) {
     }
     result.covariance.resize(q, q);
     result.correlation = Eigen::MatrixXd::Identity(q, q);
+    // n − 1 for the deviations about means that come from the same readings, n for the mean of n readings.
     const Real divisor = static_cast<Real>(n) * static_cast<Real>(n - 1);
     for (Eigen::Index i = 0; i < q; ++i) {
         for (Eigen::Index j = 0; j <= i; ++j) {
@@ -210,6 +221,8 @@ SimultaneousMeans evaluate_simultaneous(const Eigen::MatrixXd& observations) {
     }
     for (Eigen::Index i = 0; i < q; ++i) {
         for (Eigen::Index j = 0; j < i; ++j) {
+            // Two roots, so that variances of very small units do not underflow. Clamped, because r of proportional
+            // columns may exceed 1 by rounding.
             const double product = std::sqrt(result.covariance(i, i)) * std::sqrt(result.covariance(j, j));
             const double r = product > 0.0 ? std::clamp(result.covariance(i, j) / product, -1.0, 1.0) : 0.0;
             result.correlation(i, j) = result.correlation(j, i) = r;

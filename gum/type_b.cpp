@@ -13,6 +13,7 @@ double u_from_half_width(double half_width) {
 
 double u_from_resolution(double step) {
     require_not_negative(step, "resolution");
+    // Every value that shows the same digit is equally probable: a rectangle of half-width step/2.
     return step / std::sqrt(12.0);
 }
 

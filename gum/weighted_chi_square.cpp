@@ -39,6 +39,7 @@ struct Scaled {
     double sum = 0.0;
 };
 
+// All lengths relative to the largest weight: the distribution scales with it, and no unit can leave the range.
 Scaled scaled(std::span<const double> weights, double x) {
     double largest = 0.0;
     for (const double weight : weights) {
@@ -72,6 +73,8 @@ public:
         double second = 1.0 / (s_ * s_);
         double third = -2.0 / (s_ * s_ * s_);
         for (const double weight : of_.weights) {
+            // Φ″ and Φ‴ at the saddle point: the first gives the width of the bell, both together how the path of
+            // steepest descent bends.
             const double slope = weight / (1.0 + 2.0 * weight * s_);
             second += 2.0 * slope * slope;
             third -= 8.0 * slope * slope * slope;
@@ -87,6 +90,8 @@ public:
     [[nodiscard]] double integral() const {
         double step = k_first_step;
         double sum = 0.5 * term(0.0) + terms(step, step);
+        // Halving the step only adds the points between: what has been evaluated is used again. Sums of a smooth,
+        // rapidly falling integrand converge geometrically with the step.
         for (int halving = 0; halving < k_most_halvings; ++halving) {
             const double refined = sum + terms(0.5 * step, step);
             const double before = sum * step;
@@ -111,6 +116,8 @@ private:
         double low = 1.0 / of_.x;
         double high = (1.0 + 0.5 * static_cast<double>(of_.weights.size())) / of_.x;
         for (int i = 0; i < k_bisections_of_saddle; ++i) {
+            // In the logarithm: the saddle point may lie anywhere within hundreds of decades, and a mean of the ends
+            // would spend all steps on the first few.
             const double s = std::sqrt(low) * std::sqrt(high);
             double slope = of_.x - 1.0 / s;
             for (const double weight : of_.weights) {
@@ -140,6 +147,8 @@ private:
     [[nodiscard]] std::complex<double> exponent(std::complex<double> s) const {
         std::complex<double> logarithms = 0.0;
         for (const double weight : of_.weights) {
+            // A sum of logarithms. The product of a thousand factors leaves the range of double, and its complex root
+            // would need a branch.
             logarithms += std::log(1.0 + 2.0 * weight * s);
         }
         return s * of_.x - 0.5 * logarithms - std::log(upper_ ? -s : s);
@@ -186,6 +195,7 @@ double lower_tail(const Scaled& of) {
     if (of.x <= k_smallest_ratio) {
         return 0.0;
     }
+    // Far beyond, the lower tail is 1 to all its digits; the integral for the upper one would underflow to 0.
     if (is_beyond(of)) {
         return 1.0;
     }
@@ -221,6 +231,7 @@ double weighted_chi_square_quantile(std::span<const double> weights, double prob
     const auto excess = [&](double log_x) {
         at.x = std::exp(log_x);
         const double tail = lower ? lower_tail(at) : upper_tail(at);
+        // −1000 stands for a tail of 0: below the logarithm of every double.
         const double difference = (tail > 0.0 ? std::log(tail) : -1e3) - wanted;
         return lower ? difference : -difference;
     };

@@ -7,11 +7,14 @@ namespace gumcert::engine {
 AnglewiseCovariance::AnglewiseCovariance(TallMatrix shared, TallMatrix half, TallMatrix own)
     : shared_(std::move(shared)), half_(std::move(half)), own_(std::move(own)) {}
 
+// V = 1 (V/2)ᵀ + (V/2) 1ᵀ: a dense covariance in the same form, so that whoever asks need not know which it is.
 AnglewiseCovariance::AnglewiseCovariance(const Eigen::Ref<const Eigen::MatrixXd>& dense)
     : shared_(TallMatrix::Identity(dense.rows(), dense.rows())), half_(0.5 * dense), own_(0, 1) {}
 
+// From H, L and O at each call: kept as a matrix, the covariance of a thousand angles would have 36 million elements.
 double AnglewiseCovariance::operator()(Eigen::Index row, Eigen::Index column) const {
     double value = shared_.row(row).dot(half_.row(column)) + half_.row(row).dot(shared_.row(column));
+    // Own parts of two angles are independent of each other; set-up and reversal, behind the angles, have none.
     if (row < own_.rows() && row / own_.cols() == column / own_.cols()) {
         value += own_(row, column % own_.cols());
     }
@@ -53,6 +56,7 @@ Eigen::RowVectorXd AnglewiseCovariance::row(Eigen::Index row) const {
 
 Eigen::MatrixXd AnglewiseCovariance::of_combinations(const Eigen::Ref<const Eigen::MatrixXd>& combinations) const {
     const Eigen::MatrixXd cross = (combinations * half_) * (combinations * shared_).transpose();
+    // Combinations go through the few columns first: k×m by m×r, and never m×m.
     Eigen::MatrixXd result = cross + cross.transpose();
     const Eigen::Index size = own_.cols();
     for (Eigen::Index i = 0; i < own_.rows(); i += size) {
@@ -68,6 +72,7 @@ Eigen::MatrixXd AnglewiseCovariance::dense() const {
     left << half_, shared_;
     right << shared_, half_;
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows(), rows());
+    // The lower triangle is computed and mirrored: symmetric to the last bit, at half the cost.
     result.triangularView<Eigen::Lower>() += left * right.transpose();
     for (Eigen::Index i = 0; i < own_.rows(); i += own_.cols()) {
         result.block(i, i, own_.cols(), own_.cols()) += own_.middleRows(i, own_.cols());

@@ -55,6 +55,7 @@ AnglewiseMap with_mean_reversal(const AnglewiseMap& map) {
 }  // namespace
 
 Eigen::MatrixXd AnglewiseMap::combined_by_pose(const Eigen::Ref<const Eigen::MatrixXd>& combination) const {
+    // In this order: combinations meet the few columns first.
     Eigen::MatrixXd result = (combination * by_change) * change;
     const Eigen::Index q = per_angle();
     const Eigen::Index w = pose_size();
@@ -199,6 +200,7 @@ AnglewiseCovariance covariance_of(const AnglewiseMap& map, const PoseCovariance&
     TallMatrix shared(map.rows(), common.cols() + changes);
     TallMatrix half(map.rows(), common.cols() + changes);
     shared << common, map.by_change;
+    // R Rᵀ = R (R/2)ᵀ + (R/2) Rᵀ: the part of the border in the same form as that of the datum.
     half << 0.5 * common, cross;
     return {std::move(shared), std::move(half), std::move(own)};
 }
@@ -216,6 +218,7 @@ AnglewiseSensitivity::AnglewiseSensitivity(const AnglewiseMap& map, const JointA
       covariance_(covariance),
       poses_(pose_covariance(adjustment, normal, covariance)),
       shared_(map.rows(), covariance.border() + map.change.rows()) {
+    // H = (G, D): all that an observation of one angle does to other angles goes through the border and the datum.
     shared_ << gain_of(map, poses_.by_border), map.by_change;
 }
 

@@ -7,6 +7,8 @@ ContactPointModel::ContactPointModel(std::shared_ptr<const gum::MeasurementModel
                                      const Eigen::Vector3d& contact_point)
     : table_(std::move(table)), measurement_(measurement), contact_point_(contact_point) {
     const Eigen::Index angles = datum.errors.cols();
+    // Whatever the datum of the result: readings of a dial indicator have lost the eccentricity of the sphere, which is
+    // what the axis average line leaves out (ADR 0009).
     const DatumSolution average =
         transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
     displacement_ = point_displacement(contact_point_);
@@ -49,6 +51,7 @@ Eigen::VectorXd ContactPointModel::displacements(const Eigen::VectorXd& reported
 Eigen::MatrixXd ContactPointModel::jacobian(const Eigen::VectorXd& x) const {
     const Eigen::Index size = change_map_.cols();
     const Eigen::MatrixXd table = table_->jacobian(x);
+    // The datum follows the error motions, to first order by ten numbers.
     const Eigen::MatrixXd change = change_map_ * table.topRows(size);
     Eigen::MatrixXd result(motion_map_.rows(), table.cols());
     result.noalias() = motion_map_ * change;

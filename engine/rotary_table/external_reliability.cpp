@@ -33,6 +33,8 @@ Biases biases_of(const AnglewiseSensitivity& sensitivity, const JointAdjustment&
         biases.local.resize(v == 0 ? of.own.rows() : biases.local.rows(), v == 0 ? count : biases.local.cols());
         const std::vector<std::size_t>& observations = adjustment.visits()[v].observations;
         for (std::size_t k = 0; k < observations.size(); ++k, ++column) {
+            // A distance that nothing controls has no detectable bias, and 0 stands here: it takes no part in the
+            // search.
             const double bias = rows[observations[k]].minimal_detectable_bias;
             biases.shared.col(column) = bias * of.shared.col(static_cast<Eigen::Index>(k));
             biases.local.col(column) = bias * of.own.col(static_cast<Eigen::Index>(k));
@@ -85,6 +87,7 @@ std::vector<ExternalReliability> external_reliability(const AnglewiseSensitivity
         const auto angle = static_cast<std::size_t>(i / q);
         double largest = 0.0;
         Eigen::Index place = biases.shared.cols();
+        // Of equal influences the first column, so that the order in which they are looked at is not seen.
         const auto look_at = [&](Eigen::Index column, double influence) {
             const double size = std::abs(influence);
             if (size > std::abs(largest) || (size == std::abs(largest) && size > 0.0 && column < place)) {
@@ -93,19 +96,25 @@ std::vector<ExternalReliability> external_reliability(const AnglewiseSensitivity
             }
         };
         if (i < of_angles) {
+            // Distances of the same angle first: they act on its own pose too, which the bounds of the shared part do
+            // not cover. A large value found here also ends the search below early.
             for (const Eigen::Index column : biases.own[angle]) {
                 look_at(column, quantity.dot(biases.shared.col(column)) + biases.local(i % q, column));
             }
         }
+        // By falling bounds: from the first one on that cannot exceed what was found, none can.
         for (const Eigen::Index column : bounds.order) {
             if (bounds.row[i] * bounds.column[column] * k_slack < std::abs(largest)) {
                 break;
             }
+            // These were looked at with both parts; the shared part alone would be another number for the same
+            // distance.
             const bool own = i < of_angles && std::ranges::binary_search(biases.own[angle], column);
             if (!own) {
                 look_at(column, quantity.dot(biases.shared.col(column)));
             }
         }
+        // A quantity that no bias moves, as those of home in its own datum, has no worst distance.
         if (largest != 0.0) {
             worst.push_back({static_cast<std::size_t>(i), biases.length[static_cast<std::size_t>(place)], largest});
         }

@@ -130,6 +130,7 @@ public:
         Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
         for (std::size_t i = 0; i < path_.size(); ++i) {
             const auto d = static_cast<std::size_t>(path_[i]);
+            // About the mean of each dead path: a constant angle to a line is just what its constant takes up.
             const Eigen::Vector3d centred = direction(i, position, 0.0) - mean[d] / count[d];
             scatter += centred * centred.transpose();
         }
@@ -140,6 +141,7 @@ public:
             result.line = -result.line;
         }
         for (std::size_t i = 0; i < path_.size(); ++i) {
+            // An arc cosine is good enough here: these angles are told in tenths of a degree.
             const double angle = std::acos(std::clamp(result.line.dot(direction(i, position, 0.0)), -1.0, 1.0));
             result.smallest = std::min(result.smallest, angle);
             result.largest = std::max(result.largest, angle);
@@ -258,6 +260,7 @@ Involved involved_in(const RotaryTableMeasurement& measurement, const RankReport
     Involved result;
     std::vector<std::string> groups;  // "station P1, x, y", "EXA, EYA at angle number 3"
     std::string last;                 // what the members of the last group share
+    // A rank report knows parameters by their names only: what they stand for is read back from these.
     for (const std::string& full : rank.parameters) {
         const std::string_view name = full;
         const auto comma = name.rfind(", ");
@@ -328,6 +331,7 @@ AngleCoverage coverage_of(const RotaryTableMeasurement& measurement, std::size_t
 /// Reflectors so close to one line that the fixture does not tell a turn about it.
 bool on_one_line(const RotaryTableMeasurement& measurement, const AngleCoverage& coverage) {
     constexpr double k_straight = 1e-3;
+    // Two reflectors are on one line wherever they stand, and about a single one the fixture turns freely.
     if (coverage.reflectors.size() < 3) {
         return !coverage.reflectors.empty();
     }
@@ -338,6 +342,7 @@ bool on_one_line(const RotaryTableMeasurement& measurement, const AngleCoverage&
     }
     const Eigen::RowVector3d mean = points.colwise().mean();
     points.rowwise() -= mean;
+    // The second singular value is the width of the points across their longest direction.
     const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(points).singularValues();
     return values[1] < k_straight * values[0];
 }
@@ -356,6 +361,8 @@ std::size_t distinct_angles(const RotaryTableMeasurement& measurement) {
     std::vector<double> kept;
     for (const double angle : measurement.angles) {
         const bool known = std::any_of(kept.begin(), kept.end(), [&](double other) {
+            // The nearest multiple of a turn is taken off, so that 359.999° and 0° are neighbours. A remainder of one
+            // sign would put a full turn between them.
             return std::abs(std::remainder(angle - other, 2.0 * std::numbers::pi)) < k_same_angle;
         });
         if (!known) {
@@ -385,6 +392,8 @@ bool stand_on_one_line(const std::vector<Eigen::Vector3d>& stations) {
         scatter += (station - mean) * (station - mean).transpose();
     }
     const Eigen::Vector3d spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
+    // Eigenvalues of the scatter are squares of lengths, in ascending order: the second is the width across the line.
+    // The first is zero where all stand in a plane, which does no harm of this kind.
     return spread[1] < k_flat * k_flat * spread[2];
 }
 
@@ -393,6 +402,8 @@ gum::Diagnostic undetermined_poses(const RotaryTableMeasurement& measurement, co
     const AngleCoverage coverage = coverage_of(measurement, angle);
     std::string rule = "the six error motions of an angle need at least six distances in independent directions";
     std::string action = "measure that angle from more stations or to more reflectors, or leave it out";
+    // Below six distances their number alone is the cause. From six on it is their directions: more distances of the
+    // same kind would be no cure.
     if (coverage.distances >= 6 && coverage.stations.size() < 3) {
         rule += ": a turn about the line that joins two stations changes no distance";
         action = "measure that angle from at least 3 stations that are not on one line";
@@ -444,9 +455,12 @@ gum::Diagnostic undetermined(const RotaryTableMeasurement& measurement, const Ra
                              const std::vector<Eigen::Vector3d>& stations) {
     const Involved involved = involved_in(measurement, rank);
     const std::string what = "not determined: " + involved.names;
+    // First the causes of many at once: stations on a line leave poses, stations and dead paths open, and naming all of
+    // these would help nobody.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(stations)) {
         return *line;
     }
+    // Then single angles: a pose that is open makes whatever is seen through it open.
     if (!involved.angles.empty()) {
         return undetermined_poses(measurement, involved);
     }
@@ -464,6 +478,7 @@ gum::Diagnostic undetermined(const RotaryTableMeasurement& measurement, const Ra
             "uncertainties of the fixture coordinates");
     }
     const AngleCoverage home = coverage_of(measurement, measurement.home);
+    // Several stations at once have one cause in common: the home angle, which alone ties all of them to the fixture.
     if (involved.stations.size() > 1) {
         if (home.distances >= 6 && home.reflectors.size() > 2 && on_one_line(measurement, home)) {
             return refusal("fixture", what + " (all reflectors of the home angle lie on one line)",
@@ -548,6 +563,7 @@ std::vector<gum::Diagnostic> geometry_notes(const RotaryTableMeasurement& measur
         for (std::size_t k = 0; k < j; ++k) {
             const Eigen::Vector3d a = (stations[j] - centre).normalized();
             const Eigen::Vector3d b = (stations[k] - centre).normalized();
+            // By sine and cosine together: the arc cosine alone loses its digits at small angles.
             spread = std::max(spread, std::atan2(a.cross(b).norm(), a.dot(b)));
         }
     }
@@ -566,6 +582,8 @@ std::vector<gum::Diagnostic> geometry_notes(const RotaryTableMeasurement& measur
             continue;
         }
         const double condition = view.condition(stations[j]);
+        // Against the size of what this station saw over all its angles, not of the fixture: a station that saw one
+        // side of the fixture only knows its own place less well.
         const auto [middle, size] = view.cloud();
         const double ratio = (stations[j] - middle).norm() / size;
         const std::string where = "station " + measurement.stations[j];

@@ -51,6 +51,8 @@ Inverted pseudo_inverse(const MatrixXd& matrix, double least) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
     Inverted result{MatrixXd::Zero(matrix.rows(), matrix.cols()), 0};
     for (Index i = 0; i < matrix.rows(); ++i) {
+        // What nothing else controls has no residual of its own: below the limit it is rounding, and its inverse would
+        // make a large test value of it.
         if (eigen.eigenvalues()[i] > least) {
             ++result.rank;
             result.inverse +=
@@ -85,6 +87,7 @@ public:
         : normal_(normal), covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
         for (std::size_t g = 0; g < size_; ++g) {
             GroupSpread spread = spread_of(normal.groups()[g], covariance);
+            // Relative to the weights of the visit, so that no unit decides what counts as controlled.
             least_.push_back(k_controlled * spread.whitening.squaredNorm());
             weighted_.push_back(std::move(spread.weighted));
             own_.push_back(std::move(spread.own));
@@ -116,6 +119,8 @@ public:
     }
     void take_away(const Effect& effect, Index q) {
         const Projection projected = projection(effect, q);
+        // C may contain what was taken away before, or what the parameters take up wholly: only the part that is
+        // controlled is taken away.
         LeftOut left{columns(effect, q),
                      pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
         const VectorXd error = left.inverse * projected.weighted;
@@ -146,6 +151,8 @@ public:
         }
         result.weight = result.spread.diagonal().maxCoeff();
         const MatrixXd pull = pull_of(effect, q);
+        // Cᵀ M C = C̃ᵀ C̃ − pᵀ Q p with C̃ = L⁻¹ C and p = J̃ᵀ C̃, less what was left out. M itself, distances ×
+        // distances, is never formed.
         for (Index k = 0; k < q; ++k) {
             result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
         }
@@ -334,6 +341,8 @@ private:
 
     /// 1 where a robust scale may be 1, else its limit on the side of 1.
     static double within(double scale, double upper) {
+        // The scale is known to 1.17/√n only. What chance explains of it is not used, or every sound measurement would
+        // be divided by a scale of its own.
         return scale * upper < 1.0 ? scale * upper : std::max(1.0, scale / upper);
     }
     /// Wilson and Hilferty's, within 1 % from 1 degree of freedom on.
@@ -354,10 +363,14 @@ private:
         if (sizes.size() >= k_fewest_for_scatter) {
             const double count = static_cast<double>(sizes.size());
             const double upper = 1.0 + 2.0 * k_spread_of_robust_scale / std::sqrt(count);
+            // Median and not standard deviation: one visit that is off would make the scale large, and hide itself and
+            // others.
             result_.scale = upper_median(sizes) / k_median_of_absolute_normal;
             used_scale_ = within(result_.scale, upper);
             std::vector<double> squares;
             for (const VisitTest& test : tests_) {
+                // Poses have a scale of their own, because an estimated length noise and an estimated repeatability do
+                // not grow alike (ADR 0031).
                 if (test.pose_rank > 0) {
                     squares.push_back(test.pose_chi_square / median_of_chi_square(test.pose_rank));
                 }
@@ -431,6 +444,7 @@ private:
     };
 
     static bool is_less_probable(const GroupTest& a, const GroupTest& b) {
+        // Far out both probabilities are 0 in double; then the misfit counts, less two for each degree of freedom.
         if (a.p_value != b.p_value) {
             return a.p_value < b.p_value;
         }
@@ -521,6 +535,8 @@ private:
                 continue;
             }
             const Visit& visit = adjustment_.visits()[g];
+            // With dead paths for each reflector a visit has several; the lowest one stands for it, so that all visits
+            // of a station that share paths are one sequence.
             std::size_t path = lengths[visit.observations.front()].dead_path;
             for (const std::size_t i : visit.observations) {
                 path = std::min(path, lengths[i].dead_path);
@@ -568,6 +584,7 @@ private:
                                                        std::size_t count) const {
         const Visits::Projection projection = visits_.projection({column});
         const double spread = projection.spread(0, 0);
+        // A drift that dead paths or poses take up wholly leaves nothing to test.
         if (!(spread > k_controlled * projection.weight)) {
             return std::nullopt;
         }
@@ -595,6 +612,8 @@ private:
             double spread_after = 0.0;
             double largest = -1.0;
             std::size_t first = 0;
+            // The dead path takes up the mean of a sequence. So only the difference between the visits before and after
+            // counts: its square over its variance is w² S/(S_a (S − S_a)).
             for (std::size_t k = sequence.size(); k-- > 1;) {
                 weighted_after += visits_.weighted(sequence[k]).sum();
                 spread_after += tests_[sequence[k]].spread;
@@ -634,6 +653,7 @@ private:
         for (const auto& sequence : sequences_) {
             times.emplace_back();
             for (std::size_t k = 0; k < sequence.size(); ++k) {
+                // Where no times are known, visits count as equally distant.
                 times.back().push_back(has_times ? time_of(sequence[k]) : static_cast<double>(k));
             }
             longest = std::max(longest, times.back().back() - times.back().front());
@@ -645,6 +665,7 @@ private:
             }
             Visits::Column column;
             for (std::size_t k = 0; k < sequences_[s].size(); ++k) {
+                // About the middle: a constant part is the dead path.
                 const double value = (times[s][k] - times[s].front()) / duration - 0.5;
                 column.emplace_back(sequences_[s][k], value);
                 result.common.emplace_back(sequences_[s][k], value * duration / longest);
@@ -661,6 +682,8 @@ private:
         const auto add = [this](const Visits::Column& column, std::size_t station, std::size_t count) {
             const Visits::Projection projection = visits_.projection({column});
             const double spread = projection.spread(0, 0);
+            // An estimate without a test, for the documents: a drift that is not suspicious is stated with what would
+            // have been found.
             if (spread > k_controlled * projection.weight) {
                 result_.drifts.push_back({station, projection.weighted[0] / spread, used_scale_ / std::sqrt(spread),
                                           detectable(judged(GroupKind::drift, 0.0, 1, count), spread)});
@@ -675,6 +698,8 @@ private:
     }
 
     /// Tests among which the level of drift is divided for one sequence.
+    /// All alike, each its own, and single ones have a third of the level each: one cause of all stations must not pay
+    /// for the number of stations (ADR 0031).
     static std::size_t drift_tests(std::size_t sequences) { return sequences > 1 ? k_drift_hypotheses * sequences : 1; }
 
     /// Of every sequence, of all sequences alike, and of each sequence its own, jointly.
@@ -720,6 +745,7 @@ private:
     [[nodiscard]] std::optional<Candidate> best_index() {
         const RotaryTableMeasurement& measurement = adjustment_.measurement();
         const std::size_t angles = measurement.angles.size();
+        // Only where another angle of the measurement lies where the shifted one would be.
         if (angles < 4 || !is_uniform(measurement)) {
             return std::nullopt;
         }
@@ -790,6 +816,7 @@ private:
             effect[g] = poses_[g] * change;
         }
         IndexSpread& spread = index_spreads_[station][static_cast<std::size_t>(steps + most)];
+        // What an earlier round has found is only less what was taken away since: the projection itself is what costs.
         if (spread.weight > 0.0) {
             spread.value -= visits_.taken_from(effect, 1, spread.left_out)(0, 0);
         } else {
@@ -801,6 +828,7 @@ private:
         if (!(spread.value > k_controlled * spread.weight)) {
             return {};
         }
+        // By the larger of both scales, the cautious choice: the effect is neither a common error nor a free pose.
         const double deviate = visits_.weighted(effect) / std::sqrt(spread.value) / std::max(used_scale_, pose_scale_);
         return {steps, deviate * deviate, std::move(effect)};
     }
@@ -823,6 +851,7 @@ private:
         double squares = 0.0;
         std::size_t pairs = 0;
         for (const auto& sequence : sequences_) {
+            // In terms of their standard deviations: visits of different weight count alike.
             for (std::size_t k = 0; k < sequence.size(); ++k) {
                 const double deviate = tests_[sequence[k]].deviate;
                 squares += deviate * deviate;
@@ -836,6 +865,8 @@ private:
             return;
         }
         const double r = products / squares;
+        // One side only: that visits deviate alike is drift, that they alternate is nothing that a laboratory could
+        // look for.
         const double deviate = std::max(0.0, r * std::sqrt(static_cast<double>(pairs)));
         GroupTest test = judged(GroupKind::succession, deviate * deviate, 1, 1);
         test.estimate = r;
@@ -864,6 +895,7 @@ private:
                 continue;
             }
             const double ratio = squares[at] / counts[at] / ((squares.sum() - squares[at]) / others);
+            // One side only: a station that scatters less than the others is no fault.
             const double deviate = std::max(0.0, std::log(ratio) / std::sqrt(2.0 / counts[at] + 2.0 / others));
             GroupTest test = judged(GroupKind::station, deviate * deviate, 1, stations);
             test.station = j;
@@ -933,6 +965,7 @@ private:
     /// The fixture as a whole and its points, one at a time: what is least probable is taken away before the next.
     void search_fixture() {
         auto [whitening, weighted, spread] = spread_of(normal_.groups()[adjustment_.fixture_prior()], covariance_);
+        // Where the distances see hardly anything of a coordinate its residual is rounding, and it is not tested.
         FixtureMisfit misfit{weighted, spread, 1e-6 * whitening.colwise().squaredNorm().minCoeff()};
         const auto points = static_cast<std::size_t>(weighted.size() / 3);
         std::vector<bool> out(points, false);
@@ -993,6 +1026,7 @@ private:
 }  // namespace
 
 double share_of_level(GroupKind kind) {
+    // They add up to 0.9. The tenth that is left is that of the check of the fixture (ADR 0031).
     switch (kind) {
         case GroupKind::drift:
             return 0.40;

@@ -52,6 +52,8 @@ public:
         // Half of the reversal in each sense: the pose that is reported is the mean of both.
         const Vector6 pose = mean_pose + 0.5 * sense_ * reversal;
         const Eigen::Matrix3d error_rotation = rotation_zyx(pose.tail<3>());
+        // E stands left of R: error motions are those in the frame at rest. To the right of R they would turn with the
+        // table, which is another quantity (design note rotary-table.md, 4a).
         const Eigen::Matrix3d fixture_to_world = error_rotation * rotation_ * set_up_.rotation;
         const double stretch = 1.0 + expansion * temperature;
         const auto n = static_cast<Eigen::Index>(reflectors_.size());
@@ -99,10 +101,13 @@ public:
             }
             if (jacobians[3] != nullptr || jacobians[4] != nullptr) {
                 Vector6 motion;
+                // Exact derivatives by the angles of Rz Ry Rx. Those of small turns would be those of another model
+                // where error motions are large.
                 motion.head<3>() = direction;
                 for (int k = 0; k < 3; ++k) {
                     motion[3 + k] = direction.dot(derivative[static_cast<std::size_t>(k)] * turned);
                 }
+                // A pose is the mean of both senses of approach, so that each sense lies half a reversal to its side.
                 if (jacobians[3] != nullptr) {
                     Eigen::Map<Vector6> row(jacobians[3] + 6 * i);
                     row = own_reversal ? Vector6(Vector6::Zero()) : Vector6(0.5 * sense_ * motion);
@@ -152,6 +157,8 @@ Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std:
 
 std::vector<Visit> visits_of(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     std::vector<Visit> visits;
+    // By pass and angle: within a pass the table comes to each angle once, and what it is off by is in all distances of
+    // that visit.
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> index;
     for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
         if (!active[i]) {
@@ -200,6 +207,8 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
         }
         station_blocks_.push_back(block);
     }
+    // A tracer counts fringes: each time the beam is broken the constant is another one, so that a station may have
+    // several.
     for (std::size_t d = 0; d < measurement.dead_paths.size(); ++d) {
         dead_path_blocks_.push_back(
             adjustment_.add_parameters({"dead path " + measurement.dead_paths[d]},
@@ -237,6 +246,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
         for (std::size_t c = 0; c < motions.size() && reversal_by_angle_; ++c) {
             pose_names.push_back("reversal of " + motions[c] + at_angle);
         }
+        // Eliminated: there are as many poses as angles, and no distance has two.
         const auto block = adjustment_.add_parameters(std::move(pose_names), Eigen::VectorXd::Zero(pose_size()), true);
         // The pose at home is held: distances do not tell it from a motion of the world (ADR 0006).
         for (int c = 0; c < 6 && i == measurement.home; ++c) {
@@ -287,6 +297,8 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
     temperature_priors_.assign(stations, k_none);
     for (std::size_t j = 0; j < stations; ++j) {
         const auto at = static_cast<Eigen::Index>(j);
+        // What distances tell of a scale comes from the fixture and is some ppm; the wavelength is known to 0.1 ppm.
+        // Free, the scale would be taken from the worse of the two (design note rotary-table.md, 4c).
         if (lengths.scale_model == ScaleModel::prior) {
             scale_priors_[j] =
                 adjustment_.add_prior(station_blocks_[j], {k_scale}, Eigen::VectorXd::Zero(1),
@@ -329,6 +341,7 @@ Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const Stoch
         ((stochastic.length_factor * stated_variance(visit)).array() + resolution * resolution / 12.0)
             .matrix()
             .asDiagonal();
+    // Axial apart from tilt: a table positions less well than it tilts (ADR 0008).
     Vector6 repeatability;
     repeatability << Eigen::Vector3d::Constant(stochastic.variance_linear),
         Eigen::Vector3d::Constant(stochastic.variance_tilt);
@@ -395,6 +408,7 @@ StartValues JointAdjustment::present_values() const {
     return values;
 }
 
+// With a distance less or more the solution hardly moves: the next adjustment begins where the last one ended.
 void JointAdjustment::copy_parameters_from(const JointAdjustment& other) {
     for (std::size_t j = 0; j < station_blocks_.size(); ++j) {
         adjustment_.set_parameters(station_blocks_[j], other.adjustment_.parameters(other.station_blocks_[j]));

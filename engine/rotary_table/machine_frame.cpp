@@ -48,6 +48,7 @@ void require_width(const Eigen::MatrixXd& centred, MachineFramePoints by) {
 }
 
 /// The rotation that carries `from` to `to`, both about their centres, with equal weights (Kabsch).
+/// Only a start: with equal weights. Without it the linearised steps would have to find their way from any orientation.
 Eigen::Matrix3d start_rotation(const Eigen::MatrixXd& from, const Eigen::MatrixXd& to) {
     const Eigen::Matrix3d product = from.transpose() * to;
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -117,10 +118,12 @@ MachineFrameFit fit_machine_frame(const Eigen::MatrixXd& points, const Eigen::Ma
         fit.covariance = normal.solve(Matrix6::Identity());
         fit.chi_square = whitened_residual.squaredNorm();
         fit.residuals = residual.reshaped<Eigen::RowMajor>(n, 3);
+        // The step in terms of the uncertainty of the motion, so that metres and radians count alike.
         if ((whitened * change).norm() < k_small) {
             break;
         }
         centre += change.head<3>();
+        // Composed, not added: the design has the derivatives by a small turn of the points as they stand.
         rotation = turn(change.tail<3>()) * rotation;
     }
     fit.covariance = (0.5 * (fit.covariance + fit.covariance.transpose())).eval();
@@ -168,9 +171,11 @@ LocationErrorModel::Line LocationErrorModel::line_in_machine(const Eigen::Ref<co
             set_up[across[static_cast<std::size_t>(c)]] = home[6 + c];
             set_up[3 + across[static_cast<std::size_t>(c)]] = home[8 + c];
         }
+        // P = E(home) T_s p, the other way round: where the axis of the table is in the fixture, as it was probed.
         const RigidMotion fixture_from_table = (rigid_motion(home.head<6>()) * rigid_motion(set_up)).inverse();
         line = {fixture_from_table.translation, fixture_from_table.rotation.col(axial)};
     }
+    // About the centre of the points, where shift and turn hardly depend on each other.
     const Eigen::Matrix<double, k_motion, 1> motion = motion_root_ * x.tail<k_motion>();
     const Eigen::Matrix3d turned = turn(motion.tail<3>());
     const Eigen::Vector3d arm = fit_.motion * line.point - fit_.centre;

@@ -25,6 +25,8 @@ Moments moments(const Indices& runs, const Eigen::Ref<const Eigen::VectorXd>& x)
     if (runs.size() > 1) {
         double squares = 0.0;
         for (const Eigen::Index j : runs) {
+            // About the mean, in a second pass: the sum of the squares less the square of the sum would lose the digits
+            // of a repeatability that is small against the deviation itself.
             squares += (x[j] - result.mean) * (x[j] - result.mean);
         }
         result.s = std::sqrt(squares / (n - 1.0));
@@ -36,6 +38,7 @@ Moments moments(const Indices& runs, const Eigen::Ref<const Eigen::VectorXd>& x)
 class Extreme {
 public:
     void offer(double value, std::size_t target, bool up) {
+        // Strictly greater: of targets that tie the first one stands, and the derivatives follow the same one.
         if (value > value_) {
             value_ = value;
             target_ = target;
@@ -116,6 +119,7 @@ const std::array<std::string_view, k_positioning_parameters>& positioning_parame
 
 std::array<bool, k_positioning_parameters> allowed_parameters(const PositioningRuns& runs) {
     const auto fewest = [](const std::vector<Indices>& targets) {
+        // The least number of runs decides: there is no parameter over some of the targets.
         std::size_t result = targets.empty() ? 0 : std::numeric_limits<std::size_t>::max();
         for (const Indices& list : targets) {
             result = std::min(result, list.size());
@@ -125,6 +129,8 @@ std::array<bool, k_positioning_parameters> allowed_parameters(const PositioningR
     const std::size_t up = fewest(runs.up);
     const std::size_t down = fewest(runs.down);
     const bool both = up > 0 && down > 0 && runs.up.size() == runs.down.size();
+    // A standard deviation needs two runs at every target. With a single run its 0 would stand for a perfect
+    // repeatability.
     const bool both_s = both && up > 1 && down > 1;
     return {both, both, up > 0, down > 0, both_s, up > 1, down > 1, both, both, both_s, up > 1, down > 1};
 }
@@ -213,6 +219,7 @@ Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
             return;
         }
         const double reversal = senses[0][target].mean - senses[1][target].mean;
+        // |B| has no derivative at 0; 0 stands in for it.
         const double sign = reversal > 0.0 ? 1.0 : reversal < 0.0 ? -1.0 : 0.0;
         add(parameter, target, true, sign, 0.0);
         add(parameter, target, false, -sign, 0.0);
@@ -225,6 +232,7 @@ Eigen::MatrixXd positioning_derivatives(const PositioningRuns& runs,
     add_range(Parameter::systematic_up, e.mean_high[0], e.mean_low[0], 0.0);
     add_range(Parameter::systematic_down, e.mean_high[1], e.mean_low[1], 0.0);
     const Extreme& one_sense = larger(e.spread[0], e.spread[1]);
+    // R is a maximum of different formulas: the derivative is that of the formula which gave the value.
     if (one_sense.value() > e.repeatability.value()) {
         add(Parameter::repeatability, one_sense.target(), one_sense.up(), 0.0, 4.0);
     } else {

@@ -26,6 +26,8 @@ struct GroupReliability {
 
 GroupReliability reliability_of(const LinearisedGroup& group, const BorderedCovariance& covariance) {
     const Eigen::Index n = group.residual.size();
+    // From whitened derivatives: 1 − leverage in the metric of the full covariance. The residual alone would not do,
+    // because distances of a visit are correlated and an error in one shows in all.
     const Eigen::MatrixXd cofactor =  // Q̃_v = I - J̃ C J̃ᵀ
         Eigen::MatrixXd::Identity(n, n) -
         group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
@@ -60,6 +62,8 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
             row.residual = -group.residual[i];
             row.redundancy_number = group.redundancy[i];
             if (!group.is_uncontrolled[k]) {
+                // w = e_iᵀ V⁻¹ v/√M_ii with M = V⁻¹ Q_v V⁻¹: of all tests of one distance the most powerful one, also
+                // with correlations.
                 const double root = std::sqrt(group.diagonal[i]);
                 row.test_value = -group.weighted[i] / root;
                 row.minimal_detectable_bias = non_centrality / root;
@@ -126,6 +130,7 @@ std::vector<DistanceReliability> distance_reliability(const JointAdjustment& adj
             variance += rate * parameters * rate.transpose();
             DistanceReliability& row = rows[observations[static_cast<std::size_t>(self)]];
             row.residual = -difference[self];
+            // Nothing of it is in the solution: its whole error would show.
             row.redundancy_number = 1.0;
             row.test_value = -deviation / std::sqrt(variance);
             row.minimal_detectable_bias = non_centrality * std::sqrt(variance);
@@ -205,6 +210,7 @@ std::optional<OneAtATime::Suspect> OneAtATime::largest(double critical) const {
         return std::nullopt;
     }
     const Place& place = places_[found];
+    // The column of M is formed for the suspect only: all of them would be the dense matrix.
     const Eigen::MatrixXd& cholesky = normal_.groups()[place.visit].cholesky;
     const Eigen::VectorXd within = column(place).segment(first_[place.visit], cholesky.rows());
     const double redundancy = (cholesky.transpose() * within).dot(cholesky.row(place.row).transpose());  // (V M)_ii
@@ -222,6 +228,7 @@ Eigen::VectorXd OneAtATime::column(const Place& place) const {
     const Eigen::VectorXd shift = covariance_.times(pull);  // of the parameters
     Eigen::VectorXd result(weighted_.size());
     for (std::size_t v = 0; v < first_.size(); ++v) {
+        // M e_i = V⁻¹ (e_i − J Q Jᵀ V⁻¹ e_i): what its error does to the residuals of all visits.
         const LinearisedGroup& group = normal_.groups()[v];
         Eigen::VectorXd part = -(group.jacobian * shift(group.columns));
         if (v == place.visit) {

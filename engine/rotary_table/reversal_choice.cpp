@@ -25,6 +25,7 @@ struct Reversals {
     /// Sum of squares of the differences from one value of all angles in the metric of the covariance: chi-square of N
     /// - 1 degrees of freedom where there is one.
     [[nodiscard]] double chi_square_of_differences() const {
+        // (D + B Bᵀ)⁻¹ = D⁻¹ − D⁻¹ B (1 + Bᵀ D⁻¹ B)⁻¹ Bᵀ D⁻¹: the N×N matrix is never formed.
         const VectorXd weight = own.cwiseInverse();
         const MatrixXd weighted = weight.asDiagonal() * common;
         const MatrixXd inner = MatrixXd::Identity(common.cols(), common.cols()) + common.transpose() * weighted;
@@ -32,6 +33,7 @@ struct Reversals {
         const auto inverse_times = [&](const VectorXd& v) -> VectorXd {
             return weight.cwiseProduct(v) - weighted * factor.solve(weighted.transpose() * v);
         };
+        // The one value of all angles is the weighted mean in the same metric; any other would leave a larger χ².
         const VectorXd ones = VectorXd::Ones(value.size());
         const VectorXd of_ones = inverse_times(ones);
         const double mean = of_ones.dot(value) / of_ones.dot(ones);
@@ -70,6 +72,7 @@ struct Drifts {
 
 Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& normal,
                  const BorderedCovariance& covariance) {
+    // Linear only: a drift that is not may still be taken for a reversal, or hide one (ADR 0035).
     constexpr double k_separable = 1e-9;  // share of the weight of a drift that the parameters leave
     const RotaryTableMeasurement& measurement = adjustment.measurement();
     const std::vector<Visit>& visits = adjustment.visits();
@@ -90,6 +93,7 @@ Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& norma
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const auto station = static_cast<Index>(visits[v].station);
         const LinearisedGroup& group = normal.groups()[v];
+        // About the mean of the station: a constant part is the dead path.
         const double at = time[static_cast<Index>(v)] - sum[station] / count[station];
         const VectorXd column =
             group.cholesky.triangularView<Eigen::Lower>().solve(VectorXd::Constant(group.residual.size(), at));
@@ -100,6 +104,7 @@ Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& norma
         weight[station] += column.squaredNorm();
         by_residual[station] += column.dot(group.residual);
     }
+    // Columns of unit length, so that what a drift has left of its own is a share.
     const VectorXd scale = (weight.array() > 0.0).select(weight.array().rsqrt(), 0.0);
     pull = (pull * scale.asDiagonal()).eval();
     MatrixXd by_drift(covariance.size(), stations);  // of the parameters
@@ -110,6 +115,7 @@ Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& norma
     left.diagonal() += weight.cwiseProduct(scale.cwiseAbs2());
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(0.5 * (left + left.transpose())));
     Drifts result{VectorXd::Zero(covariance.size()), MatrixXd::Zero(covariance.size(), 0)};
+    // Of a drift that the parameters take up wholly nothing is left to be estimated.
     for (Index j = 0; j < stations; ++j) {
         if (eigen.eigenvalues()[j] > k_separable) {
             const VectorXd direction = by_drift * eigen.eigenvectors().col(j) / std::sqrt(eigen.eigenvalues()[j]);
@@ -136,6 +142,7 @@ double residual_degrees_of_freedom(const JointAdjustment& by_angle, const std::v
     for (const Visit& visit : by_angle.visits()) {
         visits(static_cast<Index>(visit.angle), visit.approach == Approach::positive ? 0 : 1) += 1.0;
     }
+    // The reversal is the difference of the means of both senses: σ² (1/n₊ + 1/n₋) of the table.
     const VectorXd of_table = table.value * table.value * visits.cwiseInverse().rowwise().sum();
     const double share = std::min(1.0, of_table.cwiseQuotient(own).mean());
     double inverse = 0.0;
@@ -166,6 +173,7 @@ std::vector<ReversalTest> test_reversals(const JointAdjustment& by_angle, const 
         test.f = all.chi_square_of_differences() / test.angles;
         test.p_value = fisher_upper_tail(test.f, test.angles, test.residual);
         test.spread = all.spread();
+        // Six motions are tested: the level is divided among them.
         test.depends_on_angle = test.p_value < k_reversal_test_level / 6.0;
         tests.push_back(test);
     }
@@ -190,6 +198,8 @@ bool may_depend_on_angle(const JointAdjustment& constant, const std::vector<bool
         return false;
     }
     const BorderedCovariance covariance = normal.bordered_covariance();
+    // One Gauss-Newton step from the solution with one reversal: reversals are small, and the model is linear over
+    // them.
     const VectorXd step = normal.step();
     const MatrixXd none(covariance.size(), 0);
     for (int motion = 0; motion < 6; ++motion) {

@@ -30,6 +30,8 @@ public:
     /// \param rows         H of the angle of the visit
     void add(const Eigen::MatrixXd& shared, const Eigen::MatrixXd& own, const Eigen::Ref<const TallMatrix>& rows,
              Eigen::Index first_row) {
+        // A visit acts on the quantities of its own angle through O as well: there the whole H T + O is squared, and
+        // close_angle() takes off the square of H T alone, which all quantities get.
         angle_.selfadjointView<Eigen::Lower>().rankUpdate(shared);
         direct_.segment(first_row, rows.rows()) += (rows * shared + own).rowwise().squaredNorm();
     }
@@ -43,6 +45,7 @@ public:
 
     /// Contribution to every quantity, with all angles closed.
     [[nodiscard]] Eigen::VectorXd variance(const TallMatrix& rows) const {
+        // The subtraction of close_angle() may leave rounding of either sign.
         return (direct_ + squares(rows, all_)).cwiseMax(0.0);
     }
 
@@ -73,6 +76,7 @@ Eigen::MatrixXd root_of(const gum::InputGroup& group) {
     if (group.is_diagonal()) {
         return uncertainties(group).matrix().asDiagonal();
     }
+    // To correlations first: a root by LDLᵀ with pivots exists for singular groups as well.
     const Eigen::VectorXd u = group.covariance.diagonal().cwiseSqrt();
     const Eigen::VectorXd inverse = (u.array() > 0.0).select(u.array().inverse(), 0.0);
     Eigen::MatrixXd correlation = inverse.asDiagonal() * group.covariance * inverse.asDiagonal();
@@ -102,6 +106,8 @@ std::vector<Eigen::Index> first_lengths(const JointAdjustment& adjustment) {
     return result;
 }
 
+// In proportion to the angles. A row a quantity and a column an input took 10 s and 1 GB for 360 angles, and grew with
+// the cube and the square of them (ADR 0032).
 class Contributions {
 public:
     Contributions(const RotaryTableModel& model, const AnglewiseMap& map)
@@ -166,6 +172,7 @@ private:
         const std::vector<Eigen::Index> first = first_lengths(adjustment_);
         const std::vector<std::vector<std::size_t>> by_angle = visits_by_angle(adjustment_);
         const Eigen::Index q = map_.per_angle();
+        // Angle by angle, so that the sums of one can be closed before the next one begins.
         for (std::size_t a = 0; a < by_angle.size(); ++a) {
             const Eigen::Index row = q * static_cast<Eigen::Index>(a);
             const auto rows = sensitivity_.shared().middleRows(row, q);
@@ -189,6 +196,8 @@ private:
                     spread.noalias() += moved * moved.transpose();
                     c += size;
                 }
+                // V of the visit once, from all its sources: the covariance needs their sum, only the budget needs them
+                // apart.
                 middle_.noalias() += of.shared * spread * of.shared.transpose();
                 const Eigen::MatrixXd own_spread = of.own * spread;
                 cross_.middleRows(row, q).noalias() += own_spread * of.shared.transpose();

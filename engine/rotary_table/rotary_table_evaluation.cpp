@@ -121,6 +121,7 @@ JointAdjustment with_set_up(const JointAdjustment& from, const RigidMotion& set_
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         const RigidMotion turn{nominal_rotation(measurement, i), Eigen::Vector3d::Zero()};
         Vector6 pose = Vector6::Zero();
+        // E(home) stays zero: it is the datum of the solver, also with the other T_s.
         if (i != measurement.home) {
             pose = motion_parameters(change * rigid_motion(poses.col(static_cast<Eigen::Index>(i))) * turn *
                                      change.inverse() * turn.inverse());
@@ -189,6 +190,7 @@ std::vector<std::size_t> find_gross_deviations(JointAdjustment& adjustment, cons
     }
     std::ranges::stable_sort(deviations, std::greater{}, &std::pair<std::size_t, double>::second);
     std::vector<std::size_t> found;
+    // By the scale of all deviations as well: a table that repeats badly spreads the distances of each visit.
     const double limit = std::max(k_gross_deviation, k_times_scale * upper_median(sizes));
     for (const auto& [length, size] : deviations) {
         if (size > limit) {
@@ -463,6 +465,8 @@ void check_fixture(RotaryTableSolution& solution, const JointAdjustment& adjustm
         return;
     }
     const double nu = weak ? redundancy : row.degrees_of_freedom;
+    // ν times the ratio of the estimated variance to the stated one is χ² with ν degrees of freedom where the stated
+    // one is true.
     const double chi_square = weak ? squares : nu * row.value * row.value / (stated * stated);
     const double above = options.chi_square_upper_tail(chi_square, nu);
     if (2.0 * std::min(above, 1.0 - above) < k_fixture_test_level) {
@@ -498,6 +502,8 @@ void fill_variance_factor(RotaryTableSolution& solution) {
             "All variances are as stated. Chi-square per degree of freedom tests them; no uncertainty is multiplied by "
             "it.";
     } else {
+        // One factor on top of estimated components would count the residuals twice. Without components it would be too
+        // large for five error motions and too small for the sixth (ADR 0008).
         solution.variance_basis = VarianceBasis::estimated;
         solution.variance_factor_reason =
             "Variance components estimated from the residuals are in the weights: " + names +
@@ -598,10 +604,13 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     iteration.report("start values");
     const std::vector<bool> all(measurement.lengths.size(), true);
     std::vector<bool> active = all;
+    // A length that is off by centimetres carries the solution away, and comes back as a rank defect of another
+    // station.
     const std::vector<std::size_t> gross = find_gross_errors(measurement);
     if (!gross.empty() && (!snooping || outliers.action == OutlierAction::report)) {
         refuse_gross_errors(measurement, gross);
     }
+    // Two whole visits lost are no single errors: before anything is left out, interrupted beams are looked for.
     if (has_whole_visits(measurement, gross)) {
         refuse_interrupted_beams(measurement);
     }
@@ -616,6 +625,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     };
     std::ranges::for_each(gross, set_aside);
     const StartValues start = find_start_values(measurement, active);
+    // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
         throw gum::NoResultError(*line);
     }
@@ -695,6 +705,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
             while (const auto suspect = search.largest(limits.critical_value)) {
                 const double size = std::abs(suspect->estimated_error);
                 largest = std::max(largest, size);
+                // Second-order effects of the errors found so far are as large as this one: after a new linearisation
+                // it may not be an outlier at all.
                 if (changed && largest > k_linear_reach && size < second_order_effect(largest)) {
                     break;
                 }
@@ -712,6 +724,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                 settled = true;
                 break;
             }
+            // At weights that have settled. The rough ones above may have let one pass.
             const OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
             if (const auto suspect = search.largest(limits.critical_value)) {
                 leave_out(*suspect);
@@ -752,6 +765,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         }
         finding.removed = !finding.came_back && outliers.action == OutlierAction::remove;
     }
+    // Reported only: then the outliers stay in, and the weights have to be those of all distances.
     const bool kept = outliers.action == OutlierAction::report && active != all;
     if (kept || !settled) {
         if (kept) {
@@ -777,6 +791,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     const AnglewiseMap map = reported_map(adjustment, normal, solution.datum);
     solution.covariance = covariance_of(map, adjustment, normal, covariance);
 
+    // Of the stations with each other: whoever fits a frame through them needs more than the covariance of each.
     solution.station_covariance = covariance_of_stations(adjustment, normal, covariance, solution.datum);
     for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
         const auto block = adjustment.station_block(j);
@@ -787,6 +802,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         station.covariance = solution.station_covariance.block<3, 3>(at, at);
         station.u = station.covariance.diagonal().cwiseSqrt();
         station.scale_deviation = value[3];
+        // A scale that is held has no column: it is taken as exact, and its uncertainty stays 0.
         if (const Eigen::Index column = normal.column(block, 3); column >= 0) {
             station.u_scale = std::sqrt(covariance(column, column));
         }
@@ -799,6 +815,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         const auto block = adjustment.dead_path_block(static_cast<std::size_t>(d));
         const Eigen::Index column = normal.column(block, 0);
         solution.dead_paths[d] = adjustment.adjustment().parameters(block)[0];
+        // From this adjustment and not from the model, which holds the dead paths as inputs (ADR 0007).
         solution.u_dead_paths[d] = std::sqrt(covariance(column, column));
     }
     solution.fixture.resize(measurement.fixture.rows(), 3);
@@ -851,6 +868,8 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                 test_reversals(adjustment, normal, covariance, solution.components, options.fisher_upper_tail);
         }
     } else if (options.chi_square_upper_tail && options.fisher_upper_tail) {
+        // One linear step decides whether the expensive adjustment is worth its time: sound measurements pay little
+        // (ADR 0035).
         may_depend = may_depend_on_angle(adjustment, active, stochastic, options.solver.rank_tolerance,
                                          options.chi_square_upper_tail);
     }
@@ -940,6 +959,8 @@ RotaryTableSolution adjust_with_reversal(const RotaryTableMeasurement& measureme
     } catch (const gum::NoResultError&) {
         return std::move(adjusted.solution);  // only asked, not needed
     }
+    // The tests come from the adjustment with reversals of each angle: variances of the other one hold what is asked
+    // for, and the test would lose its power (ADR 0035).
     const std::optional<gum::Diagnostic> refuted = reversal_note(each.reversal_tests, measurement);
     const bool adopted = refuted && measurement.reversal == ReversalModel::automatic;
     RotaryTableSolution& solution = adopted ? each : adjusted.solution;

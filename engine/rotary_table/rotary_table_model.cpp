@@ -52,6 +52,8 @@ ReportedQuantities reported_quantities(const RotaryTableMeasurement& measurement
         }
     }
     quantities.set_up = static_cast<Eigen::Index>(quantities.outputs.size());
+    // Across the axis only: an offset along it and a turn about it are taken up by the origin and the zero of the axis
+    // (design note rotary-table.md, 4a).
     for (const char* kind : {"O_", "S_"}) {
         for (const int c : across_axis(measurement.axis)) {
             quantities.outputs.push_back({std::string(kind) + "xyz"[c], kind[0] == 'O' ? "m" : "rad"});
@@ -137,6 +139,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
       set_up_(solved.set_up()),
       nominal_(measurement_, solved.active(), solved.set_up(), solved.present_values(), stochastic),
       quantities_(reported_quantities(measurement_, solved.has_reversal())) {
+    // A model of its own, with a copy of the adjustment: what is held here must not change the solution of the caller.
     nominal_.copy_parameters_from(solved);
     nominal_.set_weights(stochastic);
     nominal_.adjustment().set_workers(solved.adjustment().workers());
@@ -203,6 +206,9 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
                          Eigen::MatrixXd::Constant(n, 1, u * u), std::numeric_limits<double>::infinity(), false);
     }
 
+    // Dead paths are inputs with the covariance that the adjustment finds, beside an estimator that regards them as
+    // known. The two parts add up exactly to the covariance of the joint adjustment. As unknowns without prior
+    // knowledge they would have a row of zero in the budget, and their cost would be hidden (ADR 0007).
     Eigen::VectorXd path_value(paths);
     std::vector<Eigen::Index> path_columns;
     for (Eigen::Index d = 0; d < paths; ++d) {
@@ -211,6 +217,8 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
         path_columns.push_back(joint.column(block, 0));
     }
     // Welch-Satterthwaite for the estimated dead paths themselves; the least of them stands for the group.
+    // Squares of the derivatives times the variances, component by component: the sources are independent of each
+    // other.
     Eigen::MatrixXd path_variance = Eigen::MatrixXd::Zero(paths, 5);  // by length noise, table linear, axial, tilt, CMM
     const auto pose_order = repeatability_order(measurement_.axis);
     for (std::size_t v = 0; v < visits.size(); ++v) {
@@ -243,6 +251,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
             // ν_eff = u⁴ / Σ u_k⁴/ν_k over the components that were estimated.
             sum += path_variance(d, k) * path_variance(d, k) / component_nu[static_cast<std::size_t>(k)];
         }
+        // A single number of degrees of freedom for a correlated group: the least one promises nothing too much.
         path_nu = std::min(path_nu, sum > 0.0 ? total * total / sum : std::numeric_limits<double>::infinity());
     }
     layout_.dead_paths = input_count();
@@ -250,6 +259,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
 
     Eigen::VectorXd coordinates(3 * measurement_.fixture.rows());
     for (Eigen::Index m = 0; m < measurement_.fixture.rows(); ++m) {
+        // The coordinates as the CMM measured them, not those of the solution: an input is what was observed.
         coordinates.segment<3>(3 * m) = measurement_.fixture.row(m).transpose();
     }
     layout_.fixture = input_count();
@@ -289,6 +299,8 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     layout_.linear = input_count();
     layout_.axial = layout_.linear + 3 * visit_count;
     layout_.tilt = layout_.axial + visit_count;
+    // Deviations with the estimate 0: they are inputs because they have an uncertainty, not because they change the
+    // value.
     const auto add_table = [&](const char* name, const char* unit, Eigen::Index per_visit, double variance, double nu) {
         add_scalar_group(name, "table repeatability", unit, Eigen::VectorXd::Zero(per_visit * visit_count),
                          Eigen::MatrixXd::Constant(per_visit * visit_count, 1, variance), nu, std::isfinite(nu));
@@ -297,6 +309,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     add_table("table repeatability, axial", "rad", 1, stochastic.variance_axial, degrees_of_freedom.table_axial);
     add_table("table repeatability, tilt", "rad", 2, stochastic.variance_tilt, degrees_of_freedom.table_tilt);
     layout_.resolution = input_count();
+    // Beside the noise and not in it: its variance is known, has no degrees of freedom, and is not estimated.
     if (const double step = measurement_.length_uncertainty.resolution; step > 0.0) {
         add_scalar_group("resolution of the lengths", "length noise", "m", Eigen::VectorXd::Zero(length_count),
                          Eigen::MatrixXd::Constant(length_count, 1, step * step / 12.0),
@@ -430,6 +443,7 @@ Eigen::MatrixXd RotaryTableModel::input_sensitivity(const JointAdjustment& adjus
             result.col(layout_.dead_paths + path) += to_lengths.col(static_cast<Eigen::Index>(k));
         }
         first += to_lengths.cols();
+        // The lengths are corrected by −A δ: so δ acts through them with the opposite sign.
         const Eigen::MatrixXd to_pose = -to_lengths * visit_pose_[v];
         for (int c = 0; c < 3; ++c) {
             result.col(layout_.linear + 3 * at + c) = to_pose.col(order[static_cast<std::size_t>(c)]);

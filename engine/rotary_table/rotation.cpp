@@ -47,6 +47,8 @@ std::array<Eigen::Matrix3d, 3> rotation_zyx_derivatives(const Eigen::Vector3d& a
 }
 
 Eigen::Vector3d angles_zyx(const Eigen::Matrix3d& rotation) {
+    // Arc tangents of both components: an arc sine of an element that rounding has made larger than 1 would have no
+    // value.
     return {std::atan2(rotation(2, 1), rotation(2, 2)),
             std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
             std::atan2(rotation(1, 0), rotation(0, 0))};
@@ -63,6 +65,7 @@ Eigen::Matrix<double, 6, 1> motion_parameters(const RigidMotion& motion) {
 }
 
 Eigen::Matrix<double, 3, 6> point_displacement(const Eigen::Vector3d& point) {
+    // Small turns: e × P. Eq. (8) of the source paper.
     Eigen::Matrix<double, 3, 6> rows;
     rows << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero();
     rows(0, 4) = point[2];

@@ -49,6 +49,7 @@ bool fill(SenseDeviation& result, const std::vector<std::size_t>& visits, const 
     if (!(information.diagonal().minCoeff() > 0.0)) {
         return false;
     }
+    // To a unit diagonal, because translations and rotations have different units.
     const Vector6 scale = information.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::SelfAdjointEigenSolver<Matrix6> solver(Matrix6(scale.asDiagonal() * information * scale.asDiagonal()));
     if (!(solver.eigenvalues()[0] > k_least_eigenvalue)) {
@@ -59,6 +60,7 @@ bool fill(SenseDeviation& result, const std::vector<std::size_t>& visits, const 
                             scale.asDiagonal();
     const MatrixXd gain = inverse * by_parameter;
     result.deviation = inverse * pull;
+    // J C Jᵀ is taken off: what the adjustment has used of the residuals is not free any more.
     result.covariance = inverse - gain * covariance(columns, columns) * gain.transpose();
     // The only visits of an angle have no residual of their own: what is left is rounding.
     result.covariance.diagonal() = result.covariance.diagonal().cwiseMax(0.0);

@@ -83,8 +83,11 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& design, double* condition,
     const Eigen::VectorXd scale = design.colwise().norm().cwiseInverse();
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(design * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd& values = svd.singularValues();
+    // A singular design is refused by the caller: the values below are then not used.
     *full_rank = design.rows() >= design.cols() && values[values.size() - 1] > 1e-9 * values[0];
     *condition = values[0] / values[values.size() - 1];
+    // The matrix itself and not only a step: it is the derivative of a stage by its lengths, and carries uncertainties
+    // from one stage to the next.
     return scale.asDiagonal() * svd.matrixV() * values.cwiseInverse().asDiagonal() * svd.matrixU().transpose();
 }
 
@@ -203,6 +206,7 @@ Inputs SequentialModel::unpack(const Eigen::VectorXd& x) const {
     in.expansion = has_expansion_ ? x[next++] : measurement_.expansion;
     const auto visits = static_cast<Eigen::Index>(visit_pose_.size());
     const auto order = repeatability_order(measurement_.axis);
+    // Inputs of the resolution and of the table are deviations with the estimate 0: they act through the lengths.
     if (has_resolution()) {
         in.lengths += x.tail(n);
     }
@@ -228,6 +232,8 @@ Stages SequentialModel::solve(const Inputs& in) const {
     const std::size_t reflectors = measurement_.reflectors.size();
 
     // Stage 1: every station and its dead paths from the home position, the fixture taken as the CMM measured it.
+    // Each station alone: that is the method of the paper, and why its uncertainties are larger than those of the joint
+    // adjustment.
     for (std::size_t j = 0; j < measurement_.stations.size(); ++j) {
         StationStage station;
         for (std::size_t k = 0; k < distances_.size(); ++k) {
@@ -250,6 +256,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
             station.unknowns[3 + d] =
                 start_.dead_paths[static_cast<Eigen::Index>(station.dead_paths[static_cast<std::size_t>(d)])];
         }
+        // At home the fixture stands as the CMM measured it, but for its temperature.
         const double stretch = 1.0 + in.expansion * in.temperature[static_cast<Eigen::Index>(j)];
         Eigen::MatrixXd design(station.observations.size(), size);
         Eigen::VectorXd misclosure(station.observations.size());
@@ -305,6 +312,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
             PointPosition& point = stages.points[i][m];
             const Eigen::Vector3d ideal = rotation * in.fixture.row(static_cast<Eigen::Index>(m)).transpose();
             point.position = ideal;
+            // Fewer than three distances do not determine a point; the angle may still have enough others.
             if (point.observations.size() < 3) {
                 continue;
             }
@@ -318,6 +326,8 @@ Stages SequentialModel::solve(const Inputs& in) const {
                     const Eigen::Index path = distances_[k].path;
                     const double scale = scale_of(stages, in, j);
                     const Eigen::Vector3d difference =
+                        // Each station saw the fixture at a temperature of its own. The point that they share is that
+                        // of the reference temperature.
                         point.position + in.expansion * in.temperature[static_cast<Eigen::Index>(j)] * ideal -
                         station.unknowns.head<3>();
                     const double distance = difference.norm();
@@ -342,6 +352,8 @@ Stages SequentialModel::solve(const Inputs& in) const {
     }
 
     // Set-up errors, eqs. (2)-(6): ideal positions are the home positions turned; least squares over all points.
+    // Linear rows, as the paper has them: with set-up errors of 193 µm and 109″ they leave 0.19 µm, as much as the
+    // noise of a length (design note rotary-table.md, 1).
     const std::vector<PointPosition>& home = stages.points[measurement_.home];
     const auto across = across_axis(measurement_.axis);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
@@ -385,6 +397,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
             pose_normal += rows.transpose() * rows;
             pose_right += rows.transpose() * (table_from_fixture * stages.points[i][m].position - expected);
         }
+        // Two points leave a turn about the line through them open.
         if (used < 3) {
             refuse("angle number " + std::to_string(i + 1),
                    std::to_string(used) + " reflectors have a position there and at home, 3 are needed",
@@ -392,6 +405,7 @@ Stages SequentialModel::solve(const Inputs& in) const {
         }
         stages.errors.col(static_cast<Eigen::Index>(i)) = pose_normal.ldlt().solve(pose_right);
     }
+    // The stages refer to home already.
     if (measurement_.datum == Datum::home) {
         const Eigen::Index size = stages.errors.size();
         stages.datum.errors = stages.errors;
@@ -468,6 +482,7 @@ Eigen::MatrixXd SequentialModel::station_derivatives(const Stages& stages, const
             station.unknowns.head<3>();
         const double distance = difference.norm();
         Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(column_count());
+        // The residual of each distance moves with its length and against what it is predicted from.
         line[static_cast<Eigen::Index>(k)] = 1.0;
         subtract_direct(in, k, scale_of(stages, in, station_index) / distance * difference, distance, true, line);
         rows.row(static_cast<Eigen::Index>(row)) = line;
@@ -505,6 +520,8 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
                                                    station.unknowns.head<3>();
                 const double distance = difference.norm();
                 const Eigen::Vector3d direction = scale_of(stages, in, j) / distance * difference;
+                // l + l0 = s |P − q|: what moves the station or lengthens its dead path changes the predicted length,
+                // and with it the point.
                 Eigen::RowVectorXd line =
                     direction.transpose() * by_station[j].topRows<3>() + by_station[j].row(3 + path);
                 if (scale_is_free()) {
@@ -531,6 +548,7 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
             }
             const Eigen::Matrix<double, 3, 4> rows = set_up_rows(rotation * home[m].position, rotation, across);
             normal += rows.transpose() * rows;
+            // Ideal positions are those of home, turned: an error at home is in every angle.
             right += rows.transpose() * (by_point[i][m] - rotation * by_point[measurement_.home][m]);
         }
     }
@@ -552,6 +570,8 @@ Eigen::MatrixXd SequentialModel::reported_derivatives(const Stages& stages, cons
             const Eigen::Vector3d expected = rotation * (table_from_fixture * home[m].position);
             const Eigen::Matrix<double, 3, 6> rows = point_displacement(expected);
             pose_normal += rows.transpose() * rows;
+            // Errors of home and of the set-up go into every angle with a correlation that the residuals of a stage
+            // cannot show.
             const Eigen::MatrixXd change = table_from_fixture.rotation * by_point[i][m] -
                                            rotation * (table_from_fixture.rotation * by_point[measurement_.home][m]) -
                                            set_up_rows(expected, rotation, across) * by_set_up;
@@ -589,6 +609,8 @@ Eigen::MatrixXd SequentialModel::with_table(const Eigen::MatrixXd& derivatives) 
 }
 
 Eigen::MatrixXd SequentialModel::propagated(const Eigen::MatrixXd& derivatives) const {
+    // By groups with their full covariances: the correlations between the stages are what the paper leaves out (ADR
+    // 0010).
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(derivatives.rows(), derivatives.rows());
     Eigen::Index first = 0;
     for (const gum::InputGroup& group : inputs_) {
@@ -623,6 +645,8 @@ std::vector<ExternalReliability> SequentialModel::external_reliability(
 
 RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurement, const EvaluationOptions& options,
                                           const Progress& progress) {
+    // Of the joint adjustment come components, outliers and reliability; positions and error motions are replaced
+    // below.
     RotaryTableMeasurement of_all_angles = measurement;  // its stages know one reversal only
     of_all_angles.reversal = ReversalModel::constant;
     RotaryTableSolution solution = evaluate_jointly(of_all_angles, options, progress);
@@ -641,6 +665,7 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
     const Eigen::MatrixXd derivatives = model->reported_derivatives(stages, in);
     solution.covariance = AnglewiseCovariance(model->propagated(model->with_table(derivatives)));
     solution.external_reliability = model->external_reliability(derivatives, solution.reliability);
+    // The largest of the stages: they have no system of equations in common.
     solution.condition_number = 0.0;
     const RigidMotion table_from_fixture = rigid_motion(stages.set_up);
     for (std::size_t j = 0; j < stages.stations.size(); ++j) {
@@ -648,6 +673,7 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
         const Eigen::MatrixXd covariance =
             model->propagated(model->with_table(model->station_derivatives(stages, in, j)));
         StationEstimate& estimate = solution.stations[j];
+        // Found in the frame of the fixture at home, stated in that of the datum.
         estimate.position = stages.datum.world * (table_from_fixture * station.unknowns.head<3>());
         const Eigen::Matrix3d turned = stages.datum.world.rotation * table_from_fixture.rotation;
         estimate.covariance = turned * covariance.topLeftCorner<3, 3>() * turned.transpose();
@@ -702,6 +728,7 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
         solution.observations += normal.groups()[v].residual.size();
     }
     const bool free = measurement.length_uncertainty.scale_model == ScaleModel::free;
+    // Home has no pose of its own.
     solution.parameters =
         static_cast<Eigen::Index>((free ? 4 : 3) * measurement.stations.size() + measurement.dead_paths.size() +
                                   6 * (measurement.angles.size() - 1));

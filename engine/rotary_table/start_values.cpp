@@ -92,6 +92,7 @@ public:
             }
             const LengthObservation& length = measurement.lengths[i];
             StationData& data = stations_[length.station];
+            // Stations look at the fixture at temperatures of their own.
             const double stretch =
                 1.0 +
                 measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(length.station)];
@@ -244,6 +245,7 @@ private:
     }
 
     /// Absolute deviations of the dead paths that have more than one length: a single length always agrees.
+    /// The deviation from the median of one length is 0 whatever the position: it would make a wrong one look good.
     static void collect(const StationData& data, const Eigen::VectorXd& deviation, std::vector<double>& values) {
         for (const std::vector<Eigen::Index>& members : data.members) {
             for (const Eigen::Index i : members) {
@@ -327,6 +329,8 @@ private:
                 raw[k] = deviations(stations_[of[k]], at[k], where[of[k]].position).first;
             }
         };
+        // The scale follows the deviations down: far from the solution all lengths pull, near it only those that agree.
+        // At exact data it ends at a nanometre.
         const auto scale_of = [&] {
             values.clear();
             for (std::size_t k = 0; k < of.size(); ++k) {
@@ -360,6 +364,8 @@ private:
                     rows.row(i).head<4>() = direction.transpose() * at[k].by_set_up[index];
                     rows.row(i).tail<3>() = -direction.transpose();
                 }
+                // A dead path is eliminated by taking off the weighted means of its rows, as its constant was taken off
+                // the deviations.
                 for (const std::vector<Eigen::Index>& members : data.members) {
                     Eigen::Matrix<double, 1, 7> mean = Eigen::Matrix<double, 1, 7>::Zero();
                     double weights = 0.0;
@@ -389,6 +395,7 @@ private:
                 const double weight = std::pow(k_typical_deviation / (c * width), 2);
                 normal(z, z) += weight;
                 right[z] -= weight * set_up[z];
+                // Rows and columns of a held set-up become those of the identity: the system keeps its size.
                 if (!free_set_up) {
                     normal.row(z).setZero();
                     normal.col(z).setZero();
@@ -412,6 +419,7 @@ private:
                         fits[of[k]].position + change.segment<3>(static_cast<Eigen::Index>(4 + 3 * k));
                 }
                 double after = std::numeric_limits<double>::infinity();
+                // A step of many metres or radians leads nowhere: it is damped before anything is evaluated.
                 if (change.allFinite() && largest < 5.0) {
                     evaluate(next, trial, false);
                     after = prior(next, c);
@@ -419,6 +427,7 @@ private:
                         after += weigh(stations_[of[k]], raw[k], c).cost;
                     }
                 }
+                // At exact data the cost is rounding, and rounding must not look like a step in the wrong direction.
                 if (after <= cost * (1.0 + 1e-9)) {
                     better = true;
                     set_up = next;
@@ -452,6 +461,8 @@ private:
 
     /// Closed solution: |P|² - 2 P·q + |q|² = l² + 2 l l0 + l0² is linear in q, l0 and κ = |q|² - l0², one l0 and κ a
     /// dead path. Both are eliminated; q is found in the directions that are determined.
+    // It needs no start and no operator, and comes within a millimetre of usual stations (design note rotary-table.md,
+    // 4c).
     struct ClosedSolution {
         Eigen::Vector3d position = Eigen::Vector3d::Zero();
         Eigen::Vector3d open = Eigen::Vector3d::UnitX();   // least determined direction
@@ -465,6 +476,7 @@ private:
             result.centre += point / static_cast<double>(at.point.size());
         }
         Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+        // l0 and κ are two unknowns of each dead path: fewer than three lengths say nothing of the position.
         for (const std::vector<Eigen::Index>& members : data.members) {
             if (members.size() < 3) {
                 continue;
@@ -477,6 +489,8 @@ private:
                 rows.row(k) << -2.0 * point.transpose(), data.length[i] * data.length[i] - point.squaredNorm(),
                     data.length[i];
             }
+            // κ is a constant of the dead path: means are taken off. l0 is the factor of l: what is proportional to l
+            // is taken off. What is left is linear in q.
             rows.rowwise() -= rows.colwise().mean().eval();
             const double squares = rows.col(4).squaredNorm();
             if (squares > 0.0) {
@@ -490,6 +504,8 @@ private:
         result.open = eigen.eigenvectors().col(0);
         result.determined = values[0] > k_linear_eigenvalue_ratio * values[2] && values[2] > 0.0;
         result.position = result.centre;
+        // In a direction that the rows do not determine the solution stays in the middle of the points, and `open`
+        // tells which one it is.
         for (int k = 0; k < 3; ++k) {
             if (values[k] > k_linear_eigenvalue_ratio * values[2]) {
                 const Eigen::Vector3d direction = eigen.eigenvectors().col(k);
@@ -505,6 +521,7 @@ private:
         for (const Eigen::Vector3d& point : at.point) {
             centre += point / static_cast<double>(at.point.size());
         }
+        // The plane in which the points nearly lie: distances hardly change when a station is reflected in it.
         Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
         for (const Eigen::Vector3d& point : at.point) {
             scatter += (point - centre) * (point - centre).transpose();
@@ -562,6 +579,8 @@ private:
         if (best.misfit > k_good_misfit) {
             // The line that the linear form leaves open: κ and l0 are not free of each other, the misfit tells.
             std::vector<Eigen::Vector3d> line;
+            // Three metres to either side in steps of an eighth: a descent finds the station from a tenth of a metre
+            // off (design note rotary-table.md, 4c).
             for (int k = -24; k <= 24; ++k) {
                 line.emplace_back(closed.position -
                                   closed.open * (closed.open.dot(closed.position - closed.centre) - 0.125 * k));
@@ -595,6 +614,7 @@ private:
     [[nodiscard]] static std::vector<Eigen::Vector3d> sphere_grid(const Eigen::Vector3d& centre) {
         constexpr int k_directions = 60;
         std::vector<Eigen::Vector3d> grid;
+        // From one to the next by a factor of 1.6 to 2: no station is far from one of them.
         for (const double distance : {0.3, 0.6, 1.0, 1.6, 2.6, 4.2}) {
             for (int k = 0; k < k_directions; ++k) {
                 const double z = 1.0 - (2.0 * k + 1.0) / k_directions;
@@ -654,6 +674,7 @@ private:
             }
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+        // Eigenvalues of a scatter are squares of singular values.
         if (eigen.eigenvalues()[0] > k_cone_singular_ratio * k_cone_singular_ratio) {
             return;
         }
@@ -715,6 +736,7 @@ private:
         }
         std::vector<StationFit> rivals = fits_;
         Eigen::Vector4d set_up = set_up_;
+        // The mirror image of a tilt of the fixture is the tilt to the other side.
         set_up.tail<2>() *= -1.0;
         for (std::size_t j = 0; j < stations_.size(); ++j) {
             rivals[j].position[axial] = 2.0 * height / count - rivals[j].position[axial];
@@ -750,6 +772,7 @@ private:
     }
 
     [[nodiscard]] static bool is_rival(const StationFit& found, const StationFit& rival) {
+        // Twice as large a misfit is no better explanation; and two places a centimetre apart are one.
         return rival.misfit < k_rival_factor * found.misfit + 1e-9 &&
                (rival.position - found.position).norm() > k_rival_distance;
     }
@@ -824,6 +847,7 @@ RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_
     if (hypothesis.other_sense) {
         const double home = measurement.angles[measurement.home];
         for (double& angle : measurement.angles) {
+            // About the home angle, where the fixture stands in its frame.
             angle = 2.0 * home - angle;
         }
     }
@@ -889,6 +913,7 @@ private:
         std::optional<std::pair<std::size_t, Eigen::Vector3d>> first;
         for (std::size_t pass = 0; pass < measurement_.passes.size(); ++pass) {
             const std::vector<bool> active = of_station(station, pass);
+            // Position, set-up and dead path are eight unknowns: fewer lengths fit any place.
             if (std::ranges::count(active, true) < 8) {
                 continue;
             }
@@ -959,6 +984,8 @@ struct Interruption {
     double left = std::numeric_limits<double>::infinity();  ///< mean absolute deviation with it, [m]
 };
 
+// Every candidate is fitted anew. Steps of the medians of visits at one set of start values were tried, and are fooled
+// by start values that the step itself has moved (ADR 0031).
 class InterruptionSearch {
 public:
     explicit InterruptionSearch(const RotaryTableMeasurement& measurement) : split_(measurement) {
@@ -993,6 +1020,7 @@ public:
                 best = found;
             }
         }
+        // A fifth or less of what it was (ADR 0031): an additional dead path alone takes up some of any misfit.
         if (best.left < k_share_left * before && std::abs(best.size) > k_smallest) {
             return best;
         }
@@ -1049,6 +1077,8 @@ private:
         const StationFit fit = search.fit_of(station);
         const auto [deviations, centres] = search.deviations(station, fit);
         Interruption result;
+        // The mean of all deviations. The misfit leaves out the largest ones, which are just those of an interrupted
+        // beam.
         result.left = deviations.cwiseAbs().mean();
         const std::vector<std::size_t>& names = search.stations()[station].path_name;
         if (!names.empty() && names.back() == split_.dead_paths.size() - 1) {
@@ -1109,6 +1139,7 @@ std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measure
         std::vector<double> values;
         for (const std::vector<Eigen::Index>& members : data.members) {
             for (const Eigen::Index i : members) {
+                // Which one of two lengths is wrong cannot be told: each is as far from their median.
                 if (members.size() > 2) {
                     values.push_back(std::abs(deviation[i]));
                 }
@@ -1127,6 +1158,7 @@ std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measure
         }
     }
     std::sort(found.begin(), found.end());
+    // More than one in twenty are no gross errors of single distances, but something else.
     found.resize(std::min(found.size(), measurement.lengths.size() / 20 + 1));
     std::vector<std::size_t> result;
     for (const auto& [size, i] : found) {

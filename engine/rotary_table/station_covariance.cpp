@@ -14,6 +14,7 @@ Eigen::MatrixXd position_by_parameter(const JointAdjustment& adjustment, const N
                                       const DatumSolution& datum, std::size_t station) {
     const auto block = adjustment.station_block(station);
     const Eigen::Vector3d position = adjustment.adjustment().parameters(block).head<3>();
+    // The datum moves the world, and a station with it: its position depends on all poses.
     const Eigen::MatrixXd by_pose = point_displacement(position) * datum.world_map;
     Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
     for (int c = 0; c < 3; ++c) {
@@ -48,12 +49,16 @@ double largest_share_of_station(const JointAdjustment& adjustment, const NormalE
                                 const AnglewiseMap& map, const Eigen::VectorXd& variances, std::size_t station) {
     const Eigen::MatrixXd by_parameter = position_by_parameter(adjustment, normal, datum, station);
     const Eigen::MatrixXd spread = covariance.times_left(by_parameter);  // 3×p
+    // The eigenvector of the largest eigenvalue is the line along which the station is known least.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Eigen::Matrix3d(spread * by_parameter.transpose()));
     const Eigen::VectorXd cross =
         map.times(spread.transpose() * eigen.eigenvectors().col(2), adjustment, normal);  // of each quantity with it
     double largest = 0.0;
     for (Eigen::Index i = 0; i < cross.size(); ++i) {
+        // An error motion at home in its own datum is zero by definition: it has no variance of which a share could be
+        // taken.
         if (variances[i] > 0.0) {
+            // cov²/(var var): the part of the variance that would go if this coordinate were known.
             largest = std::max(largest, cross[i] * cross[i] / (variances[i] * eigen.eigenvalues()[2]));
         }
     }

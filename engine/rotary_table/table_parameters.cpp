@@ -56,9 +56,12 @@ AxisInFixture axis_in_fixture(RotaryAxis axis, const Eigen::Vector4d& set_up) {
     AxisInFixture result;
     result.direction = fixture_from_table.rotation.col(k);
     const Eigen::Vector3d& u = result.direction;
+    // Along the axis to the plane through the origin of the fixture: there its position is stated.
     const double along = origin[k] / u[k];
     result.point = origin - along * u;
     for (int c = 0; c < 4; ++c) {
+        // The inverse of (R, t) is (Rᵀ, −Rᵀ t). An offset moves its origin by a column of Rᵀ; a tilt changes Rᵀ, and
+        // the origin with it.
         const int coordinate = across[static_cast<std::size_t>(c % 2)];
         Eigen::Vector3d origin_by;
         Eigen::Vector3d u_by = Eigen::Vector3d::Zero();
@@ -69,6 +72,7 @@ AxisInFixture axis_in_fixture(RotaryAxis axis, const Eigen::Vector4d& set_up) {
             origin_by = -(turned * parameters.head<3>());
             u_by = turned.col(k);
         }
+        // The plane stays where it is while the axis moves: the place along the axis where they meet follows.
         const double along_by = (origin_by[k] - along * u_by[k]) / u[k];
         result.direction_by.col(c) = u_by;
         result.point_by.col(c) = origin_by - along_by * u - along * u_by;
@@ -87,6 +91,7 @@ Eigen::Matrix4d axis_line_derivatives(RotaryAxis axis, const Eigen::Vector4d& se
         const auto [component, sign] = axis_tilt(axis, coordinate);
         const double u = line.direction[component];
         const double w = line.direction[k];
+        // Derivative of the arc tangent of u/w.
         result.row(2 + c) =
             sign * (w * line.direction_by.row(component) - u * line.direction_by.row(k)) / (u * u + w * w);
     }
@@ -122,6 +127,7 @@ VisitPositionGains visit_position_gains(const JointAdjustment& solved, const Sto
         const Eigen::VectorXd weighted = solved.visit_covariance(v, without_axial).llt().solve(by_rotation);
         const double information = by_rotation.dot(weighted);  // [1/rad²]
         result.gains.emplace_back();
+        // A visit whose lengths hardly see the rotation would bring a deviation of milliradians into means and maxima.
         if (information > 1.0 / (k_least_known_rotation * k_least_known_rotation) && std::isfinite(information)) {
             result.gains.back() = weighted / information;
         }
@@ -140,6 +146,8 @@ Eigen::VectorXd visit_positions(const JointAdjustment& solved, const Eigen::Ref<
             continue;
         }
         double& position = positions[static_cast<Eigen::Index>(v)];
+        // The value of an angle rests on all its visits. What the table did at this one visit is left in the residuals
+        // of its lengths, and comes back from these.
         position = reported[axial_error(measurement.axis, static_cast<Eigen::Index>(visits[v].angle))] +
                    gains.gains[v].dot(solved.adjustment().residual(v));
         if (solved.has_reversal()) {
@@ -177,6 +185,7 @@ TableParameters::TableParameters(const RotaryTableMeasurement& measurement, cons
       nominal_reported_(reported) {
     to_average_line_.middleCols<4>(6 * angles_).setIdentity();
     nominal_set_up_ = reported.segment<4>(6 * angles_);
+    // The axis is the axis average line in any case: with the datum of home its set-up would be that of one angle.
     if (measurement.datum != Datum::axis_average_line) {
         const DatumSolution average =
             transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
@@ -260,6 +269,8 @@ TableParameters::Derivatives TableParameters::derivatives(
     Derivatives result{Eigen::MatrixXd::Zero(rows, reported.size()),
                        Eigen::MatrixXd::Zero(rows, visit_positions.size())};
     for (Eigen::Index k = 0; k < 6; ++k) {
+        // Strictly less and strictly greater: of two angles that tie the first one stands, in values and derivatives
+        // alike.
         Eigen::Index lowest = k;
         Eigen::Index highest = k;
         for (Eigen::Index i = 1; i < angles_; ++i) {
@@ -364,10 +375,12 @@ Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment
             by.by_reported.col(axial_error(measurement.axis, static_cast<Eigen::Index>(visits[v].angle))) += column;
             const double share = reversal_share(adjustment.has_reversal(), visits[v].approach);
             if (adjustment.reversal_by_angle()) {
+                // With a reversal of each angle it is a parameter of the pose, and no reported quantity.
                 by_reversal.col(normal.column(adjustment.pose_block(visits[v].angle), own_reversal)) += share * column;
             } else if (adjustment.has_reversal()) {
                 by.by_reported.col(reversal) += share * column;
             }
+            // x_v holds the residual of its own visit: y = a·x̂ + b·(l − f(x̂)).
             by_residual.middleCols(first, n).noalias() = column * gains_.gains[v].transpose();
         }
         first += n;
@@ -375,6 +388,7 @@ Eigen::MatrixXd TableParameterModel::by_inputs(const JointAdjustment& adjustment
     const Eigen::MatrixXd by_parameter =
         reported_map(adjustment, normal, datum).combined(by.by_reported, adjustment, normal) + by_reversal;
     Eigen::MatrixXd result = joint_->input_sensitivity(adjustment, normal, by_parameter, by_residual);
+    // The deviation that was taken off the lengths is in the position where the table really stood.
     result.middleCols(axial, by.by_position.cols()) += by.by_position;
     return result;
 }
@@ -415,6 +429,8 @@ double TableParameterModel::rms_position_uncertainty() const {
         const LinearisedGroup& group = normal.groups()[v];
         Eigen::MatrixXd path_of = Eigen::MatrixXd::Zero(group.cholesky.rows(), paths);
         for (std::size_t k = 0; k < visits[v].observations.size(); ++k) {
+            // A dead path is added to every length that was measured with it: ∂x̂/∂l0 = Q Jᵀ Σ⁻¹ 1, with 1 at these
+            // lengths.
             path_of(static_cast<Eigen::Index>(k),
                     static_cast<Eigen::Index>(measurement.lengths[visits[v].observations[k]].dead_path)) = 1.0;
         }
@@ -435,6 +451,7 @@ double TableParameterModel::rms_position_uncertainty() const {
     }
     const Eigen::MatrixXd change_by_path = map.change * pose_by_path;
 
+    // The dead paths are inputs here: what their uncertainty adds to a position goes through parameters and residual.
     Eigen::MatrixXd path_covariance;
     for (const gum::InputGroup& group : joint_->inputs()) {
         if (group.source == "dead path") {
@@ -453,6 +470,7 @@ double TableParameterModel::rms_position_uncertainty() const {
         const auto angle = static_cast<Eigen::Index>(visits[v].angle);
         const Eigen::Index row =
             by_angle ? 12 * angle + (visits[v].approach == Approach::positive ? 0 : 6) + axial : 6 * angle + axial;
+        // With a reversal of each angle the rows are those of a single sense: half the reversal is in them already.
         const double share = by_angle ? 0.0 : reversal_share(solved.has_reversal(), visits[v].approach);
         // h is the row of the axial rotation and a share of that of the reversal, which depends on the border only.
         const auto with_reversal = [&](const auto& rows) -> Eigen::RowVectorXd {
@@ -463,6 +481,8 @@ double TableParameterModel::rms_position_uncertainty() const {
             h_spread += share * (2.0 * reported(row, reversal) + share * reported(reversal, reversal));
         }
         const Eigen::RowVectorXd by_change = with_reversal(map.by_change);
+        // The whole coefficient of the pose of this angle: of its error motion itself, and of the datum that follows
+        // it. The poses of other angles vary with this one through the border only, which by_border holds.
         const Eigen::RowVectorXd by_pose = map.local.row(row) + by_change * map.change.middleCols(size * angle, size);
         const Eigen::RowVectorXd by_border = with_reversal(border_spread);
         const Eigen::RowVectorXd to_pose = by_border * poses.by_border.middleRows(size * angle, size).transpose() +
@@ -494,6 +514,7 @@ double TableParameterModel::rms_position_uncertainty() const {
                 g[static_cast<Eigen::Index>(k)];
         }
         variance += to_path * path_covariance * to_path.transpose();
+        // A difference of nearly equal numbers, which rounding may make negative.
         sum += std::max(variance, 0.0);
         count += 1.0;
     }

@@ -42,6 +42,8 @@ void whitened_roots(const JointAdjustment& adjustment, const NormalEquations& no
     const int axial = 3 + axial_coordinate(adjustment.measurement().axis);
     const auto lower = group.cholesky.triangularView<Eigen::Lower>();
     roots.resize(n, n + 6);
+    // One factor for the stated noise of a length. Its constant and its proportional part are not told apart by the
+    // residuals: their estimates have a correlation of 0.9 (design note rotary-table.md, D4).
     roots.leftCols(n) = adjustment.stated_variance(visit).cwiseSqrt().asDiagonal();
     lower.solveInPlace(roots.leftCols(n));
     std::array<Eigen::Index, 6> to{n, n + 1, n + 2, 0, 0, 0};
@@ -221,6 +223,9 @@ VisitSums sums_of(const JointAdjustment& adjustment, const NormalEquations& norm
             for (std::size_t l = 0; l < k_visit_components; ++l) {
                 const auto square = root_square.block(first[k], first[l], rank, first[l + 1] - first[l]);
                 const auto spread = root_predicted.block(first[k], first[l], rank, first[l + 1] - first[l]);
+                // R̃ = I − P with P = J̃ C J̃ᵀ: tr(Ũ_k R̃ Ũ_l R̃) = tr(Ũ_k Ũ_l) − 2 tr(Ũ_k P Ũ_l) + tr(Ũ_k P Ũ_l P).
+                // The first two need the visit alone. The last one ties all visits together, and is added from the
+                // bordered forms.
                 sums.fisher(at, static_cast<Eigen::Index>(l)) += square.cwiseProduct(square - 2.0 * spread).sum();
             }
             if (needed[k]) {
@@ -282,6 +287,7 @@ StochasticModel start_variances(const TableRepeatability& table) {
 VarianceComponentStep estimate_variance_components(const JointAdjustment& adjustment, const NormalEquations& normal,
                                                    const BorderedCovariance& covariance, const StochasticModel& present,
                                                    const EstimatedComponents& estimated) {
+    // Components that are held need no Fisher information with the others.
     const std::array<bool, k_visit_components> needed{estimated.length, estimated.table, estimated.table,
                                                       estimated.table};
     const std::vector<std::vector<std::size_t>> parts = visits_by_parts(adjustment);
@@ -304,6 +310,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         length_count += part.lengths;
     }
     mean_stated /= length_count;
+    // With one distance a visit its noise and the linear repeatability act alike: only their sum is seen (ADR 0008).
     const bool any_shared_visit =
         std::ranges::any_of(adjustment.visits(), [](const Visit& visit) { return visit.observations.size() > 1; });
     for (std::size_t k = 0; k < k_visit_components; ++k) {
@@ -329,6 +336,8 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     }
 
     // The fixture: Ũ = 1/θ of its own whitened group, whose columns are the coordinates.
+    // Few redundant coordinates: with six reflectors the estimate is known to 21 %, and what all coordinates share does
+    // not show in it at all. So it is a check as a rule (ADR 0016).
     const LinearisedGroup& fixture = normal.groups()[adjustment.fixture_prior()];
     const double fixture_factor = present.fixture_factor;
     const Eigen::MatrixXd fixture_cofactor =
@@ -378,6 +387,8 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     }
     Matrix5 inverse = Matrix5::Zero();
     Vector5 next = theta;
+    // A variance cannot be negative. Components that a step would carry below their bound are held there one at a time,
+    // and the step of the others is found again.
     while (true) {
         std::vector<Eigen::Index> free;
         for (std::size_t k = 0; k < k_components; ++k) {
@@ -438,6 +449,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                   adjustment.measurement().fixture_covariance.diagonal().mean()};
     for (std::size_t k = 0; k < k_components; ++k) {
         const auto at = static_cast<Eigen::Index>(k);
+        // Var(θ) = 2 S⁻¹ for normal residuals.
         const double variance_of_theta = 2.0 * inverse(at, at);
         VarianceComponent component;
         component.name = names[k];
@@ -450,6 +462,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         } else if (table.mode == RepeatabilityMode::given) {
             component.stated = table_stated[k - 1];
         }
+        // θ tr(R V_k): the part of the redundancy that goes to the component; they add up to the degrees of freedom.
         component.redundancy = next[at] * trace[at];
         component.degrees_of_freedom = std::numeric_limits<double>::infinity();
         if (wanted[k]) {
@@ -461,6 +474,7 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                               ? std::min(0.5 * spread / next[at] * component.value, std::sqrt(spread * scales[k]))
                               : std::sqrt(spread * scales[k]);
             if (next[at] > 0.0) {
+                // A χ² with ν degrees of freedom has the variance 2 θ²/ν about θ: ν is found from that of the estimate.
                 component.degrees_of_freedom = 2.0 * next[at] * next[at] / (spread * spread);
                 step.relative_change = std::max(step.relative_change, std::abs(next[at] - theta[at]) / spread);
             } else if (theta[at] > 0.0) {

@@ -64,9 +64,11 @@ HermiteProfile::HermiteProfile(const Distribution& distribution) {
     standard.scale = 1.0;
     values_.resize(k_nodes);
     for (Eigen::Index i = 0; i < k_nodes; ++i) {
+        // The nearer tail, which keeps its digits: Φ(8) is 1 in double.
         const double tail = 0.5 * std::erfc(std::abs(node(i)) / std::numbers::sqrt2);
         values_(i) = node(i) > 0.0 ? upper_quantile(standard, tail) : quantile(standard, tail);
     }
+    // Mean and variance by the same rule as the sums below: a quantity then has r = 1 with itself, to rounding.
     values_.array() -= weights().dot(values_);
     values_ /= std::sqrt(weights().dot(values_.cwiseAbs2()));
     coefficients_ = polynomials().transpose() * weights().cwiseProduct(values_);
@@ -74,6 +76,8 @@ HermiteProfile::HermiteProfile(const Distribution& distribution) {
 
 std::array<double, 2> HermiteProfile::attainable(const HermiteProfile& a, const HermiteProfile& b) {
     const Eigen::VectorXd weighted = weights().cwiseProduct(a.values_);
+    // ρ = 1 gives both quantities one probability, ρ = −1 that of the mirrored node. Shapes that differ keep r from ±1
+    // even then.
     return {std::max(-1.0, weighted.dot(b.values_.reverse())), std::min(1.0, weighted.dot(b.values_))};
 }
 
@@ -95,11 +99,15 @@ double HermiteProfile::pearson(const HermiteProfile& a, const HermiteProfile& b,
     return sum + power * rho * (lacking_odd + rho * lacking_even);
 }
 
+// A stated coefficient is Pearson's. Given to the normal deviates, it would come out smaller in quantities that are not
+// normal (ADR 0025).
 double HermiteProfile::normal_correlation(const HermiteProfile& a, const HermiteProfile& b, double r) {
     const std::array<double, 2> ends = attainable(a, b);
+    // No ρ gives an r beyond these ends: it is the end itself.
     if (r == 0.0 || r <= ends[0] || r >= ends[1]) {
         return r == 0.0 ? 0.0 : r < 0.0 ? -1.0 : 1.0;
     }
+    // Halving needs no derivative, which vanishes where the series does, and always ends.
     double low = -1.0;
     double high = 1.0;
     for (int step = 0; step < k_halvings; ++step) {  // Pearson's r grows with ρ

@@ -24,6 +24,8 @@ Eigen::MatrixXd part(const Eigen::MatrixXd& R, const std::vector<Eigen::Index>& 
 /// Moore–Penrose inverse of a positive semi-definite matrix with the diagonal 1.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& R) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(R);
+    // Known quantities may depend on each other linearly, r = ±1: directions without variance say nothing of the
+    // others.
     const double tolerance = 100.0 * static_cast<double>(R.rows()) * k_epsilon * eigen.eigenvalues().maxCoeff();
     const Eigen::VectorXd inverse =
         eigen.eigenvalues().unaryExpr([&](double value) { return value > tolerance ? 1.0 / value : 0.0; });
@@ -41,6 +43,8 @@ Eigen::MatrixXd semidefinite_root(const Eigen::MatrixXd& correlation) {
         for (Eigen::Index k = 0; k < j; ++k) {
             pivot -= L(j, k) * L(j, k);
         }
+        // The quantity is a combination of those before it: it has no deviate of its own. A root of what rounding left
+        // of the pivot would give it one.
         if (!(pivot > tolerance)) {
             continue;
         }
@@ -63,8 +67,10 @@ ConditionalNormal conditional_normal(const Eigen::MatrixXd& correlation, const s
         (is_given[i] ? out.given : out.others).push_back(static_cast<Eigen::Index>(i));
     }
     const Eigen::MatrixXd across = part(correlation, out.others, out.given);
+    // E[others | given] = R_og R_gg⁻¹ z, and what is left scatters with R_oo − R_og R_gg⁻¹ R_go.
     out.coefficients = across * pseudo_inverse(part(correlation, out.given, out.given));
     const Eigen::MatrixXd remainder = part(correlation, out.others, out.others) - out.coefficients * across.transpose();
+    // Symmetric but for rounding; the root reads one triangle only.
     out.root = semidefinite_root(0.5 * (remainder + remainder.transpose()));
     return out;
 }

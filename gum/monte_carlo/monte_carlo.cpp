@@ -116,6 +116,7 @@ Sums sums_of(const Values& y, std::uint64_t first) {
     bool finite = true;
     for (Eigen::Index j = 0; j < m; ++j) {
         sums.moments.push_back(moments_of(y.col(j).data(), y.rows()));
+        // One trial that is not finite makes the mean so. Testing the mean costs nothing in the usual case.
         finite = finite && std::isfinite(sums.moments.back().mean);
     }
     if (!finite) {
@@ -193,6 +194,7 @@ public:
         to.setZero(y.rows(), 2);
         scratch.resize(y.rows(), m);
         for (Eigen::Index j = 0; j < m; ++j) {
+            // In terms of u, so that outputs of different units count alike; one that does not vary has no distance.
             if (u_(j) > 0.0) {
                 scratch.col(j) = (y.col(j).array() - mean_(j)) / u_(j);
             } else {
@@ -228,6 +230,7 @@ public:
     RegionGrid() = default;
     RegionGrid(const std::vector<Moments>& moments, std::uint64_t trials) {
         const std::size_t m = moments.size();
+        // With four outputs or more there would be more cells than trials, most of them with one trial or none.
         if (m < 2 || m > 3) {
             return;
         }
@@ -236,6 +239,7 @@ public:
         const double wanted = m == 2 ? 100.0 * std::pow(millions, 0.25) : 30.0 * std::pow(millions, 0.2);
         const int cells = static_cast<int>(std::clamp(wanted, 8.0, m == 2 ? 400.0 : 100.0));
         for (const Moments& output : moments) {
+            // From the smallest to the largest trial: the region has to be able to hold all of them.
             const bool varies = output.largest > output.smallest;
             low_.push_back(output.smallest);
             width_.push_back(varies ? (output.largest - output.smallest) / cells : 0.0);
@@ -253,6 +257,7 @@ public:
         for (Eigen::Index i = 0; i < y.rows(); ++i) {
             std::size_t cell = 0;
             for (std::size_t j = 0; j < cells_.size(); ++j) {
+                // The largest trial lies on the upper limit of the last cell and belongs to it.
                 const double place = width_[j] > 0.0 ? (y(i, static_cast<Eigen::Index>(j)) - low_[j]) / width_[j] : 0.0;
                 cell = cell * static_cast<std::size_t>(cells_[j]) +
                        static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, cells_[j] - 1));
@@ -332,6 +337,7 @@ public:
     }
 
     [[noreturn]] void refuse_trial(const Sums& sums, std::uint64_t trials) const {
+        // The trial is drawn again by its number: the inputs that had no value are named, not the block.
         Eigen::MatrixXd x(1, draws_.size());
         draws_.draw(sums.first_not_finite, x);
         std::string inputs;
@@ -387,6 +393,7 @@ public:
           ranks_(options.coverage_probability, trials),
           progress_from_(progress_from) {
         const auto outputs = static_cast<std::uint64_t>(m_);
+        // Memory decides only whether trials are kept or drawn again: the numbers are the same.
         keeps_all_ = trials <= options.memory.kept_trials && trials <= options.memory.kept_values / outputs;
         // All batches of all outputs are kept: 2^22 values, 32 MiB, up to a thousand outputs.
         batch_ = std::clamp<std::uint64_t>((std::uint64_t{1} << 22) / k_batches / outputs, 256, k_largest_batch);
@@ -438,6 +445,7 @@ private:
             search.want_rank(ranks_.low);
             search.want_rank(ranks_.low + ranks_.inside);
             for (const std::uint64_t rank : {ranks_.low, ranks_.low + ranks_.inside}) {
+                // Two more ranks for each end: what the finite number of trials does to it is read from its neighbours.
                 const auto [below, above] = spread_of(rank);
                 search.want_rank(below);
                 search.want_rank(above);
@@ -480,6 +488,8 @@ private:
                     });
                 partial[task] = std::move(sums);
             });
+            // In the order of the blocks: sums have the same bytes, and the trial that is refused is the same one, for
+            // any number of threads.
             for (std::uint64_t block = 0; block < here; ++block) {
                 sums_.merge(partial[static_cast<std::size_t>(block)]);
                 if (sums_.not_finite > 0) {
@@ -507,6 +517,7 @@ private:
         report_progress(options_, progress_from_ + (1.0 - progress_from_) * std::min(fraction, 1.0));
     }
 
+    // Distances need mean and covariance of all trials, hence a pass of their own after the first one.
     void begin_regions() {
         distances_ = std::make_unique<RegionDistances>(sums_.moments, covariance_);
         grid_ = RegionGrid(sums_.moments, trials_);
@@ -606,6 +617,7 @@ private:
                                      [&](std::uint64_t /*from*/, const Values& y) { use(worker, y); });
                 }
             });
+            // Drawing and evaluating the model is what costs: with kept trials a further pass is hardly noticed.
             done_ += keeps_all_ ? 0 : here;
             progress(blocks);
         }
@@ -624,6 +636,7 @@ private:
             }
         }
         histograms_done_ = true;
+        // What all threads have counted is together now; a search decides on whole counts only.
         for (std::size_t j = 0; j < searches_.size(); ++j) {
             if (!searches_[j].is_done()) {
                 searches_[j].finish_pass(sums_.moments[j].smallest, sums_.moments[j].largest);
@@ -641,6 +654,7 @@ private:
     /// small.
     [[nodiscard]] std::vector<ShortestRange> shortest_of_batches() {
         std::vector<ShortestRange> ranges;
+        // Too few trials in a batch: its shortest interval would say nothing of that of all trials.
         if (batch_ < k_smallest_batch || ranks_.inside == 0) {
             return ranges;
         }
@@ -677,6 +691,8 @@ private:
         result.mean = moments.mean;
         result.standard_uncertainty = moments.standard_deviation();
         result.histogram = histograms_[static_cast<std::size_t>(j)];
+        // Where a distribution has no variance, the largest deviation keeps its share of the sum of squares however
+        // many trials there are: then u means nothing.
         const double farthest = std::max(moments.largest - moments.mean, moments.mean - moments.smallest);
         result.largest_share = moments.m2 > 0.0 ? farthest * farthest / moments.m2 : 0.0;
         NumericalError& error = result.numerical_error;
@@ -696,6 +712,7 @@ private:
         };
         end(ranks_.low, result.symmetric.low, error.symmetric.low);
         end(ranks_.low + ranks_.inside, result.symmetric.high, error.symmetric.high);
+        // A single trial has no interval.
         if (ranks_.inside == 0) {
             result.shortest = result.symmetric;
             return result;
@@ -786,6 +803,8 @@ SequenceResult evaluate_sequence(TrialSource& source, const MonteCarloOptions& o
     }
     if (options.regions && m > 1) {
         const Eigen::MatrixXd covariance = result.sums.covariance();
+        // The largest eigenvalue of the correlation matrix, as JCGM 102:2011, 7.8, watches it: it does not depend on
+        // units.
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_matrix(covariance),
                                                                    Eigen::EigenvaluesOnly);
         result.largest_eigenvalue = eigen.eigenvalues()(m - 1);
@@ -800,6 +819,7 @@ SequenceResult evaluate_sequence(TrialSource& source, const MonteCarloOptions& o
         result.ellipsoid_factor = to(rank, 0);
         result.parallelepiped_factor = to(rank, 1);
     }
+    // Each column is put in another order by itself from here on: nothing that needs whole trials may follow.
     const CoverageRanks ranks(options.coverage_probability, trials);
     for (Eigen::Index j = 0; j < m; ++j) {
         double* begin = y.col(j).data();
@@ -808,6 +828,7 @@ SequenceResult evaluate_sequence(TrialSource& source, const MonteCarloOptions& o
         std::nth_element(begin, begin + ranks.low, end);
         const double low = begin[ranks.low];
         double* high = begin + ranks.low + ranks.inside;
+        // All values below the first end lie before it already: the second one is looked for among the rest.
         std::nth_element(begin + ranks.low, high, end);
         result.symmetric.push_back({.low = low, .high = *high});
     }
@@ -848,6 +869,7 @@ public:
     }
 
     [[nodiscard]] bool is_stable() const {
+        // A standard deviation of the sequences needs two of them.
         if (numbers_.front().count < 2) {
             return false;
         }
@@ -862,6 +884,8 @@ public:
         if (!regions_) {
             return true;
         }
+        // Eigenvalue and factors are numbers of their own, with digits of their own: their tolerance follows from their
+        // mean.
         return std::all_of(numbers_.end() - 3, numbers_.end(),
                            [&](const Moments& number) { return settled(number, of(number.mean)); });
     }
@@ -889,6 +913,7 @@ MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& opti
     const AdaptiveTrials& adaptive = *options.adaptive;
     // JCGM 101:2008, 7.9.4: J is the smallest integer not below 100/(1 − p); 1 − p is rounded, and must not add one.
     const double wanted = std::ceil(100.0 / (1.0 - options.coverage_probability) * (1.0 - 1e-12));
+    // At least 10⁴ trials a sequence, where J would be less (JCGM 101:2008, 7.9.4).
     const auto sequence_trials =
         static_cast<std::uint64_t>(std::clamp(wanted, 1e4, static_cast<double>(k_most_trials)));
     const std::uint64_t most = adaptive.most_trials / sequence_trials;
@@ -902,6 +927,8 @@ MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& opti
     Sums all;
     std::uint64_t sequences = 0;
     bool stable = false;
+    // A round has one sequence a thread. The test takes them in their order and ends in the middle of a round where it
+    // has to, or the number of trials would depend on the threads.
     const std::uint64_t round = source.workers().size();
     std::vector<SequenceResult> results(static_cast<std::size_t>(round));
     while (!stable && sequences < most) {
@@ -1001,9 +1028,11 @@ Validation validate(double value, double standard_uncertainty, double expanded_u
     require_not_negative(interval_error.high, "numerical error of the upper end");
     Validation result;
     result.tolerance = numerical_tolerance(standard_uncertainty, digits);
+    // Both ends are compared, because an interval that is shifted may have the same width.
     result.distance_low = std::abs(value - expanded_uncertainty - interval.low);
     result.distance_high = std::abs(value + expanded_uncertainty - interval.high);
     result.validated = result.distance_low <= result.tolerance && result.distance_high <= result.tolerance;
+    // A fifth of the tolerance: only then the numerical error does not decide on the validation (JCGM 101:2008, 8.2).
     result.numerical_limit = result.tolerance / 5.0;
     // An end that is off by more than its numerical error could explain is off, however few the trials.
     constexpr double k_beyond_doubt = 5.0;

@@ -13,6 +13,7 @@ constexpr double k_standard_deviations = 4.0;
 }  // namespace
 
 Histogram empty_histogram(const Moments& moments) {
+    // A heavy tail would press all other trials into one cell.
     const double reach = k_standard_deviations * moments.standard_deviation();
     Histogram result;
     // Where the sums of squares leave the range of double, `reach` is not finite, and the extremes remain.
@@ -38,6 +39,7 @@ void count_values(const double* values, Eigen::Index count, Histogram& histogram
     for (Eigen::Index i = 0; i < count; ++i) {
         const double y = values[i];
         if (y >= low && y <= high) {
+            // A value on the upper end counts for the last cell.
             const auto cell = std::min(static_cast<std::int32_t>((y - low) * cells_a_unit), last);
             ++histogram.counts[static_cast<std::size_t>(cell)];
         }

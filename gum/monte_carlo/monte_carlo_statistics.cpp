@@ -88,6 +88,7 @@ Moments moments_of(const double* values, Eigen::Index count) {
             const double y = values[i + static_cast<Eigen::Index>(l)];
             total[l] += y;
             low[l] = y < low[l] ? y : low[l];
+            // Written so that a NaN never takes the place of an extreme; the mean tells that there is one.
             high[l] = y > high[l] ? y : high[l];
         }
     }
@@ -154,8 +155,10 @@ CoverageRanks::CoverageRanks(double coverage_probability, std::uint64_t trials) 
     const auto wanted =
         // q = pM rounded, r = (M − q)/2 (JCGM 101:2008, 7.7.2).
         static_cast<std::uint64_t>(std::floor(coverage_probability * static_cast<double>(trials) + 0.5));
+    // One value at least stays outside, or the interval could not be shortest anywhere.
     inside = trials > 1 ? std::clamp<std::uint64_t>(wanted, 1, trials - 1) : 0;
     const std::uint64_t outside = trials - inside;
+    // r = (M − q)/2, or (M − q + 1)/2 where that is no whole number; here as a rank from 0.
     low = (outside + 1) / 2 - 1;
 }
 
@@ -172,6 +175,8 @@ ShortestRange shortest_range(std::span<double> values, std::uint64_t inside) {
     }
     std::size_t best = 0;
     for (std::size_t r = 1; r + inside < values.size(); ++r) {
+        // Only a shorter interval takes the place: of equally short ones the lowest stays, in whatever way the values
+        // were sorted.
         if (values[r + inside] - values[r] < values[best + inside] - values[best]) {
             best = r;
         }
@@ -183,9 +188,12 @@ RankSearch::RankSearch(std::span<const double> pilot, int bits, std::uint64_t mo
     std::vector<double> sorted(pilot.begin(), pilot.end());
     boost::sort::pdqsort(sorted.begin(), sorted.end());
     const std::size_t n = sorted.size();
+    // Median and sixths of the pilot values: heavy tails do not move them.
     centre_ = sorted[n / 2];
     // About one standard deviation of the bulk: a standard deviation itself would follow a single outlier.
     double spread = 0.5 * (sorted[n - 1 - n / 6] - sorted[n / 6]);
+    // More than two thirds of the pilot values are equal: their range, then. All equal: any size that is small beside
+    // them.
     if (!(spread > 0.0)) {
         spread = 0.5 * (sorted.back() - sorted.front());
     }
@@ -221,6 +229,7 @@ inline std::int64_t RankSearch::leaf(double y) const {
         if (slot < 0) {
             return -1;
         }
+        // The next bits of the key say which part of the divided bin it is.
         constexpr std::int64_t within = (std::int64_t{1} << k_division_bits) - 1;
         at = (std::int64_t{slot} << k_division_bits) + ((k >> levels_[l].shift) & within);
     }
@@ -259,6 +268,8 @@ void RankSearch::add(const double* values, Eigen::Index count, Tally& tally) con
 
 void RankSearch::absorb(Tally& tally) {
     if (stage_ == Stage::counting) {
+        // Counts are whole numbers and collected values are sorted later: the order in which the threads deliver is not
+        // seen.
         for (std::size_t i = 0; i < counts_.size(); ++i) {
             counts_[i] += tally.counts[i];
         }
@@ -294,6 +305,7 @@ std::size_t RankSearch::bin_of(std::uint64_t rank) const {
 }
 
 std::uint64_t RankSearch::mark_wanted(bool with_shortest) {
+    // Marks are found anew in each pass: with narrower bins fewer of them can matter.
     for (Bin& bin : bins_) {
         bin.wanted = false;
         bin.may_begin = false;
@@ -326,6 +338,7 @@ std::uint64_t RankSearch::mark_wanted(bool with_shortest) {
             }
             const std::uint64_t first_end = bin.start + inside_;
             const std::uint64_t last_end = std::min(bin.start + bin.count - 1, last) + inside_;
+            // Ranks rise with the bins: both ends only move on, and one pass over the bins is enough.
             while (bins_[begin].start + bins_[begin].count <= first_end) {
                 ++begin;
             }
@@ -355,6 +368,7 @@ bool RankSearch::divide() {
     const auto wanted =
         static_cast<std::size_t>(std::count_if(bins_.begin(), bins_.end(), [](const Bin& bin) { return bin.wanted; }));
     constexpr std::size_t parts = std::size_t{1} << k_division_bits;
+    // No bits are left to divide by, or the counts would not fit into memory.
     if (levels_.size() >= k_most_levels || shift < k_division_bits || wanted * parts > k_most_leaves) {
         return false;
     }
@@ -390,6 +404,7 @@ bool RankSearch::divide() {
 
 void RankSearch::begin_collecting() {
     collected_leaves_.assign(counts_.size(), 0);
+    // The counts say how many values each bin will bring, so that each has its place before the first one comes.
     std::uint64_t position = 0;
     for (Bin& bin : bins_) {
         if (bin.wanted) {
@@ -431,6 +446,7 @@ void RankSearch::finish_pass(double smallest, double largest) {
     smallest_ = smallest;
     largest_ = largest;
     if (stage_ == Stage::collecting) {
+        // Sorting takes away the order in which threads delivered the values.
         boost::sort::pdqsort(values_.begin(), values_.end());
         if (inside_ > 0) {
             find_shortest();
@@ -498,6 +514,7 @@ void RankSearch::find_shortest() {
 RankValue RankSearch::between_edges(const Bin& bin) const {
     const double low = low_edge(bin);
     const double high = high_edge(bin);
+    // Anywhere in the bin: the middle, and half its width is the error that is stated with it.
     return {.value = low + 0.5 * (high - low), .resolution = 0.5 * (high - low)};
 }
 

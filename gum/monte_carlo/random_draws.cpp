@@ -88,6 +88,7 @@ __attribute__((always_inline)) inline bool draw_cells(const double* __restrict c
         const FourLong shifted = (wide & std::uint64_t{k_upper - 1}) | two_to_52;
         Four scaled_q;
         std::memcpy(&scaled_q, &shifted, sizeof scaled_q);
+        // w + ½ is the middle of what a word stands for: q is never 0, where a quantile may be infinite.
         scaled_q = (scaled_q - 0x1p52) + 0.5;
         FourLong bits;
         std::memcpy(&bits, &scaled_q, sizeof bits);
@@ -97,6 +98,7 @@ __attribute__((always_inline)) inline bool draw_cells(const double* __restrict c
         }
         row *= sizeof(Four);
         std::memcpy(rows.data() + i, &row, sizeof row);
+        // What is below the bits of the row, as the fraction of a number from 1 to 2.
         const FourLong within = ((bits << k_cell_bits) & fraction) | one;
         Four t;
         std::memcpy(&t, &within, sizeof t);
@@ -129,6 +131,7 @@ __attribute__((always_inline)) inline bool draw_cells(const double* __restrict c
         const Four c3 = __builtin_shufflevector(even23, odd23, 1, 5, 3, 7);
         Four t;
         std::memcpy(&t, draws + i, sizeof t);
+        // In the order of tabulated(): a draw has the same bits whichever way it goes.
         Four x = ((c3 * t + c2) * t + c1) * t + c0;
         nan |= static_cast<FourLong>(x != x);
         if constexpr (symmetric) {
@@ -136,6 +139,7 @@ __attribute__((always_inline)) inline bool draw_cells(const double* __restrict c
             widened(i, wide);
             FourLong signed_x;
             std::memcpy(&signed_x, &x, sizeof x);
+            // Bit 31 is 1 in the upper half, whose quantiles are positive: the sign is turned where it is 0.
             signed_x ^= ~(wide << 32) & k_sign;
             std::memcpy(&x, &signed_x, sizeof x);
         }
@@ -159,6 +163,8 @@ bool draw_asymmetric(const double* coefficients, const std::uint32_t* words, Eig
 
 /// ±(1 - 2q), the uniform distribution on -1 … 1 in the order of the words of the tables.
 inline double uniform_draw(std::uint32_t word) {
+    // Words mean the same probability for every distribution. Quantities that take the quantile of one probability rest
+    // on that.
     const auto number = static_cast<std::int32_t>(word);
     const std::int32_t ascending = number ^ ((number >> 31) & 0x7FFFFFFF) ^ std::numeric_limits<std::int32_t>::min();
     return (static_cast<double>(ascending) + 0.5) * 0x1p-31;
@@ -347,6 +353,7 @@ void QuantileTable::fill(bool upper) {
     const bool smooth = chain || kind == DistributionKind::normal || kind == DistributionKind::triangular ||
                         kind == DistributionKind::arcsine || kind == DistributionKind::exponential;
     const bool bends = kind == DistributionKind::trapezoidal || kind == DistributionKind::curvilinear_trapezoid;
+    // Where the density has a bend, a check in the middle alone may miss it.
     const int parts = bends ? 4 : 2;  // of a cell, between which the piece is checked
     const StudentTChain student_t(chain ? shape : 1.0);
     const auto density = [&](double x) { return chain ? student_t.density(x) : probability_density(standard_, x); };
@@ -377,6 +384,8 @@ void QuantileTable::fill(bool upper) {
             const double c3 = slope_outer + slope_inner - 2.0 * rise;
             bool usable = std::isfinite(x_outer) && std::isfinite(c1) && std::isfinite(c2) && std::isfinite(c3) &&
                           std::max(slope_outer / rise, slope_inner / rise) <= 3.0;  // monotone (Fritsch, Carlson)
+            // Halves of a cell are compared with the exact quantile, other than for densities that are known to be
+            // smooth: there the width of the cells keeps the error small.
             if (usable && !smooth) {
                 for (int part = 1; part < parts; ++part) {
                     const double t = static_cast<double>(part) / parts;
@@ -419,6 +428,8 @@ double QuantileTable::value(double q, bool upper) const {
 
 bool QuantileTable::draw(const std::uint32_t* words, Eigen::Index count, double location, double scale,
                          double* draws) const {
+    // A look-up has no branches and takes one word a draw. Rejection takes a varying number of words: a trial could not
+    // be drawn again alone (ADR 0013).
     const auto draw_fours = symmetric_ ? draw_symmetric : draw_asymmetric;
     bool has_nan = false;
     const Eigen::Index fours = count / k_four * k_four;
@@ -463,6 +474,8 @@ bool has_correlation(const InputGroup& group) {
     if (group.dependence == Dependence::student_t) {
         return true;  // one χ² for all of them, also where no two are correlated
     }
+    // A group that is stated with correlations may have none that is not 0: then each quantity is drawn by itself, and
+    // the kind of dependence does not matter.
     for (Eigen::Index j = 0; j < V.cols(); ++j) {
         for (Eigen::Index i = 0; i < V.rows(); ++i) {
             if (i != j && V(i, j) != 0.0) {
@@ -482,6 +495,7 @@ std::vector<Distribution> marginals_of(const InputGroup& group) {
     const bool diagonal = group.covariance.cols() == 1;
     for (Eigen::Index i = 0; i < group.size(); ++i) {
         const double u = std::sqrt(diagonal ? group.covariance(i, 0) : group.covariance(i, i));
+        // A quantity without uncertainty is a constant: a normal one of scale 0 has no table.
         marginals.push_back(u > 0.0 ? Distribution::normal(group.value(i), u) : Distribution::constant(group.value(i)));
     }
     return marginals;
@@ -531,6 +545,8 @@ void report_problems(const InputGroup& group, std::vector<Diagnostic>& problems)
             return marginal.kind == kind || marginal.kind == DistributionKind::constant;
         });
     };
+    // What the stated distributions contradict is refused, not replaced: a multivariate normal has normal marginals and
+    // nothing else.
     if (group.dependence == Dependence::normal && !all_random_are(DistributionKind::normal)) {
         report("GC-GUM-0123",
                "correlated quantities of which not all are normal are to be drawn as multivariate normal",
@@ -560,6 +576,7 @@ void report_problems(const InputGroup& group, std::vector<Diagnostic>& problems)
 class TableCache {
 public:
     std::shared_ptr<const QuantileTable> table(const Distribution& distribution) {
+        // The table is that of the standard form: quantities that differ in location and scale only share it.
         const auto key = std::tuple(distribution.kind, distribution.shape, distribution.second_shape);
         std::shared_ptr<QuantileTable>& entry = tables_[key];
         if (!entry) {
@@ -617,6 +634,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
                 }
             }
         }
+        // Two groups with one stream would get the same random numbers, and be correlated without a word of it.
         if (seen.size() != count) {
             report_streams("two groups have the same stream", "quantities of different groups are independent");
         }
@@ -651,6 +669,8 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
             group.quantities.push_back(std::move(quantity));
         }
         if (correlated) {
+            // The correlation of the normal deviates of a copula is not Pearson's r of the quantities, which the
+            // covariance has: it was found for it beforehand (copula_correlation.h).
             const Eigen::MatrixXd correlation =
                 from.dependence == Dependence::gaussian_copula && from.normal_correlation.size() > 0
                     ? from.normal_correlation
@@ -698,6 +718,8 @@ void in_chunks(std::uint64_t first, Eigen::Index count, Words&& draw_words, Work
     Eigen::Index done = 0;
     while (done < count) {
         const std::uint64_t trial = first + static_cast<std::uint64_t>(done);
+        // One call of the generator serves eight trials: a range that begins between them skips the first words, so
+        // that trial and word belong together wherever a block begins.
         const auto skipped = static_cast<Eigen::Index>(trial % 8);
         const Eigen::Index here = std::min(count - done, k_chunk - skipped);
         draw_words(trial - trial % 8, (skipped + here + 7) / 8 * 8, words.data());
@@ -720,6 +742,7 @@ void InputDraws::draw_table(const QuantileTable& table, std::uint64_t stream, st
             if (!table.draw(words, here, location, scale, draws)) {
                 return;
             }
+            // NaN marks the places that the cubic pieces do not serve: the outermost tails and cells with a bend.
             for (Eigen::Index i = next_nan(draws, 0, here); i < here; i = next_nan(draws, i + 1, here)) {
                 const double bits = more_bits(stream, index, trial + static_cast<std::uint64_t>(i));
                 const double q = (static_cast<double>(words[i] & ~k_upper) + bits) * k_word;
@@ -754,6 +777,7 @@ void InputDraws::draw_column(const Quantity& quantity, std::uint64_t stream, std
                   [&](Eigen::Index offset, const std::uint32_t* words, std::uint64_t trial, Eigen::Index here) {
                       for (Eigen::Index i = 0; i < here; ++i) {
                           const bool upper = (words[i] & k_upper) != 0;
+                          // In rising order of the values: the upper half counts from the end of the distribution.
                           const std::uint32_t ascending = upper ? ~words[i] ^ k_upper : words[i];
                           // 32 bits give each of a million values its probability within 0.03 %; more values, more
                           // bits.
@@ -784,6 +808,7 @@ void InputDraws::draw_independent(const Group& group, std::uint64_t first, Eigen
 void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const {
     const Eigen::Index trials = x.rows();
     const auto n = static_cast<Eigen::Index>(group.quantities.size());
+    // The same stream and index: the same word for each quantity, hence the same probability.
     if (group.dependence == Dependence::same_probability) {
         for (Eigen::Index i = 0; i < n; ++i) {
             draw_column(group.quantities[static_cast<std::size_t>(i)], group.stream, 0, first, trials,
@@ -806,6 +831,8 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
         }
     }
     draw_own(group, first, x);
+    // ν = n − 1 for inputs that were observed together n times, however many they are: each combination of them then
+    // has the t distribution that the combination of each row has by itself (ADR 0030).
     if (group.chi_square) {
         Eigen::ArrayXd factor(trials);
         draw_standard(*group.chi_square, group.stream, static_cast<std::uint64_t>(n), first, trials, factor.data());
@@ -845,6 +872,8 @@ void InputDraws::draw_correlated(const Group& group, std::uint64_t first, Eigen:
     }
 }
 
+// The shared quantities keep what L z of the whole group gave them. The others are drawn anew, given those: two points
+// of a table so have their common inputs in common, and nothing else.
 void InputDraws::draw_own(const Group& group, std::uint64_t first, Eigen::Ref<Eigen::MatrixXd> x) const {
     if (!group.conditional) {
         return;

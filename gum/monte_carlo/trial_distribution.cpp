@@ -26,6 +26,7 @@ std::vector<double> drawn_trials(const TrialsOfOutput& of) {
     const MeasurementModel& model = *of.model;
     WorkerThreads workers(of.threads);
     const InputDraws draws(model.inputs(), of.seed, of.streams, &workers);
+    // Of very many trials the first ones are counted: they are a sample like all of them.
     const std::uint64_t counted = std::min(of.trials, k_most_counted_trials);
     std::vector<double> values(static_cast<std::size_t>(counted));
     const std::uint64_t rows = rows_of(model, draws.size());
@@ -44,6 +45,7 @@ std::vector<double> drawn_trials(const TrialsOfOutput& of) {
 
 /// How large sorted trials usually are: the largest and the smallest of them may be of another order of magnitude.
 double usual_size(const std::vector<double>& sorted) {
+    // The hundredth from either end: one trial far out would make the rounding that is allowed for as large as itself.
     const std::size_t hundredth = sorted.size() / 100;
     return std::max(std::abs(sorted[hundredth]), std::abs(sorted[sorted.size() - 1 - hundredth]));
 }
@@ -66,6 +68,8 @@ TrialDistribution count_trials(const TrialsOfOutput& of) {
     return {.function =
                 [values, share, size, unit = of.unit](double x) {
                     const double at = unit.to_si(x);
+                    // A trial that is the limit but for rounding counts as lying on it: inside of "≤", and outside of
+                    // "<".
                     return share(std::upper_bound(values->begin(), values->end(), at + rounding_at(at, size)));
                 },
             .below =
@@ -83,6 +87,7 @@ double tail_index(const TrialsOfOutput& of) {
     if (values.size() < 4 * tail) {
         return k_infinite;  // too few to tell
     }
+    // From the median, because a distribution whose tails are looked at may have no mean.
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     const double median = *middle;
@@ -93,6 +98,7 @@ double tail_index(const TrialsOfOutput& of) {
     std::nth_element(values.begin(), first, values.end());
     std::sort(first, values.end());
     const double threshold = *first;
+    // Nearly all trials are equal: there is no tail.
     if (!(threshold > 0.0)) {
         return k_infinite;
     }
@@ -101,6 +107,7 @@ double tail_index(const TrialsOfOutput& of) {
         sum += std::log(*at / threshold);
     }
     const double exponent = sum > 0.0 ? static_cast<double>(tail) / sum : k_infinite;
+    // 1/√k is the relative standard error of the estimate from k deviations.
     return exponent * (1.0 - 2.0 / std::sqrt(static_cast<double>(tail)));
 }
 

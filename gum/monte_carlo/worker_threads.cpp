@@ -41,6 +41,7 @@ void WorkerThreads::run(std::size_t tasks, const std::function<void(unsigned wor
         ++round_;
     }
     begin_.notify_all();
+    // The calling thread works, too: with one thread nothing is started.
     take_tasks(0);
     std::unique_lock lock(mutex_);
     end_.wait(lock, [this] { return busy_ == 0; });
@@ -55,6 +56,7 @@ void WorkerThreads::wait_for_work(unsigned worker) {
     for (;;) {
         {
             std::unique_lock lock(mutex_);
+            // The number of the round and not a flag: a thread that is late must not take part in a round twice.
             begin_.wait(lock, [&] { return stop_ || round_ != seen; });
             if (stop_) {
                 return;
@@ -75,6 +77,8 @@ void WorkerThreads::take_tasks(unsigned worker) {
         std::size_t task = 0;
         {
             const std::lock_guard lock(mutex_);
+            // Tasks before the one that failed are still done: one of them may fail as well, and the lowest one is
+            // reported.
             if (next_ >= tasks_ || next_ > failed_task_) {
                 return;
             }

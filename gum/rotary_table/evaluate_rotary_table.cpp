@@ -68,6 +68,8 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
         std::optional<Validation> validation;
         // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can check.
+        // R and A rest on the scatter of runs, which holds the noise of the distances: Monte Carlo would add it once
+        // more (ADR 0017).
         const bool compared =
             i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
         if (law.u > 0.0 && compared) {
@@ -94,6 +96,8 @@ QuantityUncertainty stated_by_all_coefficients(const MeasurementModel& model, do
     Eigen::Index first = 0;
     for (const InputGroup& group : model.inputs()) {
         result.sensitivity.emplace_back();
+        // A group of several quantities has a coefficient for each of them: only that of a single one stands in a
+        // budget.
         if (group.size() == 1) {
             result.sensitivity.back() = propagation.jacobian.col(first);
         }
@@ -114,6 +118,7 @@ engine::EvaluationOptions single_test_options(const engine::RotaryTableMeasureme
     options.non_centrality = options.critical_value + standard_normal_quantile(k_detection_power);
     // Of a residual whose variance is estimated: t of its degrees of freedom in place of the normal distribution.
     options.student_critical_value = [alpha = measurement.outliers.alpha](double degrees_of_freedom) {
+        // Two-sided: |residual| is compared, with α/2 on either side.
         return coverage_factor(1.0 - alpha, degrees_of_freedom);
     };
     return options;
@@ -135,6 +140,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
                                     "Monte Carlo repeats the joint adjustment",
                                     "remove \"monte_carlo\", or choose \"method\": \"joint\"", Severity::error});
     }
+    // A sensitivity coefficient for each input and output grows with the square of the angles (ADR 0032).
     if (!joint) {
         engine::require_evaluable_size(measurement);
     }
@@ -156,6 +162,7 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
     const engine::RotaryTableSolution& solution = result.solution;
     const double probability = request.coverage_probability;
     const auto model = std::dynamic_pointer_cast<const engine::RotaryTableModel>(solution.model);
+    // The joint model has the structure that the law angle by angle needs; the sequential one has not.
     if (model) {
         result.reported = stated_by_law(*model, solution.values, engine::contributions_of(*model), probability);
         result.parameter_model = std::make_shared<engine::TableParameterModel>(model, solution.datum);

@@ -77,6 +77,8 @@ void check_values(const RotaryTableRequest& request, const Budget& budget, const
         const auto at = static_cast<Eigen::Index>(p);
         const double stated = request.measurement.fixture(at / 3, at % 3);
         const double value = result.points[p].propagation.value(0);
+        // Two sources of one coordinate: a difference of more than a tenth of a micrometre is another fixture, or
+        // another order of the points. Written so that a NaN is reported.
         if (!(std::abs(value - stated) <= k_greatest_difference)) {
             problems.push_back({.code = "GC-INPUT-0231",
                                 .where = request.fixture_budget_file + "#/points",
@@ -174,6 +176,8 @@ JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector
                 shared.push_back({.group = group, .variants = {group}});
             }
             std::vector<InputGroup>& variants = shared[entry->second].variants;
+            // A percentage of the reading is another distribution at each point, of the same cause: a variant, not a
+            // new input.
             const auto same = std::find_if(variants.begin(), variants.end(),
                                            [&](const InputGroup& variant) { return same_group(variant, group); });
             of_point.push_back({entry->second, static_cast<std::size_t>(same - variants.begin())});
@@ -212,6 +216,7 @@ JointBudgetModel::JointBudgetModel(const BudgetResult& result, const std::vector
 
 Eigen::VectorXd JointBudgetModel::evaluate(const Eigen::VectorXd& x) const {
     Eigen::VectorXd y(static_cast<Eigen::Index>(points_.size()));
+    // Each point sees its own columns of the joint inputs.
     for (std::size_t p = 0; p < points_.size(); ++p) {
         y(static_cast<Eigen::Index>(p)) = points_[p].model->evaluate(x(points_[p].inputs))(0);
     }
@@ -237,6 +242,8 @@ void JointBudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& 
     }
 }
 
+// Kept as printed. The terms of the paper combine to 3.334e-7, its maximum permissible error stands for a standard
+// uncertainty, and a cross term is dropped (docs/rotary_table_job.md).
 double source_paper_fixture_uncertainty(double coordinate) {
     constexpr double k_constant = 0.401 * k_micrometre;
     constexpr double k_proportional = 3.32e-7;  // L and u_c in the same unit

@@ -39,6 +39,8 @@ engine::MachineFrameFit fit_of(const RotaryTableRequest& request, const engine::
             coordinates.push_back(3 * static_cast<Eigen::Index>(point) + c);
         }
     }
+    // Stations stand in the world, where the axis is nominal; reflectors turn with the table, and the pose at home
+    // comes in.
     if (frame.by == MachineFramePoints::stations) {
         return fit_machine_frame(stations_in_table(frame, solution),
                                  solution.station_covariance(coordinates, coordinates), frame);
@@ -55,6 +57,8 @@ engine::LocationErrorModel model_of(const RotaryTableRequest& request, const eng
     if (request.machine_frame->by == MachineFramePoints::stations) {
         return {measurement.axis, *request.machine_frame, fit};
     }
+    // The reflectors stand in the table by P = E(home) T_s p (ADR 0034): what the table errs by at its home angle
+    // belongs to the fit.
     std::vector<Eigen::Index> quantities;  // error motions at home, then O, O, S, S
     for (Eigen::Index c = 0; c < 6; ++c) {
         quantities.push_back(6 * static_cast<Eigen::Index>(measurement.home) + c);
@@ -62,6 +66,7 @@ engine::LocationErrorModel model_of(const RotaryTableRequest& request, const eng
     for (Eigen::Index c = 0; c < 4; ++c) {
         quantities.push_back(solution.quantities.set_up + c);
     }
+    // One number for inputs that are correlated: the least of them does not promise too much.
     double degrees_of_freedom = std::numeric_limits<double>::infinity();  // the least of them
     for (const Eigen::Index quantity : quantities) {
         degrees_of_freedom = std::fmin(degrees_of_freedom, budget.effective_degrees_of_freedom[quantity]);
@@ -81,6 +86,7 @@ LocationErrors evaluate_location_errors(const RotaryTableRequest& request, const
                                         const engine::AnglewiseCovariance& covariance) {
     LocationErrors result;
     result.fit = fit_of(request, solution);
+    // As many points as unknowns leave no residuals that could refute the frame.
     if (result.fit.degrees_of_freedom > 0.0) {
         result.p_value = chi_square_upper_tail(result.fit.chi_square, result.fit.degrees_of_freedom);
     }
@@ -96,6 +102,8 @@ LocationErrors evaluate_location_errors(const RotaryTableRequest& request, const
         return result;
     }
     const engine::LocationErrorModel model = model_of(request, result.fit, solution, budget, covariance);
+    // An axis at a large angle is not the axis of this letter, or the coordinates are in another order: no small angles
+    // then, and numbers without meaning (ADR 0034).
     if (const double angle = model.angle_to_machine_axis(); !(angle <= k_largest_angle)) {
         result.notes.push_back(
             not_stated("GC-FRAME-0003",

@@ -13,11 +13,13 @@ bool rests_on_scatter(const std::string& short_name) {
 }
 
 PositioningScope positioning_scope(const engine::TableParameterModel& model) {
+    // A maximum grows with the noise of the deviations, and its uncertainty does not cover that growth (ADR 0017).
     constexpr double k_largest_ratio = 0.25;
     const engine::PositioningAccuracy positioning = model.positioning();
     PositioningScope scope;
     scope.largest_ratio = k_largest_ratio;
     scope.u_deviation = model.rms_position_uncertainty();
+    // Pooled over targets and senses: one standard deviation of a few runs says little.
     double squares = 0.0;
     double count = 0.0;
     for (const engine::PositioningTarget& target : positioning.targets) {
@@ -34,6 +36,7 @@ PositioningScope positioning_scope(const engine::TableParameterModel& model) {
         range = std::max(range, positioning[parameter].value_or(0.0));
     }
     scope.stated = scope.u_deviation <= k_largest_ratio * range;
+    // Of the variance of the runs, which is that of the table and that of the measurement together.
     scope.scatter_stated = std::pow(scope.u_deviation, 2) <= k_largest_scatter_share * std::pow(scope.s_runs, 2);
     return scope;
 }

@@ -36,6 +36,7 @@ void require_layout(const RotaryTableMeasurement& measurement) {
 
 double ideal_distance(const RotaryTableMeasurement& measurement, const Eigen::Matrix3d& rotation, std::size_t station,
                       std::size_t reflector) {
+    // The fixture is larger by its temperature difference at that station.
     const double stretch =
         1.0 + measurement.expansion * measurement.temperature_difference[static_cast<Eigen::Index>(station)];
     // |(1 + α ΔT) R(θ) p − q|: the model of JointAdjustment with E and T_s the identity and l0 = 0.
@@ -59,6 +60,8 @@ void lay_out(RotaryTableMeasurement& measurement, bool both_senses, bool dead_pa
     measurement.lengths.clear();
     measurement.times.clear();
     for (std::size_t j = 0; j < stations; ++j) {
+        // A beam that is broken between the reflectors gets a new constant for each of them.
+        // Fringes are counted from there on.
         for (std::size_t m = 0; m < (dead_path_per_reflector ? reflectors : 1); ++m) {
             measurement.dead_paths.push_back(measurement.stations[j] +
                                              (dead_path_per_reflector ? "-" + measurement.reflectors[m] : ""));
@@ -107,6 +110,7 @@ RotaryTableMeasurement with_full_turn(const RotaryTableMeasurement& measurement,
     const double home_deg = measurement.angles.empty() ? 0.0 : measurement.angles_deg[measurement.home];
     result.angles.clear();
     result.angles_deg.clear();
+    // A full turn ends one step before its beginning: home is measured once.
     result.home = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double turn = static_cast<double>(i) / static_cast<double>(count);

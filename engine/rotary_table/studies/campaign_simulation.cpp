@@ -18,6 +18,7 @@ Eigen::VectorXd distances(const RotaryTableMeasurement& layout, const CampaignTr
     const std::vector<Visit> visits = visits_of(layout, std::vector<bool>(layout.lengths.size(), true));
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const Visit& visit = visits[v];
+        // Half of the reversal in each sense, as the adjustment has it: the assumed error motions are the mean of both.
         const double sense = visit.approach == Approach::positive ? 0.5 : -0.5;
         Vector6 pose = truth.errors.col(static_cast<Eigen::Index>(visit.angle)) + sense * truth.reversal;
         if (table.size() > 0) {
@@ -49,12 +50,14 @@ RotaryTableMeasurement simulate_campaign(const RotaryTableMeasurement& layout, c
     const Eigen::VectorXd distance = distances(layout, truth, noise.table);
     for (std::size_t i = 0; i < result.lengths.size(); ++i) {
         LengthObservation& length = result.lengths[i];
+        // l = s |P − q| − l0: a tracer shows what lies beyond its dead path.
         length.length =
             distance[static_cast<Eigen::Index>(i)] - truth.dead_paths[static_cast<Eigen::Index>(length.dead_path)];
         if (noise.lengths.size() > 0) {
             length.length += noise.lengths[static_cast<Eigen::Index>(i)];
         }
     }
+    // On top of the noise: an outlier is what a good distance would show, and an error.
     for (const PlantedOutlier& outlier : noise.outliers) {
         result.lengths[outlier.length].length += outlier.error;
     }
@@ -63,6 +66,9 @@ RotaryTableMeasurement simulate_campaign(const RotaryTableMeasurement& layout, c
 
 Eigen::VectorXd truth_in_datum(const RotaryTableMeasurement& layout, const CampaignTruth& truth, Datum datum,
                                bool has_reversal) {
+    // Assumed motions have by chance a mean and a part that turns with the table, which no distance tells from the
+    // frame and the set-up. Compared as they were drawn, they would differ from any result without a measurement
+    // (docs/simulation.md).
     const DatumSolution solution = transform_to_datum(layout, truth.errors, rigid_motion(truth.set_up), datum);
     return reported_order(layout, solution.errors, solution.set_up, has_reversal ? &truth.reversal : nullptr);
 }
@@ -89,6 +95,7 @@ DatumView seen_in_datum(const RotaryTableMeasurement& measurement, const Eigen::
         result.middleRows<4>(size).noalias() += solution.set_up_map * rows.topRows(size);
         return result;
     };
+    // A V Aᵀ by the same map on rows and columns.
     view.covariance = carry(carry(covariance).transpose());
     return view;
 }

@@ -28,6 +28,7 @@ struct Part {
 /// Where a coordinate that goes from `begin` to `end` lies between two limits.
 void limit_between(Part& part, double begin, double end, double low, double high) {
     const double step = end - begin;
+    // Parallel to the faces: all of the line is between them, or none of it.
     if (step == 0.0) {
         if (begin <= low || begin >= high) {
             part.to = part.from;
@@ -45,7 +46,9 @@ void limit_to_cylinder(Part& part, const Eigen::Vector2d& begin, const Eigen::Ve
     const double a = step.squaredNorm();
     const double b = begin.dot(step);
     const double c = begin.squaredNorm() - radius * radius;
+    // |begin + t step|² = r² is a t² + 2 b t + c = 0.
     const double root = b * b - a * c;
+    // Along the axis (a = 0) the distance from it does not change.
     if (a == 0.0 ? c >= 0.0 : root <= 0.0) {
         part.to = part.from;
     } else if (a > 0.0) {
@@ -70,6 +73,7 @@ bool passes_through(const Obstacle& obstacle, int axial, const Eigen::Vector3d& 
 bool passes_sphere(const Eigen::Vector3d& centre, double radius, const Eigen::Vector3d& begin,
                    const Eigen::Vector3d& end) {
     const Eigen::Vector3d step = end - begin;
+    // Of the beam and not of the whole line: a reflector behind the station or the target hides nothing.
     const double at = std::clamp((centre - begin).dot(step) / step.squaredNorm(), 0.0, 1.0);
     return (begin + at * step - centre).norm() < radius;
 }
@@ -99,6 +103,8 @@ LineOfSight::LineOfSight(const RotaryTableMeasurement& measurement, SightRules r
 std::optional<Hindrance> LineOfSight::hindrance(const Eigen::Vector3d& station, std::size_t angle,
                                                 std::size_t reflector) const {
     const Eigen::Vector3d& target = reflectors_[reflector];
+    // Seen from the fixture the reflectors stand still and the station turns: one test serves for all that turn with
+    // the table.
     const Eigen::Vector3d from = rotations_[angle].transpose() * station;  // in the turning fixture
     if (rules_.acceptance_angle && reflector < rules_.facing.size() && rules_.facing[reflector]) {
         const double cosine = rules_.facing[reflector]->dot((from - target).normalized());
@@ -125,6 +131,7 @@ std::optional<Hindrance> LineOfSight::hindrance(const Eigen::Vector3d& station, 
 std::optional<LineOfSight::Inside> LineOfSight::inside() const {
     for (std::size_t k = 0; k < rules_.obstacles.size(); ++k) {
         const Obstacle& obstacle = rules_.obstacles[k];
+        // A solid that turns with the table has the same reflectors inside at every angle.
         for (std::size_t i = 0; i < (obstacle.turns ? std::size_t{1} : rotations_.size()); ++i) {
             for (std::size_t m = 0; m < reflectors_.size(); ++m) {
                 if (contains(obstacle, axial_, obstacle.turns ? reflectors_[m] : rotations_[i] * reflectors_[m])) {

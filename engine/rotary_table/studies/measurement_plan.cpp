@@ -31,6 +31,7 @@ StartValues ideal_values(const RotaryTableMeasurement& measurement) {
     return values;
 }
 
+// As the adjustment decides it: one station with one sense only, and no reversal is reported.
 bool every_station_has_both_senses(const RotaryTableMeasurement& measurement) {
     std::vector<std::array<bool, 2>> senses(measurement.stations.size(), {false, false});
     for (const LengthObservation& length : measurement.lengths) {
@@ -164,6 +165,8 @@ void predict_lengths(RotaryTableMeasurement& measurement) {
 }
 
 JointAdjustment planned_adjustment(const RotaryTableMeasurement& measurement, const StochasticModel& stochastic) {
+    // E and T_s are the identity: variances depend on the geometry, which these change by micrometres. A dead path
+    // changes no geometry at all.
     return {measurement, std::vector<bool>(measurement.lengths.size(), true), RigidMotion{}, ideal_values(measurement),
             stochastic};
 }
@@ -210,6 +213,8 @@ ExpectedUncertainty expected_uncertainty(const RotaryTableMeasurement& measureme
         expected.mean_redundancy += row.redundancy_number / static_cast<double>(rows.size());
         expected.largest_minimal_detectable_bias =
             std::max(expected.largest_minimal_detectable_bias, row.minimal_detectable_bias);
+        // A distance that no other one controls has no detectable bias, for which 0 stands. It is counted apart, since
+        // the largest bias does not show it.
         expected.uncontrolled_distances += row.minimal_detectable_bias > 0.0 ? 0U : 1U;
     }
     return expected;
@@ -234,6 +239,7 @@ RotaryTableMeasurement without_reflector(const RotaryTableMeasurement& measureme
 RotaryTableMeasurement with_every_angle(const RotaryTableMeasurement& measurement, std::size_t stride) {
     std::vector<bool> angles(measurement.angles.size());
     for (std::size_t i = 0; i < angles.size(); ++i) {
+        // Counted from home, which stays in the plan whatever the stride is.
         const std::size_t from_home = i > measurement.home ? i - measurement.home : measurement.home - i;
         angles[i] = from_home % stride == 0;
     }
@@ -475,6 +481,8 @@ void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Inf
             const Place right = places_[static_cast<std::size_t>(group.columns[static_cast<std::size_t>(j)])];
             for (Eigen::Index i = 0; i < size; ++i) {
                 const Place left = places_[static_cast<std::size_t>(group.columns[static_cast<std::size_t>(i)])];
+                // A visit has one angle: two columns of poses are of the same block. Border by pose is the transpose of
+                // pose by border and is not kept.
                 if (!left.pose && !right.pose) {
                     result.border(left.index, right.index) += product(i, j);
                 } else if (left.pose && !right.pose) {
@@ -488,6 +496,8 @@ void LayoutVariances::Observer::information(const Eigen::Vector3d& position, Inf
     for (std::size_t v = 0; v < visits.size(); ++v) {
         add_group(normal.groups()[v]);
     }
+    // Of the priors only those of the station itself. Fixture and expansion are known once, however many stations there
+    // are: these are in prior().
     for (const std::size_t prior : {adjustment_->scale_prior(0), adjustment_->temperature_prior(0)}) {
         if (prior != JointAdjustment::k_none) {
             add_group(normal.groups()[prior]);
@@ -548,6 +558,7 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances(const Information& inf
     // N = L Lᵀ, so that L⁻ᵀ is a root of N⁻¹.
     factor.matrixU().solveInPlace(root);
     root = (scale.asDiagonal() * root).eval();
+    // With the poses eliminated, the covariance is made of the border and of 6×6 blocks as that of an evaluation is.
     const AnglewiseMap map = reported_map(datum_, border_.size,
                                           has_reversal_ ? std::optional<Eigen::Index>(border_.reversal) : std::nullopt);
     return covariance_of(map, {own, -gain}, root).diagonal();
@@ -564,6 +575,8 @@ std::optional<Eigen::VectorXd> LayoutVariances::variances() const {
 }
 
 std::optional<Eigen::VectorXd> LayoutVariances::least_variances(const Eigen::MatrixXd& poses) const {
+    // With everything else known the poses are independent of each other. Knowing more can only lower a variance, so
+    // that this is a bound from below.
     // (I + D K) W (I + D K)ᵀ angle by angle, as covariance_of does it.
     using Change = Eigen::Matrix<double, 10, 10>;
     const auto angles = static_cast<Eigen::Index>(measurement_.angles.size());

@@ -24,6 +24,7 @@ std::array<double, 6> motion_ratios(const Eigen::VectorXd& variances, Eigen::Ind
     for (Eigen::Index i = 0; i < 6 * angles; ++i) {
         const auto c = static_cast<std::size_t>(i % 6);
         const double ratio = std::sqrt(variances[i]) / wanted[c < 3 ? 0 : 1];
+        // Written so that a NaN is never the smaller one: a layout without a number is no good layout.
         if (!(ratio <= largest[c])) {
             largest[c] = std::isnan(ratio) ? k_infinite : ratio;
         }
@@ -56,6 +57,7 @@ StationCandidates station_candidates(const RotaryTableMeasurement& measurement, 
         return static_cast<std::size_t>(std::ceil(size[c] / step - 1e-9)) + 1;
     };
     StationCandidates candidates{{}, region.step};
+    // The grid becomes coarser as a whole. Leaving out a part of it would leave out a part of the room.
     while (static_cast<double>(count(candidates.step, 0)) * static_cast<double>(count(candidates.step, 1)) *
                static_cast<double>(count(candidates.step, 2)) >
            static_cast<double>(region.most_candidates)) {
@@ -127,6 +129,7 @@ public:
             }
             const std::vector<double> ratios = ratios_of_round();
             proposal_.layouts += ratios.size();
+            // Of equal exchanges the one of the lowest number, whatever thread was sooner.
             const auto best = static_cast<std::size_t>(std::min_element(ratios.begin(), ratios.end()) - ratios.begin());
             if (!(ratios[best] < wanted_ratio())) {
                 break;
@@ -175,6 +178,7 @@ private:
         if (variances) {
             const std::array<double, 6> ratios = motion_ratios(*variances, angles_, rules_.wanted);
             for (std::size_t c = 0; c < 6; ++c) {
+                // A target that is met already may be kept: what one motion gains must not be paid for by another one.
                 kept_[c] = rules_.keep_met && ratios[c] <= 1.0;
             }
         }
@@ -204,6 +208,8 @@ private:
             if (hidden == all) {
                 return nullptr;
             }
+            // What is partly hidden depends on the place: it is set up for this place alone. What is wholly seen is set
+            // up once.
             if (hidden > 0) {
                 return layout_.observer(station, seen);
             }
@@ -245,6 +251,8 @@ private:
             }
             seer->pose_information(position, poses);
         }
+        // A bound from another computation: taken down by a little more than rounding, so that no best exchange is
+        // lost.
         return ratio_of(layout_.least_variances(poses + others_[j].poses), k_surely);
     }
 
@@ -261,11 +269,13 @@ private:
     std::vector<double> ratios_of_round() {
         // The bound takes the poses alone, with all else as known. The border, the costly part, is factored only for
         // exchanges that may still be the best, the most promising first.
+        // The bound costs a twentieth of the variances, and leaves most exchanges out.
         std::vector<double> least(tasks());
         parallel_.run(least.size(),
                       [&](unsigned worker, std::size_t task) { least[task] = least_ratio(workers_[worker], task); });
         std::vector<std::size_t> order(least.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
+        // What cannot be below the ratio that is wanted is not computed further.
         std::erase_if(order, [&](std::size_t task) { return !(least[task] < wanted_ratio()); });
         std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t left, std::size_t right) { return least[left] < least[right]; });
@@ -292,6 +302,7 @@ private:
         proposal_.exchanges.push_back({j, proposal_.positions[j], position, ratio_after});
         proposal_.positions[j] = position;
         proposal_.ratio_after = ratio_after;
+        // Normal equations add up station by station: only the part of the one that moved is new.
         observer(workers_.front(), j, position)->information(position, parts_[j]);
     }
 

@@ -77,6 +77,7 @@ JointAdjustment with_free_dead_paths(const RotaryTableModel& model) {
     return joint;
 }
 
+// The degrees of freedom stand in the groups of the model for the law of propagation: both methods take the same.
 SourceDegreesOfFreedom degrees_of_freedom_of(const RotaryTableModel& model) {
     SourceDegreesOfFreedom nu{gum::k_infinity, gum::k_infinity, gum::k_infinity, gum::k_infinity, gum::k_infinity};
     const auto take = [&](const char* name, double& to) {
@@ -183,8 +184,11 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
         variance.segment(row, stated.size()) = stochastic.length_factor * stated;
         row += stated.size();
     }
+    // Deviations are drawn and not lengths: a nanometre that is drawn beside a metre would lose digits, of its own it
+    // keeps all.
     columns_.noise = add(group_of("length noise", "length noise", "m", Eigen::VectorXd::Zero(lengths), variance,
                                   degrees_of_freedom.length_noise));
+    // Beside the noise: its variance is known and has no estimated factor.
     if (const double step = measurement.length_uncertainty.resolution; step > 0.0) {
         gum::InputGroup group =
             group_of("resolution of the lengths", "length noise", "m", Eigen::VectorXd::Zero(lengths),
@@ -204,6 +208,7 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
     columns_.tilt =
         add_table("table repeatability, tilt", "rad", 2, stochastic.variance_tilt, degrees_of_freedom.table_tilt);
 
+    // Quantities without an uncertainty are held in the adjustment and are no inputs.
     std::vector<double> temperature;
     std::vector<double> temperature_variance;
     Index scales = 0;
@@ -269,6 +274,8 @@ void RotaryTableTrials::add_inputs(const JointAdjustment& solved, const Stochast
     }
 
     const auto add_variance = [&](Index of, const char* name, const char* source, double nu) -> Index {
+        // Infinite ν needs no factor. With few degrees of freedom a χ² near 0 would make deviations that no measurement
+        // has.
         if (of < 0 || !std::isfinite(nu) || nu <= k_least_degrees_of_freedom) {
             return -1;
         }
@@ -333,9 +340,11 @@ void RotaryTableTrials::draw_in(const Eigen::Ref<const Eigen::MatrixXd>& x, cons
         take(columns_.linear, 3, 0, linear_factor);
         take(columns_.axial, 1, 3, axial_factor);
         take(columns_.tilt, 2, 4, tilt_factor);
+        // A deviation of the table moves all distances of its visit together: that is their correlation.
         if (table_deviates) {
             draw_visit(network, visit, deviation.data(), batch);
         }
+        // Kept, because the position where the table stood has it, while the lengths are corrected for it.
         batch.axial_deviation[v] = deviation[3];
     }
 
@@ -343,6 +352,7 @@ void RotaryTableTrials::draw_in(const Eigen::Ref<const Eigen::MatrixXd>& x, cons
         Lanes& observed = batch.prior_observed[static_cast<std::size_t>(prior)];
         const double start = network.prior_residual[static_cast<std::size_t>(prior)];
         for (int t = 0; t < k_lanes; ++t) {
+            // Differences from the solution: what was drawn less the estimate, added to the residual there.
             observed[t] = start + (drawn[t] - deviation_from);
         }
     };
@@ -353,6 +363,7 @@ void RotaryTableTrials::draw_in(const Eigen::Ref<const Eigen::MatrixXd>& x, cons
             load(x, columns_.fixture + c, first, count, drawn);
         }
         for (int t = 0; t < k_lanes; ++t) {
+            // Deviations only, so that an estimated factor acts on them and not on the coordinates.
             drawn[t] = fixture_deviation_ * fixture_factor[t] * (drawn[t] - fixture_value_[c]);
         }
         observe(network.fixture_prior + c, 0.0);
@@ -387,6 +398,7 @@ void RotaryTableTrials::write_derived(Index first, Index count, const TrialBatch
     Eigen::VectorXd result(static_cast<Index>(outputs_.size()) - reported_count);
     for (Index t = 0; t < count; ++t) {
         const int lane = static_cast<int>(t);
+        // A trial that has no solution has no derived quantities either.
         reported = y.row(first + t).head(reported_count).transpose();
         if (!reported.allFinite()) {
             y.row(first + t).tail(result.size()).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -425,6 +437,7 @@ void RotaryTableTrials::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>&
         coordinates.resize(x.rows(), fixture_value_.size());
         extras_.fixture->evaluate_trials(x.middleCols(columns_.fixture, fixture_inputs_), coordinates);
     }
+    // One batch for all: memory is asked for once, not for every sixteen trials.
     TrialBatch batch(network);
     TrialSteps sum;
     for (Index first = 0; first < x.rows(); first += k_lanes) {
@@ -459,11 +472,13 @@ void RotaryTableTrials::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>&
             sum.alone += end.alone ? 1 : 0;
             sum.not_converged += end.converged ? 0 : 1;
         }
+        // Residuals at the end of the steps: what the visits say of their own deviations.
         if (extras_.derived) {
             find_residuals(network, batch);
             write_derived(first, count, batch, y);
         }
     }
+    // Counts only: they may be added in any order, and no result depends on them.
     trials_.fetch_add(sum.trials, std::memory_order_relaxed);
     steps_.fetch_add(sum.steps, std::memory_order_relaxed);
     alone_.fetch_add(sum.alone, std::memory_order_relaxed);

@@ -22,12 +22,14 @@ TrialDatum::TrialDatum(const JointAdjustment& solved)
     : datum(solved.measurement().datum), home(static_cast<Eigen::Index>(solved.measurement().home)) {
     const RotaryTableMeasurement& measurement = solved.measurement();
     const auto across = across_axis(measurement.axis);
+    // Axis first, then the two coordinates across it in right-handed order: a nominal rotation mixes only these two.
     cyclic = {axial_coordinate(measurement.axis), across[0], across[1]};
     for (const double angle : measurement.angles) {
         const double turn = angle - measurement.angles[measurement.home];
         cosine.push_back(std::cos(turn));
         sine.push_back(std::sin(turn));
     }
+    // As the difference from the identity, as all rotations here are.
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) {
             set_up_rotation[static_cast<std::size_t>(3 * r + c)] =
@@ -143,6 +145,8 @@ void compose_errors(const TrialNetwork& network, const TrialDatum& datum, TrialB
     }
     multiply_rotations(old_set_up, inverse, back);
     for (std::size_t r = 0; r < 3; ++r) {
+        // old − R new with R = I + back is (old − new) − back new: nearly equal numbers are subtracted first, and what
+        // is left is a product of small ones.
         const double old = datum.set_up_translation[r];
         const Lanes* row = &back[3 * r];
 #pragma GCC ivdep
@@ -227,6 +231,7 @@ void transform_to_datum(const TrialNetwork& network, const TrialDatum& datum, Tr
             for (const Lanes& change : batch.change) {
                 largest = std::max(largest, std::abs(change[t]));
             }
+            // NaN compares as false and ends the lane: its trial has no value, and must not keep the others waiting.
             batch.active[t] = batch.active[t] != 0.0 && largest >= k_negligible ? 1.0 : 0.0;
         }
         if (!any(batch.active)) {
@@ -234,6 +239,7 @@ void transform_to_datum(const TrialNetwork& network, const TrialDatum& datum, Tr
         }
         change_datum(datum, batch);
     }
+    // Zero by definition and not by what the last step leaves.
     if (datum.datum == Datum::home) {
         for (Index c = 0; c < 6; ++c) {
             fill(batch.errors[static_cast<std::size_t>(6 * datum.home + c)], 0.0);

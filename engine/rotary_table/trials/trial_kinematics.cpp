@@ -85,6 +85,8 @@ GUMCERT_INLINE void predict_visit(const TrialNetwork& network, const TrialNetwor
             difference[0][t] = x;
             difference[1][t] = y;
             difference[2][t] = z;
+            // x² − x₀² = (x − x₀)(x + x₀): the change of the squared distance keeps the digits that a difference of
+            // squares of metres would lose.
             const double square = (x - length.difference[0]) * (x + length.difference[0]) +
                                   (y - length.difference[1]) * (y + length.difference[1]) +
                                   (z - length.difference[2]) * (z + length.difference[2]);
@@ -94,6 +96,8 @@ GUMCERT_INLINE void predict_visit(const TrialNetwork& network, const TrialNetwor
             longer[t] = length.distance * (part + shorter + part * shorter);  // √(1 + z) = (1 + z)/√(1 + z)
             inverse[t] = length.inverse + length.inverse * shorter;
         }
+        // Looked at by itself, because a branch in the loop above would keep it out of wide registers. Only lanes that
+        // are far from the solution need the root.
         for (int t = 0; t < k_lanes; ++t) {
             large |= growth[t] > k_small || growth[t] < -k_small ? 1 : 0;
         }
@@ -107,6 +111,7 @@ GUMCERT_INLINE void predict_visit(const TrialNetwork& network, const TrialNetwor
 #pragma GCC ivdep
         for (int t = 0; t < k_lanes; ++t) {
             distance[t] = length.distance + longer[t];
+            // Changes only: start is the residual at the solution with what was drawn.
             residual[t] = start[t] - (scale[t] * longer[t] + scale_change[t] * length.distance - path_change[t]);
         }
     }
@@ -159,6 +164,7 @@ GUMCERT_INLINE void add_visit(const TrialNetwork& network, const TrialNetwork::V
         const double x = force[0][t];
         const double y = force[1][t];
         const double z = force[2][t];
+        // All forces of a visit act along lines through the station: one arm for all of them.
         const double arm_x = place[0][t] - pose[0][t];
         const double arm_y = place[1][t] - pose[1][t];
         const double arm_z = place[2][t] - pose[2][t];
@@ -202,6 +208,7 @@ void add_turn(const TrialNetwork& network, const TrialNetwork::Turn& turn, bool 
         }
     }
     rotation_from_identity(pose + 3, rotation);
+    // Metres are turned here, hence whole rotations; predict_visit() forms their differences without losing digits.
     for (const std::size_t diagonal : {std::size_t{0}, std::size_t{4}, std::size_t{8}}) {
         for (int t = 0; t < k_lanes; ++t) {
             rotation[diagonal][t] += 1.0;
@@ -228,6 +235,7 @@ void add_turn(const TrialNetwork& network, const TrialNetwork::Turn& turn, bool 
             shift[r][t] = row[0][t] * b0 + row[1][t] * b1 + row[2][t] * b2 + translation[t];
         }
     }
+    // Each reflector is turned once for all stations that see it at this angle and in this sense.
     for (std::size_t m = 0; m < batch.point.size(); m += 3) {
         const Lanes* point = &batch.point[m];
         for (std::size_t r = 0; r < 3; ++r) {
@@ -266,6 +274,7 @@ void add_turn(const TrialNetwork& network, const TrialNetwork::Turn& turn, bool 
         for (Index k = 0; k < visit.count; ++k) {
             Lanes& weighted = batch.weighted[static_cast<std::size_t>(k)];
             fill(weighted, 0.0);
+            // Without repeatability of the table V is diagonal: n products in place of n².
             if (visit.is_diagonal) {
                 add_combination(weights + k * (visit.count + 1), 1, residual + k, weighted);
             } else {

@@ -31,6 +31,7 @@ constexpr int k_temperature = 4;
 Eigen::MatrixXd weight_matrix(const Eigen::MatrixXd& cholesky) {
     const Eigen::MatrixXd half =
         cholesky.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(cholesky.rows(), cholesky.rows()));
+    // L⁻ᵀ L⁻¹: positive semi-definite whatever is rounded.
     Eigen::MatrixXd weight = half.transpose() * half;
     // Trials read it by rows, Eigen stores it by columns.
     weight.triangularView<Eigen::StrictlyUpper>() = weight.transpose();
@@ -70,6 +71,7 @@ TrialNetwork::TrialNetwork(const JointAdjustment& solved, const StochasticModel&
     Adjustment without_thermal = least_squares;
     const auto uncertainty = [&](Adjustment::BlockId block, int component, double stated) {
         const bool is_free = all.column(block, component) >= 0;
+        // Held in the equations: the stretches of the stations stand for them.
         without_thermal.hold(block, component);
         thermal.is_uncertain = thermal.is_uncertain || is_free;
         return is_free ? stated : 0.0;
@@ -167,10 +169,13 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
         plan.gain = gains.size();
         const Eigen::MatrixXd weight = weight_matrix(normal.groups()[v].cholesky);
         weights.insert(weights.end(), weight.data(), weight.data() + weight.size());  // symmetric
+        // A visit without repeatability of the table has independent distances.
         plan.is_diagonal = weight.isDiagonal(0.0);
         const Eigen::MatrixXd by_pose = solved.pose_jacobian(v);
         for (Index k = 0; k < plan.count; ++k) {
             for (const int component : order) {
+                // A table that deviates shows lengths that are longer by this much; taken off, they are those of the
+                // pose that is asked for, as in the model of propagation.
                 to_length.push_back(-by_pose(k, component));
             }
         }
@@ -194,6 +199,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
             const LengthObservation& observed = measurement.lengths[observation];
             const auto reflector = static_cast<Index>(observed.reflector);
             const Eigen::Vector3d turned = error.rotation * to_table * nominal_point(fixture + 3 * reflector);
+            // Temperature stretches the fixture from its own origin, and not the place of the fixture on the table.
             const Eigen::Vector3d difference = stretch * turned + error.rotation * offset + error.translation - station;
             Length length{};
             length.difference = {difference[0], difference[1], difference[2]};
@@ -283,6 +289,7 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
         }
     }
     const auto plain = static_cast<Index>(border.size());  // without the stretches
+    // Columns for the stretches behind the rest of the border, so that they can be split off as a block.
     for (Index j = 0; j < stations && thermal.is_uncertain; ++j) {
         border.push_back(station_slot(j, k_stretch));
     }
@@ -312,6 +319,8 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
             }
         }
     }
+    // The stretch of a station has no column in the adjustment. Its products are added here, whitened by the same
+    // factors.
     for (std::size_t v = 0; v < visits.size() && thermal.is_uncertain; ++v) {
         const VisitPlan& visit = visits[v];
         const LinearisedGroup& group = normal.groups()[visit.number];
@@ -338,6 +347,7 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
         // Made once, at the solution: trials begin there and take their steps with these matrices. One that needs more
         // than a few steps is solved alone with matrices of its own (TrialOptions::most_steps).
         elimination.inverse = inverse_of(own[i]);
+        // Poses follow the border by −N_ee⁻¹ N_eb.
         elimination.to_pose = -(elimination.inverse * cross[i]);
         elimination.to_border = elimination.to_pose.transpose();
         reduced += elimination.to_border * cross[i];
@@ -360,6 +370,8 @@ void TrialNetwork::take_normal_equations(const JointAdjustment& solved, const No
         free_slots.push_back(at);
         // Slots of the reversal and the poses stand last: what is reported of the border is the reversal.
         if (at >= reversal) {
+            // Only what is reported decides on convergence: steps are measured in parts of these standard
+            // uncertainties.
             reported.push_back({at, 1.0 / std::sqrt(border_covariance(b, b))});
         }
     }

@@ -20,6 +20,7 @@ void reduce_gradient(const TrialNetwork& network, TrialBatch& batch) {
     for (std::size_t b = 0; b < network.border.size(); ++b) {
         batch.border_gradient[b] = batch.gradient[static_cast<std::size_t>(network.border[b])];
     }
+    // Poses first: what the lengths of an angle pull at the border is less what its pose takes up.
     std::array<Lanes, TrialNetwork::k_most_of_pose> own;
     for (const TrialNetwork::Elimination& pose : network.eliminated) {
         for (std::size_t i = 0; i < pose.slots.size(); ++i) {
@@ -76,6 +77,8 @@ GUMCERT_INLINE void stretch_steps(const TrialNetwork& network, TrialBatch& batch
     const Lanes& expansion = batch.next_thermal[stations];
     Lanes* step = batch.border_step.data() + network.border_covariance.rows();
     for (std::size_t j = 0; j < stations; ++j) {
+        // (α + δα)(T + δT) − α T = α δT + T δα + δα δT: the last term is what makes it a product, and no linear step
+        // knows it.
         const double by_own = thermal.expansion * thermal.u_temperature[j];
         const double by_expansion = thermal.temperature[j] * thermal.u_expansion;
         const double by_both = thermal.u_temperature[j] * thermal.u_expansion;
@@ -102,6 +105,7 @@ void move_thermal(const TrialNetwork& network, TrialBatch& batch) {
     const Lanes* stretch_step = batch.border_step.data() + plain;
     const auto misclosure = [&](Index prior, double u, const Lanes& present, Lanes& to) {
         for (int t = 0; t < k_lanes; ++t) {
+            // In parts of u the prior has the weight 1: what is missing to the value that was drawn.
             to[t] = (prior < 0 || u <= 0.0 ? 0.0 : batch.prior_observed[static_cast<std::size_t>(prior)][t] / u) -
                     present[t];
         }
@@ -123,6 +127,7 @@ void move_thermal(const TrialNetwork& network, TrialBatch& batch) {
     misclosure(thermal.expansion_prior, thermal.u_expansion, expansion, batch.thermal_step[stations]);
 
     Lanes& of_expansion = batch.thermal_normal[n * n - 1];
+    // The prior of each adds 1 to its own diagonal, in parts of u.
     fill(of_expansion, 1.0);
     for (std::size_t i = 0; i < stations; ++i) {
         const double* row = thermal.normal.data() + i * stations;
@@ -161,6 +166,7 @@ void move_thermal(const TrialNetwork& network, TrialBatch& batch) {
             largest[t] = largest[t] >= size ? largest[t] : size;  // NaN does not pass for small
         }
     }
+    // A lane that has arrived stands still, whatever its neighbours still need.
     for (int t = 0; t < k_lanes; ++t) {
         batch.thermal_moves[t] = batch.thermal_moves[t] != 0.0 && !(largest[t] <= k_tolerance) ? 1.0 : 0.0;
     }
@@ -168,6 +174,7 @@ void move_thermal(const TrialNetwork& network, TrialBatch& batch) {
 
 /// Steps of the stretches: expansion and temperatures, whose product they are, adjusted to the very minimum.
 void find_stretches(const TrialNetwork& network, TrialBatch& batch) {
+    // To the very minimum within each step, which costs little: a system of the stations and one more.
     constexpr int k_most = 50;
     batch.next_thermal = batch.thermal;
     batch.thermal_moves = batch.active;
@@ -217,6 +224,7 @@ void find_step(const TrialNetwork& network, TrialBatch& batch) {
 GUMCERT_WIDE_CLONES
 void take_step(const TrialNetwork& network, TrialBatch& batch) {
     const Lanes active = batch.active;
+    // A trial that has converged is not moved any more: its bits do not depend on its neighbours.
     const auto move = [&](const Lanes& step, Lanes& delta) {
 #pragma GCC ivdep
         for (int t = 0; t < k_lanes; ++t) {
@@ -260,6 +268,8 @@ TrialEnd solve_alone(const TrialNetwork& network, int lane, TrialBatch& batch) {
         Eigen::VectorXd observed(visit.count);
         for (Index k = 0; k < visit.count; ++k) {
             const auto at = static_cast<std::size_t>(visit.first + k);
+            // The length that was drawn, in full: what the solution predicts, and the difference that the lanes have
+            // kept.
             const TrialNetwork::Length& length = network.lengths[at];
             const double predicted = scale * length.distance - network.nominal_at(length.path_slot);
             observed[k] = predicted + batch.residual_start[at][lane];
@@ -274,6 +284,7 @@ TrialEnd solve_alone(const TrialNetwork& network, int lane, TrialBatch& batch) {
         alone.set_observed(prior.group, std::move(observed));
     }
     const SolveSummary summary = alone.refine(SolverOptions{});
+    // Back as differences from the solution, so that what follows treats all lanes alike.
     for (std::size_t i = 0; i < network.free_slots.size(); ++i) {
         const FreeParameter& parameter = network.free_parameters[i];
         const auto slot = static_cast<std::size_t>(network.free_slots[i]);
@@ -294,12 +305,15 @@ TrialEnd solve_alone(const TrialNetwork& network, int lane, TrialBatch& batch) {
 std::array<TrialEnd, k_lanes> solve(const TrialNetwork& network, const TrialOptions& options, Index count,
                                     TrialBatch& batch) {
     std::array<TrialEnd, k_lanes> ends;
+    // Every trial begins at the solution: none depends on the one before.
     std::fill(batch.delta.begin(), batch.delta.end(), Lanes{});
     std::fill(batch.thermal.begin(), batch.thermal.end(), Lanes{});
     for (int t = 0; t < k_lanes; ++t) {
         batch.active[t] = t < count ? 1.0 : 0.0;
     }
     fill(batch.thermal_moves, 0.0);
+    // The derivatives change by some 10⁻⁵ over the uncertainties of a measurement: a step gains four digits or more,
+    // and two of them are enough (ADR 0015).
     for (int number = 1; number <= options.most_steps && any(batch.active); ++number) {
         // The gradient is that of the trial at its present parameters, the normal matrix that of the nominal solution
         // for all of them: steps are a little wrong, the solution at which they end is not.
@@ -317,6 +331,7 @@ std::array<TrialEnd, k_lanes> solve(const TrialNetwork& network, const TrialOpti
             }
         }
     }
+    // Chord steps that do not arrive: far from the solution its normal equations are no longer near those of the trial.
     for (int t = 0; t < k_lanes; ++t) {
         if (batch.active[t] != 0.0) {
             TrialEnd& end = ends[static_cast<std::size_t>(t)];
