@@ -988,9 +988,8 @@ struct Interruption {
 // by start values that the step itself has moved (ADR 0031).
 class InterruptionSearch {
 public:
-    explicit InterruptionSearch(const RotaryTableMeasurement& measurement) : split_(measurement) {
-        split_.dead_paths.emplace_back();
-    }
+    explicit InterruptionSearch(const RotaryTableMeasurement& measurement)
+        : split_(measurement), declared_(measurement.dead_paths.size()) {}
 
     /// The interruption of a station that leaves least of its deviations, where that is little enough.
     [[nodiscard]] std::optional<Interruption> of_station(std::size_t station) {
@@ -1012,7 +1011,7 @@ public:
                 visits[place->second.second].push_back(i);
             }
         }
-        const double before = deviation(station).left;
+        const double before = deviation(station, {}).left;
         Interruption best;
         for (const auto& [path, visits] : by_path) {
             const Interruption found = best_of(station, visits);
@@ -1055,15 +1054,22 @@ private:
 
     Interruption interrupted_at(std::size_t station, const std::vector<std::vector<std::size_t>>& visits,
                                 std::size_t first) {
-        const std::size_t own = split_.dead_paths.size() - 1;
         std::vector<std::pair<std::size_t, std::size_t>> before;  // length and its dead path
+        // Each dead path that is met goes on as one of its own: a station may have one for each reflector, and an
+        // interrupted beam moves all of them.
+        SplitPaths split;
         for (std::size_t k = first; k < visits.size(); ++k) {
             for (const std::size_t i : visits[k]) {
-                before.emplace_back(i, split_.lengths[i].dead_path);
-                split_.lengths[i].dead_path = own;
+                std::size_t& path = split_.lengths[i].dead_path;
+                before.emplace_back(i, path);
+                const auto [own, is_new] = split.try_emplace(path, declared_ + split.size());
+                if (is_new && own->second == split_.dead_paths.size()) {
+                    split_.dead_paths.emplace_back();
+                }
+                path = own->second;
             }
         }
-        Interruption found = deviation(station);
+        Interruption found = deviation(station, split);
         found.first = visits[first].front();
         for (const auto& [i, path] : before) {
             split_.lengths[i].dead_path = path;
@@ -1071,8 +1077,10 @@ private:
         return found;
     }
 
-    /// What a fit of the station leaves, and the dead path that was split off less the one before.
-    [[nodiscard]] Interruption deviation(std::size_t station) const {
+    using SplitPaths = std::map<std::size_t, std::size_t>;  // as declared, and what it is from an interruption on
+
+    /// What a fit of the station leaves, and by how much the dead paths that were split go on differently: the median.
+    [[nodiscard]] Interruption deviation(std::size_t station, const SplitPaths& split) const {
         const StartSearch search(split_, active_);
         const StationFit fit = search.fit_of(station);
         const auto [deviations, centres] = search.deviations(station, fit);
@@ -1081,13 +1089,23 @@ private:
         // beam.
         result.left = deviations.cwiseAbs().mean();
         const std::vector<std::size_t>& names = search.stations()[station].path_name;
-        if (!names.empty() && names.back() == split_.dead_paths.size() - 1) {
-            result.size = centres[0] - centres[centres.size() - 1];
+        const auto place_of = [&](std::size_t path) {
+            return static_cast<std::size_t>(std::ranges::find(names, path) - names.begin());
+        };
+        std::vector<double> steps;
+        for (const auto& [declared, own] : split) {
+            const std::size_t a = place_of(declared);
+            const std::size_t b = place_of(own);
+            if (a < names.size() && b < names.size()) {  // a path that begins after the interruption tells nothing
+                steps.push_back(centres[static_cast<Eigen::Index>(a)] - centres[static_cast<Eigen::Index>(b)]);
+            }
         }
+        result.size = steps.empty() ? 0.0 : median(steps);
         return result;
     }
 
     RotaryTableMeasurement split_;
+    std::size_t declared_;  // dead paths of the measurement; those behind are split off
     std::vector<bool> active_;
 };
 

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/complement.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
@@ -171,6 +172,47 @@ TEST(PlantedBlunders, AnInterruptedBeamOfMillimetresIsNamedWithItsPlaceAndSize) 
                                   std::to_string(std::lround(planted.measurement.angles_deg[planted.angle])) + "°";
         expect_named(planted.measurement, place, planted.size);
     }
+}
+
+/// The size is that of the jump, whatever other dead paths the station has, and in whichever of them the beam jumps.
+TEST(PlantedBlunders, AnInterruptedBeamOfAStationWithSeveralDeadPathsIsNamedWithItsSize) {
+    const auto expect_named = [](const RotaryTableMeasurement& m, const std::string& place, double size) {
+        const std::string message = refusal(m);
+        EXPECT_NE(message.find(place), std::string::npos) << message;
+        EXPECT_NE(message.find("the beam was interrupted"), std::string::npos) << message;
+        const std::size_t at = message.find("off by about ");
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + 13)), size * 1e6, 0.01e6 * size + 30.0) << message;
+    };
+    constexpr double k_jump = 0.3;
+    for (const auto& [from, to, place] :
+         {std::tuple{6U, 12U, "pass P2/1, 90°"}, std::tuple{18U, 24U, "pass P2/1, 270°"}}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(12).measurement;
+        const std::size_t second = m.dead_paths.size();  // declared: locked again at 180°
+        m.dead_paths.push_back(m.dead_paths[1]);
+        for (LengthObservation& length : m.lengths) {
+            if (length.station == 1 && length.angle >= 12) {
+                length.dead_path = second;
+                length.length += 37e-3;
+            }
+            if (length.station == 1 && length.angle >= from && length.angle < to) {
+                length.length += k_jump;
+            }
+        }
+        expect_named(m, place, k_jump);
+    }
+    RotaryTableMeasurement m = synthetic::sound_campaign(12).measurement;
+    const std::size_t first = m.dead_paths.size();  // one of each reflector
+    for (std::size_t r = 0; r < m.reflectors.size(); ++r) {
+        m.dead_paths.push_back(m.dead_paths[1]);
+    }
+    for (LengthObservation& length : m.lengths) {
+        if (length.station == 1) {
+            length.dead_path = first + length.reflector;
+            length.length += 5e-3 * static_cast<double>(length.reflector) + (length.angle >= 13 ? k_jump : 0.0);
+        }
+    }
+    expect_named(m, "pass P2/1, 195°", k_jump);
 }
 
 TEST(PlantedBlunders, AHotFixtureIsToldAsItsTemperatureAndADisplacedReflectorIsNot) {
