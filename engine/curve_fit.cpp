@@ -67,7 +67,7 @@ gum::Diagnostic diagnostic(std::string code, std::string where, std::string what
 class Spread {
 public:
     explicit Spread(Vector variances) : variances_(std::move(variances)) {}
-    explicit Spread(Matrix covariance) : covariance_(std::move(covariance)), factor_(covariance_) {}
+    explicit Spread(Matrix covariance) : covariance_(std::move(covariance)) { factor_.compute(covariance_); }
 
     [[nodiscard]] bool is_diagonal() const { return covariance_.size() == 0; }
 
@@ -109,7 +109,8 @@ private:
 
     Vector variances_;
     Matrix covariance_;
-    Eigen::LLT<Matrix> factor_;
+    // A factor of nothing where the covariance is diagonal: one that never computed is copied with what memory held.
+    Eigen::LLT<Matrix> factor_{Matrix(0, 0)};
 };
 
 /// Orthogonal factorisation of a design matrix whose columns are scaled to unit length.

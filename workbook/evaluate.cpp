@@ -591,19 +591,30 @@ private:
         return of_array(std::move(array));
     }
 
-    Operand with_sign(const FormulaNode& node) {
-        const Operand operand = evaluate(formula_->children_of(node)[0], false);
-        const FormulaNodeKind kind = node.kind;
-        return for_each_element(std::array{operand}, [&](std::span<const Operand> one) {
-            if (kind == FormulaNodeKind::plus) {
-                return one[0];  // leaves a text as it is
-            }
-            const Operand number = as_number(one[0], *this);
-            if (!number.is_number()) {
-                return number;
-            }
-            return Operand::of(kind == FormulaNodeKind::negate ? -number.number : number.number / 100.0);
-        });
+    /// Signs from the inside: percent signs in a row are a deep tree, and take a loop in place of as many calls.
+    Operand with_sign(const FormulaNode& outermost) {
+        std::vector<FormulaNodeKind> signs{outermost.kind};
+        std::uint32_t place = formula_->children_of(outermost)[0];
+        while (is_sign(formula_->nodes[place].kind)) {
+            spend(1);
+            signs.push_back(formula_->nodes[place].kind);
+            place = formula_->children_of(formula_->nodes[place])[0];
+        }
+        Operand operand = evaluate(place, false);
+        for (std::size_t i = signs.size(); i-- > 0;) {
+            const FormulaNodeKind kind = signs[i];
+            operand = for_each_element(std::array{operand}, [&](std::span<const Operand> one) {
+                if (kind == FormulaNodeKind::plus) {
+                    return one[0];  // leaves a text as it is
+                }
+                const Operand number = as_number(one[0], *this);
+                if (!number.is_number()) {
+                    return number;
+                }
+                return Operand::of(kind == FormulaNodeKind::negate ? -number.number : number.number / 100.0);
+            });
+        }
+        return operand;
     }
 
     /// Operators from the left: a long sum is a deep tree, and takes a loop in place of as many calls.

@@ -67,6 +67,11 @@ enum class FormulaNodeKind : std::uint8_t {
     array  ///< {1,2;3,4}
 };
 
+/// A sign of one operand: −x, +x, x %.
+[[nodiscard]] constexpr bool is_sign(FormulaNodeKind kind) {
+    return kind >= FormulaNodeKind::negate && kind <= FormulaNodeKind::percent;
+}
+
 [[nodiscard]] constexpr bool is_binary(FormulaNodeKind kind) {
     return kind >= FormulaNodeKind::power && kind <= FormulaNodeKind::reunion;
 }

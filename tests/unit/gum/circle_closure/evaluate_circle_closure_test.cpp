@@ -19,14 +19,14 @@ CircleClosureRequest full_closure(std::size_t n, double sigma) {
     request.unit = Unit::parse("arcsec");
     request.measurement.steps = n;
     std::mt19937_64 random(5);
-    std::normal_distribution<double> noise(0.0, sigma);
+    std::normal_distribution<double> noise;  // of deviation 1: none of deviation 0 is allowed
     const auto turn = [n](std::size_t i) { return 2.0 * M_PI * static_cast<double>(i % n) / static_cast<double>(n); };
     for (std::size_t position = 0; position < n; ++position) {
         request.measurement.series.push_back({.position = position, .repetition = ""});
         for (std::size_t step = 0; step < n; ++step) {
             const std::size_t side = request.measurement.side_at(position, step);
-            const double reading =
-                3.0 * std::sin(turn(step)) + 2.0 * std::cos(turn(side)) + static_cast<double>(position) + noise(random);
+            const double reading = 3.0 * std::sin(turn(step)) + 2.0 * std::cos(turn(side)) +
+                                   static_cast<double>(position) + sigma * noise(random);
             request.measurement.readings.push_back({position, step, k_arcsecond_in_rad * reading});
         }
     }
