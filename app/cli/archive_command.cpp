@@ -45,6 +45,7 @@
 #include "system/whole_folders.h"
 #include "text/small_letters.h"
 
+#include "text/visible_text.h"
 namespace gumcert::cli {
 
 namespace {
@@ -90,8 +91,8 @@ ExitCode told(const archive::Written& written, const ArchiveOptions& options, co
                     {"hash", encoding::hexadecimal(entry.hash)},
                     {"repeated", written.repeated}});
     } else if (!common.quiet) {
-        fmt::print("{}{}{}: entry {}, {}{}\n", entry.certificate, entry.certificate.empty() ? "" : " ", entry.kind,
-                   entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
+        fmt::print("{}{}{}: entry {}, {}{}\n", text::one_line(entry.certificate), entry.certificate.empty() ? "" : " ",
+                   entry.kind, entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
     }
     return done;
 }
@@ -136,7 +137,7 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
                              random_nonce(), request_of(options));
     const auto store = archive::create_store(options.store, first);
     if (!common.quiet) {
-        fmt::print("Begun: {}\n", store->name());
+        fmt::print("Begun: {}\n", text::one_line(store->name()));
     }
     return told({first, false}, options, common);
 }
@@ -242,7 +243,8 @@ ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /
     }
     std::string text;
     for (const archive::ListedCertificate& one : certificates) {
-        text += fmt::format("{:<24}  {:<10}  {}  {}\n", one.number, one.state, one.since, one.item);
+        text += fmt::format("{:<24}  {:<10}  {}  {}\n", text::one_line(one.number), text::one_line(one.state),
+                            text::one_line(one.since), text::one_line(one.item));
     }
     write_to_stdout(text.empty() ? "No certificates.\n" : text);
     return done;
@@ -269,7 +271,7 @@ std::string shown_changes(const json& body) {
         const auto part = [&](const char* key) {
             const auto found = change.find(key);
             const std::string value = found != change.end() && found->is_string() ? found->get<std::string>() : "";
-            return value.empty() ? std::string("nothing") : value;
+            return value.empty() ? std::string("nothing") : text::one_line(value);
         };
         text += fmt::format("        {} {}: {} -> {}\n", part("where"), part("kind"), part("before"), part("after"));
     }
@@ -298,25 +300,34 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
                     {"entries", list}});
         return done;
     }
-    std::string text = fmt::format("{}: {} since {}\n", number, life.state, life.since);
+    // Every text here is one that somebody wrote: none of them may bring a line of its own.
+    std::string text = fmt::format("{}: {} since {}\n", text::one_line(number), text::one_line(life.state),
+                                   text::one_line(life.since));
     if (!life.amends.empty()) {
-        text += fmt::format("  {} {}\n", life.amendment_kind == "replaced" ? "replaces" : "amends", life.amends);
+        text += fmt::format("  {} {}\n", life.amendment_kind == "replaced" ? "replaces" : "amends",
+                            text::one_line(life.amends));
     }
-    if (!life.later.empty()) {
-        text += fmt::format("  see {}\n", life.later);
+    std::set<std::string> seen{number};
+    for (std::string later = life.later; !later.empty() && seen.insert(later).second;) {
+        const archive::CertificateLife of_later = archive.life(later);
+        text += fmt::format("  see {}, which is {} since {}\n", text::one_line(later), text::one_line(of_later.state),
+                            text::one_line(of_later.since));
+        later = of_later.later;
     }
     for (const archive::LogEntry& entry : entries) {
         const json body = archive::body_of(entry).value_or(json::object());
-        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, entry.at, entry.kind, entry.actor);
+        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, text::one_line(entry.at), text::one_line(entry.kind),
+                            text::one_line(entry.actor));
         const auto why = body.find("why");
         text += why != body.end() && why->is_string() && !why->get_ref<const std::string&>().empty()
-                    ? ": " + why->get<std::string>() + "\n"
+                    ? ": " + text::one_line(why->get_ref<const std::string&>()) + "\n"
                     : "\n";
         if (entry.kind == "drafted") {
-            text += fmt::format("        record {}\n", entry.record);
+            text += fmt::format("        record {}\n", text::one_line(entry.record));
             const json documents = body.value("new", json::object()).value("documents", json::array());
             for (const json& document : documents) {
-                text += fmt::format("        {} {}\n", document.value("name", ""), document.value("sha256", ""));
+                text += fmt::format("        {} {}\n", text::one_line(document.value("name", "")),
+                                    text::one_line(document.value("sha256", "")));
             }
             text += shown_changes(body);
         }
@@ -344,7 +355,7 @@ public:
         }
         write_outputs({{place_, text}}, inputs_, at_start_);
         if (!quiet_) {
-            fmt::print("Written: {}\n", place_);
+            fmt::print("Written: {}\n", text::one_line(place_));
         }
     }
 
@@ -624,9 +635,9 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
                     {"contents", verification.contents},
                     {"head", json::parse(archive::to_json(*verification.head))}});
     } else if (!common.quiet) {
-        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n", to->name(),
-                   verification.entries, verification.contents, verification.certificates, from->name(),
-                   encoding::hexadecimal(verification.head->root), verification.head->at);
+        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
+                   text::one_line(to->name()), verification.entries, verification.contents, verification.certificates,
+                   text::one_line(from->name()), encoding::hexadecimal(verification.head->root), verification.head->at);
     }
     return done;
 }
@@ -723,7 +734,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     } else {
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto& [number, record] = records[i];
-            progress(fmt::format("{} of {}: {}", i + 1, records.size(), number));
+            progress(fmt::format("{} of {}: {}", i + 1, records.size(), text::one_line(number)));
             take(number, app::replay_record(archive.content(record).value_or(""), number, threads, templates));
         }
     }
@@ -735,11 +746,11 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                     {"certificates", list}});
     } else if (!common.quiet) {
         for (const json& one : list) {
-            fmt::print("{:<24}  {}  made by gumcert {}\n", one["number"].get<std::string>(),
+            fmt::print("{:<24}  {}  made by gumcert {}\n", text::one_line(one["number"].get<std::string>()),
                        one["same"].get<bool>()        ? "same     "
                        : one["evaluated"].get<bool>() ? "DIFFERENT"
                                                       : "NOT DONE ",
-                       one["made_by"].get<std::string>());
+                       text::one_line(one["made_by"].get<std::string>()));
         }
         fmt::print("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
     }
