@@ -74,7 +74,8 @@ std::vector<std::string> tell_documents(const std::string& certificate,
                                         std::vector<DocumentInHand>& documents) {
     std::vector<std::string> lines;
     for (const archive::EvidenceVerdict::Part& part : parts) {
-        lines.push_back(name_of(part) + ": " + part.sha256 + (part.holds ? "" : ", of an earlier draft"));
+        lines.push_back(name_of(part) + ": " + text::one_line(part.sha256) +
+                        (part.holds ? "" : ", of an earlier draft"));
     }
     for (DocumentInHand& document : documents) {
         const auto found = [&](bool holds) {
