@@ -1,6 +1,7 @@
 #include "archive/evidence.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,6 +15,7 @@
 #include "encoding/sha2.h"
 #include "json/canonical_json.h"
 #include "json/strict_parser.h"
+#include "text/visible_text.h"
 
 namespace gumcert::archive {
 
@@ -30,6 +32,22 @@ json hexadecimal_list(const std::vector<std::string>& hashes) {
         list.push_back(encoding::hexadecimal(hash));
     }
     return list;
+}
+
+/// Names and SHA-256 of the documents that the body of a draft names.
+std::vector<std::pair<std::string, std::string>> named_documents_in(const json& body) {
+    std::vector<std::pair<std::string, std::string>> named;
+    const auto text_of_document = [](const json& document, const char* key) {
+        const auto found = document.is_object() ? document.find(key) : document.end();
+        return document.is_object() && found != document.end() && found->is_string() ? found->get<std::string>()
+                                                                                     : std::string();
+    };
+    const json now = body.value("new", json());
+    const json documents = now.is_object() ? now.value("documents", json()) : json();
+    for (const json& document : documents) {
+        named.emplace_back(text_of_document(document, "name"), text_of_document(document, "sha256"));
+    }
+    return named;
 }
 
 /// Reads the parts of an evidence; whatever has another form is refused with its place.
@@ -96,6 +114,29 @@ public:
         read.proof = proof(object, at);
         return read;
     }
+    [[nodiscard]] StateStatement states(const json& object) const {
+        const std::string at = "/states";
+        StateStatement read{.at = text(object, at, "at"), .certificates = {}};
+        std::size_t index = 0;
+        for (const json& one : list(object, at, "certificates")) {
+            const std::string place = at + "/certificates/" + std::to_string(index++);
+            StateStatement::Certificate stated{
+                text(one, place, "certificate"), text(one, place, "state"), text(one, place, "later"), {}};
+            for (const json& seq : list(one, place, "entries")) {
+                if (!seq.is_number_integer()) {
+                    refuse(place + "/entries");
+                }
+                stated.entries.push_back(seq.get<std::int64_t>());
+            }
+            read.certificates.push_back(std::move(stated));
+        }
+        const std::optional<Head::Signature> signature = signature_in(member(object, at, "signature"));
+        if (!signature) {
+            refuse(at + "/signature");
+        }
+        read.signature = *signature;
+        return read;
+    }
     [[nodiscard]] Head::Extension extension(const json& object, const std::string& at) const {
         return {integer(object, at, "size"), hash(text(object, at, "root"), at + "/root"), proof(object, at)};
     }
@@ -131,16 +172,22 @@ public:
             add("GC-ARCHIVE-0048", evidence_.certificate, "no entry with a record is about this certificate",
                 "evidence holds the entries of its certificate");
         } else {
-            verdict_.state = life->state;
-            verdict_.later = life->later;
+            follow(evidence_.certificate);
+            for (EvidenceVerdict::Part& part : verdict_.parts) {
+                part.holds = part.sha256 == life->record || std::find(life->documents.begin(), life->documents.end(),
+                                                                      part.sha256) != life->documents.end();
+            }
+        }
+        if (evidence_.states) {
+            look_at_states(*evidence_.states);
+        }
+        if (evidence_.head.extends && !proves_its_extension(evidence_.head)) {
+            add("GC-ARCHIVE-0051", "head of " + std::to_string(evidence_.head.size) + " entries",
+                "its proof does not lead to its root",
+                "a later head proves that the log begins with what an earlier one says");
         }
         for (const Head& head : heads) {
-            if (head.archive != evidence_.head.archive ||
-                (head.size == evidence_.head.size &&
-                 (head.root != evidence_.head.root || head.chain != evidence_.head.chain))) {
-                add("GC-ARCHIVE-0045", "head of " + std::to_string(head.size) + " entries, " + head.at,
-                    "the evidence is of another archive, or of a log that was rewritten", "heads of one archive agree");
-            }
+            compare_with(head);
         }
         return std::move(verdict_);
     }
@@ -149,6 +196,7 @@ private:
     const Evidence& evidence_;
     EvidenceVerdict verdict_;
     LogRules rules_;
+    std::set<std::string> keys_;
     std::map<std::string, const LogEntry*> needed_;  // content → entry that names it first
     std::map<std::string, std::int64_t> drafts_;     // record → its first draft
 
@@ -158,6 +206,51 @@ private:
                                      .what = std::move(what),
                                      .rule = std::move(rule),
                                      .action = "do not rely on this evidence; ask the laboratory for a new one"});
+    }
+
+    /// From amendment to amendment: what a certificate says holds as long as the last one of them does.
+    void follow(const std::string& certificate) {
+        std::set<std::string> seen;
+        for (std::string number = certificate; !number.empty() && seen.insert(number).second;) {
+            const CertificateLife* const life = rules_.life(number);
+            verdict_.chain.push_back(life == nullptr ? EvidenceVerdict::Certificate{number, "", ""}
+                                                     : EvidenceVerdict::Certificate{number, life->state, life->since});
+            number = life == nullptr ? "" : life->later;
+        }
+    }
+
+    void compare_with(const Head& head) {
+        const Head& own = evidence_.head;
+        const std::string where = "head of " + std::to_string(head.size) + " entries, " + head.at;
+        if (head.archive != own.archive ||
+            (head.size == own.size && (head.root != own.root || head.chain != own.chain || head.at != own.at)) ||
+            (head.size < own.size ? head.at > own.at : head.at < own.at)) {
+            add("GC-ARCHIVE-0045", where, "the evidence is of another archive, or of a log that was rewritten",
+                "heads of one archive agree");
+            return;
+        }
+        const bool is_extended_here =
+            head.size == own.size || proves_extension(own, head) || proves_extension(head, own) ||
+            std::any_of(evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const auto& one) {
+                return one.size == head.size && one.root == head.root && leads_to_the_head(one);
+            });
+        if (!is_extended_here) {
+            verdict_.findings.push_back(
+                {.code = "GC-ARCHIVE-0051",
+                 .where = where,
+                 .what = head.size < own.size ? "the evidence does not prove that its log begins with that of this head"
+                                              : "it does not prove that its log begins with that of the evidence",
+                 .rule = "a later head proves that the log begins with what an earlier one says",
+                 .action = head.size < own.size
+                               ? "ask for evidence that is made with gumcert archive export --since and this head"
+                               : "ask for a head that is made with gumcert archive head --since and this evidence"});
+        }
+    }
+
+    [[nodiscard]] bool leads_to_the_head(const Head::Extension& one) const {
+        return one.size >= 1 &&
+               is_extended(static_cast<std::size_t>(one.size), one.root, static_cast<std::size_t>(evidence_.head.size),
+                           evidence_.head.root, one.proof);
     }
 
     void look_at(const Evidence::ProvenEntry& proven, std::int64_t last) {
@@ -171,7 +264,7 @@ private:
             add("GC-ARCHIVE-0040", where, "its fields give another hash than the one it has",
                 "an entry is as it was when it was written");
         }
-        if ((entry.seq == 1) != (entry.hash == evidence_.head.archive) ||
+        if ((entry.seq == 1) != (entry.hash == evidence_.head.archive) || entry.at > evidence_.head.at ||
             (entry.seq == evidence_.head.size &&
              (entry.hash != evidence_.head.chain || entry.at != evidence_.head.at)) ||
             root_of_proof(entry.hash, static_cast<std::size_t>(entry.seq - 1),
@@ -184,13 +277,42 @@ private:
             add("GC-ARCHIVE-0043", where, breach->what, breach->rule);
         } else if (breach) {
             rules_.take(entry);
+            look_at_role(entry);
+        }
+        if (!entry.request_key.empty() && !keys_.insert(entry.request_key).second) {
+            add("GC-ARCHIVE-0043", where, "its key " + text::in_quotes(entry.request_key) + " was used before",
+                "a key belongs to one request");
         }
         if (entry.kind == "drafted" && entry.certificate == evidence_.certificate) {
             drafts_.emplace(entry.record, entry.seq);
             needed_.emplace(entry.record, &entry);
-            for (const std::string& sha256 : documents_in(body_of(entry).value_or(json::object()))) {
+            tell_of("", entry.record);
+            const json body = body_of(entry).value_or(json::object());
+            for (const std::string& sha256 : documents_in(body)) {
                 needed_.emplace(sha256, &entry);
             }
+            for (const auto& [name, sha256] : named_documents_in(body)) {
+                tell_of(name, sha256);
+            }
+        }
+    }
+
+    void tell_of(const std::string& name, const std::string& sha256) {
+        if (std::none_of(verdict_.parts.begin(), verdict_.parts.end(),
+                         [&](const auto& part) { return part.name == name && part.sha256 == sha256; })) {
+            verdict_.parts.push_back({name, sha256, false});
+        }
+    }
+
+    /// The number is asked before the role: where that is not judged, the role still is.
+    void look_at_role(const LogEntry& entry) {
+        const std::map<std::string, std::set<std::string>>& persons = rules_.settings().persons;
+        const auto person = persons.find(entry.actor);
+        const std::string role = role_of(entry.kind);
+        if (!persons.empty() && (person == persons.end() || !person->second.contains(role))) {
+            add("GC-ARCHIVE-0043", "entry " + std::to_string(entry.seq),
+                text::in_quotes(entry.actor) + " is no " + role + " of this archive",
+                "whoever does something has the role for it");
         }
     }
 
@@ -199,15 +321,54 @@ private:
         for (const PrintedHead& printed : printed_heads_in(content.bytes)) {
             const bool is_of_log = std::any_of(
                 evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const Head::Extension& one) {
-                    return one.size == printed.size && one.root == printed.root &&
-                           is_extended(static_cast<std::size_t>(one.size), one.root,
-                                       static_cast<std::size_t>(evidence_.head.size), evidence_.head.root, one.proof);
+                    return one.size == printed.size && one.root == printed.root && leads_to_the_head(one);
                 });
             if (std::string fault = fault_of(printed, is_of_log, drafts_.at(naming.record), naming.seq);
                 !fault.empty()) {
                 add("GC-ARCHIVE-0053", "content " + content.sha256, std::move(fault),
                     "a document prints a head of its archive that contains a draft of its record");
             }
+        }
+    }
+
+    /// The statement names every entry that the log has of its certificates: one that was left out, or planted, shows.
+    void look_at_states(const StateStatement& states) {
+        if (!is_utc_time(states.at) || states.at < evidence_.head.at) {
+            add("GC-ARCHIVE-0056", "statement of states", "its time is before that of the head",
+                "a statement of states is made of the log that its head speaks of");
+        }
+        if (!evidence_.head.signature || evidence_.head.signature->public_key != states.signature.public_key) {
+            add("GC-ARCHIVE-0056", "statement of states", "is signed with another key than the head",
+                "head and statement of states are signed with one key");
+        }
+        const StateStatement found = states_in(evidence_, states.at);
+        if (std::none_of(found.certificates.begin(), found.certificates.end(),
+                         [&](const auto& one) { return one.number == evidence_.certificate; })) {
+            return;  // said already: no entry is about it
+        }
+        for (const StateStatement::Certificate& stated : states.certificates) {
+            const auto own = std::find_if(found.certificates.begin(), found.certificates.end(),
+                                          [&](const auto& one) { return one.number == stated.number; });
+            if (own == found.certificates.end() || own->entries != stated.entries) {
+                add("GC-ARCHIVE-0056", "certificate " + text::visible(stated.number),
+                    "the entries at hand are not those that the laboratory states",
+                    "evidence holds every entry that its statement of states names, and no other one");
+            } else if (*own != stated) {
+                add("GC-ARCHIVE-0056", "certificate " + text::visible(stated.number),
+                    "its entries lead to another state than the one that the laboratory states",
+                    "a statement of states says what its entries say");
+            }
+        }
+        const auto number_of = [](const StateStatement::Certificate& one) { return one.number; };
+        std::vector<std::string> stated_numbers;
+        std::vector<std::string> own_numbers;
+        std::transform(states.certificates.begin(), states.certificates.end(), std::back_inserter(stated_numbers),
+                       number_of);
+        std::transform(found.certificates.begin(), found.certificates.end(), std::back_inserter(own_numbers),
+                       number_of);
+        if (stated_numbers != own_numbers) {
+            add("GC-ARCHIVE-0056", "statement of states", "is of other certificates than the entries at hand",
+                "a statement of states names each certificate of its evidence once, by number");
         }
     }
 
@@ -250,7 +411,7 @@ void prove_printed_heads(Evidence& evidence, const std::string& document, const 
 
 }  // namespace
 
-Evidence evidence_of(Store& store, const std::string& certificate) {
+Evidence evidence_of(Store& store, const std::string& certificate, const std::optional<Head>& since) {
     Evidence evidence{.certificate = certificate, .head = {}, .entries = {}, .contents = {}};
     store.read([&] {
         // The certificate, what it amends, what amends it, and so on.
@@ -280,7 +441,16 @@ Evidence evidence_of(Store& store, const std::string& certificate) {
             }
             log.add(entry);
         });
-        evidence.head = log.head();
+        const std::optional<Head> head = since ? log.head_since(*since) : log.head();
+        if (!head) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0036",
+                .where = "head of " + std::to_string(since->size) + " entries, " + since->at,
+                .what = "the archive does not begin with these entries",
+                .rule = "an archive begins with what its earlier heads say",
+                .action = "the log was cut off, rewritten, or belongs to another archive: compare with a backup"});
+        }
+        evidence.head = *head;
         const MerkleTree& tree = log.tree();
         std::set<std::string> named;
         for (const auto& [seq, entry] : entries) {
@@ -300,6 +470,26 @@ Evidence evidence_of(Store& store, const std::string& certificate) {
         }
     });
     return evidence;
+}
+
+StateStatement states_in(const Evidence& evidence, const std::string& at) {
+    LogRules rules;
+    std::map<std::string, std::vector<std::int64_t>> entries;
+    for (const auto& [entry, proof] : evidence.entries) {
+        if (rules.accept(entry)) {
+            rules.take(entry);
+        }
+        if (!entry.certificate.empty()) {
+            entries[entry.certificate].push_back(entry.seq);
+        }
+    }
+    StateStatement statement{.at = at, .certificates = {}};
+    for (auto& [number, own] : entries) {
+        const CertificateLife* const life = rules.life(number);
+        statement.certificates.push_back(
+            {number, life == nullptr ? "" : life->state, life == nullptr ? "" : life->later, std::move(own)});
+    }
+    return statement;
 }
 
 std::string to_json(const Evidence& evidence) {
@@ -330,6 +520,16 @@ std::string to_json(const Evidence& evidence) {
         object["printed_heads"].push_back(
             {{"size", one.size}, {"root", encoding::hexadecimal(one.root)}, {"proof", hexadecimal_list(one.proof)}});
     }
+    if (evidence.states) {
+        json stated = json::array();
+        for (const StateStatement::Certificate& one : evidence.states->certificates) {
+            stated.push_back(
+                {{"certificate", one.number}, {"state", one.state}, {"later", one.later}, {"entries", one.entries}});
+        }
+        object["states"] = {{"at", evidence.states->at},
+                            {"certificates", std::move(stated)},
+                            {"signature", to_json(evidence.states->signature)}};
+    }
     return gumcert::json::canonical_json(object);
 }
 
@@ -341,7 +541,7 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
     }
     Evidence evidence;
     evidence.certificate = reader.text(*object, "", "certificate");
-    evidence.head = head_from_json(reader.member(*object, "", "head").dump(), name);
+    evidence.head = head_in(reader.member(*object, "", "head"), name);
     std::size_t index = 0;
     for (const json& entry : reader.list(*object, "", "entries")) {
         evidence.entries.push_back(reader.entry(entry, "/entries/" + std::to_string(index++)));
@@ -349,15 +549,22 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
     index = 0;
     for (const json& content : reader.list(*object, "", "contents")) {
         const std::string at = "/contents/" + std::to_string(index++);
-        std::optional<std::string> bytes = encoding::bytes_from_base64(reader.text(content, at, "base64"));
-        if (!bytes) {
+        const std::string digits = reader.text(content, at, "base64");
+        std::optional<std::string> bytes = encoding::bytes_from_base64(digits);
+        // One text for the same bytes: no blanks, no line breaks, no bits behind the last byte.
+        if (!bytes || encoding::base64(*bytes) != digits) {
             reader.refuse(at + "/base64");
         }
         evidence.contents.push_back({reader.text(content, at, "sha256"), std::move(*bytes)});
     }
     index = 0;
-    for (const json& head : object->value("printed_heads", json::array())) {
-        evidence.printed_heads.push_back(reader.extension(head, "/printed_heads/" + std::to_string(index++)));
+    if (object->contains("printed_heads")) {
+        for (const json& head : reader.list(*object, "", "printed_heads")) {
+            evidence.printed_heads.push_back(reader.extension(head, "/printed_heads/" + std::to_string(index++)));
+        }
+    }
+    if (const auto states = object->find("states"); states != object->end()) {
+        evidence.states = reader.states(*states);
     }
     return evidence;
 }

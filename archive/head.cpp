@@ -26,15 +26,22 @@ constexpr std::size_t k_signature_bytes = 64;
                         .action = "name a file that gumcert archive head has written"});
 }
 
-std::string bytes_at(const nlohmann::json& object, const char* key, std::size_t size, const std::string& name) {
+/// Bytes that an object has under a key as hexadecimal digits; none where they are not there, or more or fewer.
+std::optional<std::string> digits_at(const nlohmann::json& object, const char* key, std::size_t size) {
     const auto found = object.find(key);
-    if (found != object.end() && found->is_string()) {
-        std::optional<std::string> bytes = encoding::bytes_from_hexadecimal(found->get_ref<const std::string&>());
-        if (bytes && bytes->size() == size) {
-            return std::move(*bytes);
-        }
+    if (found == object.end() || !found->is_string()) {
+        return std::nullopt;
     }
-    refuse_head(name, key);
+    std::optional<std::string> bytes = encoding::bytes_from_hexadecimal(found->get_ref<const std::string&>());
+    return bytes && bytes->size() == size ? bytes : std::nullopt;
+}
+
+std::string bytes_at(const nlohmann::json& object, const char* key, std::size_t size, const std::string& name) {
+    std::optional<std::string> bytes = digits_at(object, key, size);
+    if (!bytes) {
+        refuse_head(name, key);
+    }
+    return std::move(*bytes);
 }
 
 Head::Extension extension_in(const nlohmann::json& value, const std::string& name) {
@@ -98,19 +105,35 @@ bool proves_its_extension(const Head& head) {
 
 bool proves_extension(const Head& later, const Head& earlier) {
     return later.extends && later.archive == earlier.archive && later.extends->size == earlier.size &&
-           later.extends->root == earlier.root && proves_its_extension(later);
+           later.extends->root == earlier.root && proves_its_extension(later) &&
+           // The proof is of roots; the last entry and its time are told beside it.
+           (later.size == earlier.size ? later.chain == earlier.chain && later.at == earlier.at
+                                       : later.at >= earlier.at);
 }
 
 std::string signed_bytes(const Head& head) {
     return gumcert::json::canonical_json(unsigned_json(head));
 }
 
+nlohmann::json to_json(const Head::Signature& signature) {
+    return {{"algorithm", "Ed25519"},
+            {"public_key", encoding::hexadecimal(signature.public_key)},
+            {"value", encoding::hexadecimal(signature.value)}};
+}
+
+std::optional<Head::Signature> signature_in(const nlohmann::json& value) {
+    if (!value.is_object() || value.value("algorithm", nlohmann::json()) != "Ed25519") {
+        return std::nullopt;
+    }
+    const std::optional<std::string> key = digits_at(value, "public_key", k_hash_bytes);
+    const std::optional<std::string> signature = digits_at(value, "value", k_signature_bytes);
+    return key && signature ? std::optional(Head::Signature{*key, *signature}) : std::nullopt;
+}
+
 std::string to_json(const Head& head) {
     nlohmann::json object = unsigned_json(head);
     if (head.signature) {
-        object["signature"] = {{"algorithm", "Ed25519"},
-                               {"public_key", encoding::hexadecimal(head.signature->public_key)},
-                               {"value", encoding::hexadecimal(head.signature->value)}};
+        object["signature"] = to_json(*head.signature);
     }
     if (head.extends) {
         nlohmann::json proof = nlohmann::json::array();
@@ -124,33 +147,49 @@ std::string to_json(const Head& head) {
     return gumcert::json::canonical_json(object);
 }
 
+bool is_utc_time(std::string_view text) {
+    constexpr std::string_view k_form = "dddd-dd-ddTdd:dd:ddZ";
+    bool is = text.size() == k_form.size();
+    for (std::size_t i = 0; is && i < text.size(); ++i) {
+        is = k_form[i] == 'd' ? text[i] >= '0' && text[i] <= '9' : text[i] == k_form[i];
+    }
+    return is;
+}
+
 Head head_from_json(std::string_view text, const std::string& name) {
     const std::optional<nlohmann::json> object = gumcert::json::parse_faultless(text, {});
-    if (!object || !object->is_object() || object->value("schema", nlohmann::json()) != k_head_schema) {
+    if (!object) {
+        refuse_head(name, "");
+    }
+    return head_in(*object, name);
+}
+
+Head head_in(const nlohmann::json& object, const std::string& name) {
+    if (!object.is_object() || object.value("schema", nlohmann::json()) != k_head_schema) {
         refuse_head(name, "");
     }
     Head head;
-    head.archive = bytes_at(*object, "archive", k_hash_bytes, name);
-    head.root = bytes_at(*object, "root", k_hash_bytes, name);
-    head.chain = bytes_at(*object, "chain", k_hash_bytes, name);
-    const nlohmann::json size = object->value("size", nlohmann::json());
-    const nlohmann::json at = object->value("at", nlohmann::json());
+    head.archive = bytes_at(object, "archive", k_hash_bytes, name);
+    head.root = bytes_at(object, "root", k_hash_bytes, name);
+    head.chain = bytes_at(object, "chain", k_hash_bytes, name);
+    const nlohmann::json size = object.value("size", nlohmann::json());
+    const nlohmann::json at = object.value("at", nlohmann::json());
     if (!size.is_number_integer() || size.get<std::int64_t>() < 1) {
         refuse_head(name, "size");
     }
-    if (!at.is_string()) {
+    // It is printed, and compared as a text: nothing but a time may stand there.
+    if (!at.is_string() || !is_utc_time(at.get_ref<const std::string&>())) {
         refuse_head(name, "at");
     }
     head.size = size.get<std::int64_t>();
     head.at = at.get<std::string>();
-    if (const auto signature = object->find("signature"); signature != object->end()) {
-        if (!signature->is_object() || signature->value("algorithm", nlohmann::json()) != "Ed25519") {
+    if (const auto signature = object.find("signature"); signature != object.end()) {
+        head.signature = signature_in(*signature);
+        if (!head.signature) {
             refuse_head(name, "signature");
         }
-        head.signature = Head::Signature{bytes_at(*signature, "public_key", k_hash_bytes, name),
-                                         bytes_at(*signature, "value", k_signature_bytes, name)};
     }
-    if (const auto extends = object->find("extends"); extends != object->end()) {
+    if (const auto extends = object.find("extends"); extends != object.end()) {
         head.extends = extension_in(*extends, name);
     }
     return head;

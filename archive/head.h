@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,6 +65,14 @@ private:
 /// \param name  of the file, for messages
 /// \throws gum::InputError  GC-ARCHIVE-0049 where it is no head
 [[nodiscard]] Head head_from_json(std::string_view text, const std::string& name);
+/// The same of JSON that was read before.
+[[nodiscard]] Head head_in(const nlohmann::json& value, const std::string& name);
+/// A signature as files have it, with algorithm, key and value.
+[[nodiscard]] nlohmann::json to_json(const Head::Signature& signature);
+/// \return none where it is of another form
+[[nodiscard]] std::optional<Head::Signature> signature_in(const nlohmann::json& value);
+/// "2026-11-24T18:52:52Z", as entries, heads and statements have times.
+[[nodiscard]] bool is_utc_time(std::string_view text);
 
 /// What a signature of a head is over: its canonical JSON without the signature.
 [[nodiscard]] std::string signed_bytes(const Head& head);

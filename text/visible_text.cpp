@@ -24,6 +24,10 @@ std::string visible(std::string_view text, std::size_t longest, bool joiners) {
     return shown;
 }
 
+std::string one_line(std::string_view text) {
+    return visible(text, text.size());
+}
+
 std::string in_quotes(std::string_view text) {
     return '"' + visible(text) + '"';
 }

@@ -11,6 +11,9 @@ namespace gumcert::text {
 /// (the zero width joiners too, with `joiners`), bytes that are no UTF-8 as `\x{FF}`, and an ellipsis behind `longest`
 /// characters.
 [[nodiscard]] std::string visible(std::string_view text, std::size_t longest = 80, bool joiners = false);
+/// visible() without an end: a text of others that is printed whole is one honest line all the same. Whatever comes out of
+/// a file, an archive or a command line goes through it, or through visible(), before a terminal shows it.
+[[nodiscard]] std::string one_line(std::string_view text);
 /// visible() between double quotes.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -2,24 +2,25 @@
 """Verifies an archive of gumcert, or the evidence of one certificate, without gumcert.
 
     verify_archive.py ARCHIVE [--head FILE]... [--public-key HEX]
-    verify_archive.py EVIDENCE.json [--head FILE]... [--public-key HEX]
+    verify_archive.py EVIDENCE.json [DOCUMENT]... [--head FILE]... [--public-key HEX]
 
 Needs Python 3.11 and nothing else. It shares no code with gumcert and is short enough to be read: it was written after
-docs/adr/0053-the-archive.md, which says what is hashed and which rules the log obeys. Computes every hash again, the chain,
-the Merkle root (RFC 6962), the life of every certificate, and compares with earlier heads.
+docs/adr/0053-the-archive.md, which says what is hashed and which rules the log obeys, and 0062, which says what evidence is. Computes every hash again, the chain,
+the Merkle root (RFC 6962), the life of every certificate, and compares with earlier heads. Documents are compared with those
+that the evidence names.
 
 Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the command line is wrong; 5: a file cannot be read.
 """
 
 import argparse
 import base64
-import binascii
 import hashlib
 import json
 import pathlib
 import re
 import sqlite3
 import sys
+import unicodedata
 import urllib.parse
 
 APPLICATION_ID = 0x67634172
@@ -28,7 +29,7 @@ SCHEMA_VERSION = 1
 SCHEMA_SHA256 = "c4e71ac6a75f6e6e4a3d3734d7c642f1d2639b180b8a2b7d31b6f7b4cc692688"
 TAG = b"gumcert/archive/entry/1"
 FIELDS = ("seq", "at", "actor", "kind", "certificate", "record", "request_key", "body", "prev", "hash")
-TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
+TIME = re.compile(rb"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 ROLES = {"author", "reviewer", "authoriser", "keeper"}
@@ -53,10 +54,7 @@ def sha256(data):
 
 
 def entry_hash(entry):
-    data = b""
-    for field in (TAG, entry["prev"], str(entry["seq"]).encode(), *(entry[name] for name in FIELDS[1:8])):
-        data += len(field).to_bytes(8, "big") + field
-    return sha256(data)
+    return sha256(framed(TAG, entry["prev"], str(entry["seq"]).encode(), *(entry[name] for name in FIELDS[1:8])))
 
 
 def leaf(entry):
@@ -129,14 +127,15 @@ def is_extended(earlier, earlier_root, size, root, proof):
     return last == 0 and old == earlier_root and new == root
 
 
-def unhex(digits):
-    if not re.fullmatch("([0-9a-f]{2})*", digits):
-        raise ValueError("hexadecimal digits are missing")
-    return bytes.fromhex(digits)
+# What JSON may be here, beyond RFC 8259: docs/adr/0062-the-statement-of-states.md.
+LONGEST_TEXT, LONGEST_BASE64, DEEPEST, MOST_VALUES = 1 << 20, 512 << 20, 64, 2_000_000
+LONGEST_CONTENT = 100_000_000  # characters of Base64
+INT64 = range(-2**63, 2**63)
 
 
-def strict_object(text):
-    """A JSON object without duplicate keys and without NaN; None for everything else."""
+def strict_object(text, longest=LONGEST_TEXT):
+    """A JSON object without duplicate keys, NaN, numbers that a double cannot hold, NUL, or halves of surrogate pairs; within
+    the limits. None for everything else."""
     def unique(pairs):
         if len({key for key, _ in pairs}) != len(pairs):
             raise ValueError("duplicate key")
@@ -145,11 +144,78 @@ def strict_object(text):
     def refuse(word):
         raise ValueError(word)
 
+    def integer(digits):
+        number = int(digits)
+        if number != int(float(number)):
+            raise ValueError("an integer that a double cannot hold")
+        return number if number in INT64 else float(number)
+
+    def real(digits):
+        number = float(digits)
+        if number in (float("inf"), float("-inf")) or (number == 0 and re.search("[1-9]", re.split("[eE]", digits)[0])):
+            raise ValueError("a number out of range")
+        return number
+
     try:
-        value = json.loads(text.decode("utf-8") if isinstance(text, bytes) else text, object_pairs_hook=unique, parse_constant=refuse)
-    except (ValueError, RecursionError):
+        value = json.loads(text.decode("utf-8") if isinstance(text, bytes) else text, object_pairs_hook=unique, parse_constant=refuse,
+                           parse_int=integer, parse_float=real)
+        require_limits(value, longest)
+    except (ValueError, OverflowError, RecursionError):
         return None
     return value if isinstance(value, dict) else None
+
+
+def require_limits(value, longest):
+    level, depth, count = [value], 0, 0
+    while level:
+        count += len(level)
+        containers = [one for one in level if isinstance(one, (dict, list))]
+        depth += 1 if containers else 0
+        texts = [one for one in level if isinstance(one, str)] + [key for one in containers if isinstance(one, dict) for key in one]
+        for one in texts:
+            if "\0" in one or len(one.encode("utf-8")) > longest:  # a half of a surrogate pair cannot be encoded
+                raise ValueError("a text with NUL, or too long")
+        if depth > DEEPEST or count > MOST_VALUES:
+            raise ValueError("nested too deep, or too many values")
+        level = [inner for one in containers for inner in (one.values() if isinstance(one, dict) else one)]
+
+
+def shown(words):
+    """A text of others as one honest line of a terminal."""
+    return "".join(f"\\u{{{ord(c):04X}}}" if unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\u200c\u200d" else c
+                   for c in words)
+
+
+def typed(value, key, kind):
+    """A member of an object, of the kind that it must have."""
+    found = value[key]
+    if type(found) is not kind:  # True is no number here
+        raise ValueError(f"{key} is missing or has another form")
+    return found
+
+
+def hashed(digits):
+    if type(digits) is not str or not DIGEST.fullmatch(digits):
+        raise ValueError("a hash of 32 bytes is missing")
+    return bytes.fromhex(digits)
+
+
+def extension(value):
+    """Size, root and proof of an earlier tree."""
+    return typed(value, "size", int), hashed(value["root"]), [hashed(one) for one in typed(value, "proof", list)]
+
+
+def signature_in(value):
+    """Key and signature, in hexadecimal digits."""
+    if typed(value, "algorithm", str) != "Ed25519" or not DIGEST.fullmatch(typed(value, "public_key", str)) or not re.fullmatch(
+            "[0-9a-f]{128}", typed(value, "value", str)):
+        raise ValueError("a signature is missing or has another form")
+    return value["public_key"], value["value"]
+
+
+def framed(*fields):
+    """Fields with their length in front, as they are hashed or signed."""
+    return b"".join(len(field).to_bytes(8, "big") + field for field in fields)
 
 
 def part(value, *keys):
@@ -169,7 +235,8 @@ def is_settings(value):
     pattern, persons = value["numbering"], value["persons"]
     if not isinstance(value["four_eyes"], bool) or not isinstance(pattern, str) or not isinstance(persons, dict):
         return False
-    if pattern and (len(re.findall("#+", pattern)) != 1 or pattern.count("YYYY") > 1):
+    if pattern and (len(re.findall("#+", pattern)) != 1 or pattern.count("YYYY") > 1 or
+                    any(unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp") for c in pattern)):
         return False
     return all(isinstance(roles, list) and all(isinstance(r, str) and r in ROLES for r in roles) for roles in persons.values())
 
@@ -240,7 +307,9 @@ class Rules:
             good = body.get("schema") == "gumcert/archive/1" and is_settings(body.get("settings"))
             return None if good else "schema or settings have another form"
         if kind == "settings":
-            return None if body.get("old") == self.settings and is_settings(body.get("new")) else "old or new settings are others"
+            # As texts: to Python True is 1.
+            same = json.dumps(body.get("old"), sort_keys=True) == json.dumps(self.settings, sort_keys=True)
+            return None if same and is_settings(body.get("new")) else "old or new settings are others"
         return None if kind == "backed-up" else "no kind of entry"
 
     def breach_of_life(self, entry, names, body):
@@ -319,7 +388,8 @@ class Rules:
         if kind in ("created", "settings"):
             self.created = True
             settings = body.get("settings" if kind == "created" else "new")
-            self.settings = settings if is_settings(settings) else self.settings
+            if is_settings(settings):
+                self.settings = dict(settings, persons={name: sorted(set(roles)) for name, roles in settings["persons"].items()})
         if not number or kind not in KINDS_OF_LIFE:
             return
         life = self.lives.setdefault(number, {"state": "", "since": "", "item": "", "record": "", "documents": [], "authors": set(), "amends": "",
@@ -415,47 +485,64 @@ def canonical(value):
     return (json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode()
 
 
+def fault_of_signature(signature, message, public_key, name, what):
+    """What is wrong with a signature: it is there where there is a key, fits, and is of that key."""
+    if signature is None:
+        return f"{name}: the {what} is not signed" if public_key else None
+    if not is_signed(message, bytes.fromhex(signature[0]), bytes.fromhex(signature[1])):
+        return f"{name}: the signature is not one of this {what}"
+    return f"{name}: the {what} is signed with another key than the trusted one" if public_key and signature[0] != public_key else None
+
+
 class Head:
     def __init__(self, value):
         if not isinstance(value, dict) or value.get("schema") != "gumcert/archive-head/1":
             raise ValueError("no head of an archive")
         try:
-            self.archive, self.root, self.chain = (unhex(value[key]) for key in ("archive", "root", "chain"))
-            self.size, self.at, self.signature = value["size"], value["at"].encode(), value.get("signature")
-        except (KeyError, TypeError, AttributeError) as missing:
+            self.archive, self.root, self.chain = (hashed(value[key]) for key in ("archive", "root", "chain"))
+            self.size, self.at = typed(value, "size", int), typed(value, "at", str).encode()
+            self.signature = signature_in(value["signature"]) if "signature" in value else None
+            self.extends = extension(value["extends"]) if "extends" in value else None
+        except (KeyError, TypeError) as missing:
             raise ValueError("no head of an archive") from missing
-        if type(self.size) is not int or self.size < 1:
+        if self.size < 1 or not TIME.fullmatch(self.at) or (self.extends and self.extends[0] < 1):
             raise ValueError("no head of an archive")
-        self.extends = None
-        if "extends" in value:
-            try:
-                earlier = value["extends"]
-                self.extends = earlier["size"], unhex(earlier["root"]), [unhex(one) for one in earlier["proof"]]
-            except (KeyError, TypeError, AttributeError) as missing:
-                raise ValueError("no head of an archive") from missing
-            if type(self.extends[0]) is not int:
-                raise ValueError("no head of an archive")
         self.signed = canonical({key: value[key] for key in ("archive", "at", "chain", "root", "schema", "size")})
 
     def faults(self, name, public_key):
-        if self.signature is not None:
-            key, value = text(self.signature, "public_key"), text(self.signature, "value")
-            if not is_signed(self.signed, unhex(key), unhex(value)):
-                yield f"{name}: the signature is not one of this head"
-            elif public_key and key != public_key:
-                yield f"{name}: the head is signed with another key than the trusted one"
-        elif public_key:
-            yield f"{name}: the head is not signed"
+        fault = fault_of_signature(self.signature, self.signed, public_key, name, "head")
+        if fault:
+            yield fault
+
+    def begins_with(self, size, root, proof):
+        return is_extended(size, root, self.size, self.root, proof)
+
+    def proves_extension_of(self, earlier):
+        """Its own proof shows that it extends an earlier head."""
+        in_time = (self.chain, self.at) == (earlier.chain, earlier.at) if self.size == earlier.size else self.at >= earlier.at
+        return bool(self.extends and self.archive == earlier.archive and self.extends[:2] == (earlier.size, earlier.root) and
+                    self.begins_with(*self.extends) and in_time)
 
 
-def verify_head(head, name, heads, public_key):
+def signer_in_words(signature, public_key, with_states):
+    if signature is None:
+        return "the head is not signed: whoever writes such a file can invent all of it"
+    return (("head and states are" if with_states else "the head is") + f" signed by {signature[0]}" +
+            ("; no trusted key was named" if not public_key else
+             ", the trusted key" if signature[0] == public_key else ", which is not the trusted key"))
+
+
+def verify_head(head, name, heads, public_key, tell):
     """Findings of a head without its archive: it extends the earlier ones."""
     yield from head.faults(name, public_key)
-    if head.extends and not is_extended(head.extends[0], head.extends[1], head.size, head.root, head.extends[2]):
+    if head.extends and not head.begins_with(*head.extends):
         yield f"{name}: its proof does not lead to its root"
     for earlier in heads:
-        if head.archive != earlier.archive or not head.extends or head.extends[:2] != (earlier.size, earlier.root):
+        if not head.proves_extension_of(earlier):
             yield f"{name}: does not prove that it extends the head of {earlier.size} entries"
+    tell(f"{head.size} entries, {head.at.decode()}; extends " +
+         (f"a head of {head.extends[0]} entries" if head.extends else "no earlier head"))
+    tell(signer_in_words(head.signature, public_key, False))
 
 
 def verify_store(path, heads):
@@ -558,48 +645,122 @@ def faults_of_list(database, lives):
         yield f"certificate {number} is listed, and no entry is about it"
 
 
-def verify_evidence(value, heads, public_key, tell):
-    """Findings of the evidence of one certificate; its state is told."""
-    head = Head(value.get("head"))
-    yield from head.faults("the head of the evidence", public_key if head.signature else "")
+class States:
+    """What the laboratory signed of the certificates in evidence: all their entries, and their states."""
+
+    def __init__(self, value, head, certificate):
+        self.at, self.signature = typed(value, "at", str), signature_in(value["signature"])
+        self.certificates = [(typed(one, "certificate", str), typed(one, "state", str), typed(one, "later", str),
+                              self.sequence_numbers(one)) for one in typed(value, "certificates", list)]
+        fields = [field for number, state, later, entries in self.certificates
+                  for field in (number, state, later, " ".join(map(str, entries)))]
+        self.signed = framed(b"gumcert/archive/states/1", head.archive, str(head.size).encode(), head.root, head.chain, head.at,
+                             certificate.encode(), self.at.encode(), *(field.encode() for field in fields))
+
+    @staticmethod
+    def sequence_numbers(value):
+        numbers = typed(value, "entries", list)
+        if any(type(one) is not int for one in numbers):
+            raise ValueError("entries of a statement have another form")
+        return numbers
+
+    def faults(self, head, lives, entries):
+        if not TIME.fullmatch(self.at.encode()) or self.at.encode() < head.at:
+            yield "statement of states: its time is before that of the head"
+        if head.signature is None or head.signature[0] != self.signature[0]:
+            yield "statement of states: is signed with another key than the head"
+        for number, state, later, stated in self.certificates:
+            life = lives.get(number, {"state": "", "later": ""})
+            if stated != entries.get(number):
+                yield f"certificate {number}: the entries at hand are not those that the laboratory states"
+            elif (state, later) != (life["state"], life["later"]):
+                yield f"certificate {number}: its entries lead to another state than the one that the laboratory states"
+        if [one[0] for one in self.certificates] != sorted(entries, key=str.encode):
+            yield "statement of states: is of other certificates than the entries at hand"
+
+
+def contents_of(value):
+    """Bytes by SHA-256, each text of Base64 being the one that its bytes give."""
+    for content in typed(value, "contents", list):
+        digest, digits = typed(content, "sha256", str), typed(content, "base64", str)
+        data = base64.b64decode(digits, validate=True)
+        if len(digits) > LONGEST_CONTENT or base64.b64encode(data).decode() != digits:
+            raise ValueError("Base64 has another form")
+        yield digest, data
+
+
+def parts_of(entry):
+    """Name and SHA-256 of the record, which has no name, and of the documents of a draft."""
+    documents = part(strict_object(entry["body"]) or {}, "new", "documents")
+    return [("", entry["record"].decode("utf-8", "replace")),
+            *((text(one, "name"), text(one, "sha256")) for one in (documents if isinstance(documents, list) else []))]
+
+
+def chain_of(number, lives):
+    """The certificate, then the one that amends or replaces it, and so on to the end."""
+    chain = []
+    while number and number not in (one for one, _ in chain):
+        life = lives.get(number)
+        chain.append((number, life["state"] if life else ""))
+        number = life["later"] if life else ""
+    return chain
+
+
+def faults_of_head(other, head, proved):
+    """A head from elsewhere is the same, or one of the two proves that it extends the other."""
+    name = f"head of {other.size} entries, {other.at.decode()}"
+    if (other.archive != head.archive or (other.size == head.size and (other.root, other.chain, other.at) != (head.root, head.chain, head.at)) or
+            (other.at > head.at if other.size < head.size else other.at < head.at)):
+        yield f"{name}: the evidence is of another archive, or of a log that was rewritten"
+    elif not (other.size == head.size or head.proves_extension_of(other) or other.proves_extension_of(head) or (other.size, other.root) in proved):
+        yield (f"{name}: the evidence does not prove that its log begins with that of this head" if other.size < head.size else
+               f"{name}: it does not prove that its log begins with that of the evidence")
+
+
+def verify_evidence(value, heads, public_key, verdict):
+    """Findings of the evidence of one certificate; what it says goes into the verdict."""
+    head, number = Head(value.get("head")), typed(value, "certificate", str)
+    yield from head.faults("the head of the evidence", public_key)
     rules, needed, drafts, last = Rules(judges_numbers=False), {}, {}, 0
-    printed = {(one["size"], unhex(one["root"])): [unhex(node) for node in one["proof"]] for one in value.get("printed_heads", [])}
-    number = value["certificate"]
-    for written in value["entries"]:
-        entry = {name: written[name] if name == "seq" else
-                 unhex(written[name]) if name in ("prev", "hash") else written[name].encode() for name in FIELDS}
+    own, parts = {}, []
+    printed = [extension(one) for one in (typed(value, "printed_heads", list) if "printed_heads" in value else [])]
+    proved = {(size, root) for size, root, proof in printed if head.begins_with(size, root, proof)}
+    states = States(value["states"], head, number) if "states" in value else None
+    contents = list(contents_of(value))
+    written = [({name: typed(one, name, int) if name == "seq" else
+                 hashed(one[name]) if name in ("prev", "hash") else typed(one, name, str).encode() for name in FIELDS},
+                [hashed(node) for node in typed(one, "proof", list)]) for one in typed(value, "entries", list)]
+    for entry, proof in written:
         name, seq = f"entry {entry['seq']}", entry["seq"]
+        if entry["certificate"]:
+            own.setdefault(entry["certificate"].decode(), []).append(seq)
         if not last < seq <= head.size:
             yield f"{name} stands at a wrong place"
             continue
         last = seq
         if entry_hash(entry) != entry["hash"]:
             yield f"{name}: its fields give another hash than the one it has"
-        if ((seq == 1) != (entry["hash"] == head.archive) or (seq == head.size and (entry["hash"], entry["at"]) != (head.chain, head.at)) or
-                root_of_proof(entry["hash"], seq - 1, head.size, [unhex(one) for one in written["proof"]]) != head.root):
+        if ((seq == 1) != (entry["hash"] == head.archive) or entry["at"] > head.at or
+                (seq == head.size and (entry["hash"], entry["at"]) != (head.chain, head.at)) or
+                root_of_proof(entry["hash"], seq - 1, head.size, proof) != head.root):
             yield f"{name}: its proof does not lead to the head"
         wrong = rules.accept(entry)
         if wrong:
             yield f"{name}: {wrong}"
-        if entry["certificate"] == number.encode():
-            if entry["kind"] == b"drafted":
-                drafts.setdefault(entry["record"], seq)
+        if entry["certificate"] == number.encode() and entry["kind"] == b"drafted":
+            drafts.setdefault(entry["record"], seq)
+            parts += [one for one in dict.fromkeys(parts_of(entry)) if one not in parts]
             for digest in contents_named_by(entry):
                 needed.setdefault(digest, (seq, drafts[entry["record"]]))
     kept = set()
-    for content in value["contents"]:
-        digest, data = content["sha256"], base64.b64decode(content["base64"], validate=True)
+    for digest, data in contents:
         if hashlib.sha256(data).hexdigest() != digest:
             yield f"content {digest}: its bytes have another hash"
         elif digest not in needed:
             yield f"content {digest}: no entry names it"
         else:
             archived, drafted = needed[digest]
-
-            def is_of_log(size, root):
-                return (size, root) in printed and is_extended(size, root, head.size, head.root, printed[size, root])
-
-            for fault in faults_of_printed_heads(data, is_of_log, drafted, archived):
+            for fault in faults_of_printed_heads(data, lambda size, root: (size, root) in proved, drafted, archived):
                 yield f"content {digest}: {fault}"
         kept.add(digest)
     for digest, (seq, _) in needed.items():
@@ -608,59 +769,107 @@ def verify_evidence(value, heads, public_key, tell):
     life = rules.lives.get(number)
     if life is None or not life["record"]:
         yield "no entry with a record is about this certificate"
+    if states:
+        yield from states.faults(head, rules.lives, own)
+        fault = fault_of_signature(states.signature, states.signed, public_key, "the statement of states", "statement of states")
+        if fault:
+            yield fault
+    if head.extends and not head.begins_with(*head.extends):
+        yield f"head of {head.size} entries: its proof does not lead to its root"
     for other in heads:
-        if other.archive != head.archive or (other.size == head.size and (other.root, other.chain) != (head.root, head.chain)):
-            yield f"head of {other.size} entries: the evidence is of another archive, or of a log that was rewritten"
-    if life is not None:
-        tell(f"certificate {number}: {life['state']}" + (f", see {life['later']}" if life["later"] else "") +
-             f", as the archive stood at {head.at.decode()} ({head.size} entries)")
+        yield from faults_of_head(other, head, proved)
+    holding = {life["record"], *life["documents"]} if life else set()
+    verdict.update(head=head, number=number, chain=chain_of(number, rules.lives) if life and life["record"] else [], states=states,
+                   parts=[(name, digest, digest in holding) for name, digest in parts])
 
 
-def findings(path, head_files=(), public_key="", tell=lambda text: None):
-    """Everything that is wrong with an archive or evidence."""
-    heads = []
+def evidence_in_words(verdict, is_sound, heads, public_key):
+    head, number, chain = verdict["head"], verdict["number"], verdict["chain"]
+    words = chain[0][1] if chain else "of unknown state"
+    for later, state in chain[1:]:
+        words += f", see {later}, which is {state or 'of unknown state'}"
+    when = f", as the archive stood at {head.at.decode()} ({head.size} entries)"
+    if is_sound and public_key and verdict["states"]:
+        yield f"certificate {number}, {words}{when}"
+    else:
+        relied = "" if is_sound else ", which cannot be relied on,"
+        yield f"certificate {number}: these entries{relied} show it {words}{when}; that no other entry followed is not proved"
+    yield signer_in_words(head.signature, public_key, verdict["states"] is not None)
+    if not verdict["states"]:
+        yield "no statement of states: gumcert archive export --sign makes one"
+    for name, digest, holds in verdict["parts"]:
+        yield (f"document {name}: {digest}" if name else f"record: {digest}") + ("" if holds else ", of an earlier draft")
+    newest = max(heads, key=lambda one: one.size, default=head)
+    if newest.size > head.size:
+        yield f"a newer head is given, of {newest.size} entries, {newest.at.decode()}: what came since is not in this evidence"
+
+
+def compared_document(file, verdict):
+    """Whether a file is a document of the evidence, and what there is to say of it."""
+    digest = hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
+    parts = [(f"document {name}" if name else "record", holds) for name, sha256, holds in verdict.get("parts", []) if sha256 == digest]
+    for name, holds in parts:
+        if holds:
+            return True, f"{file}: is the {name} of {verdict['number']}"
+    return False, f"{file}: " + (f"is of an earlier draft of {verdict['number']}" if parts else f"no evidence here names its SHA-256 {digest}")
+
+
+def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict=None):
+    """Everything that is wrong with an archive, a head or evidence, of which the verdict says what it is about."""
+    heads, found, verdict = [], [], {} if verdict is None else verdict
     for file in head_files:
         try:
             heads.append(Head(strict_object(pathlib.Path(file).read_bytes())))
-            yield from heads[-1].faults(file, public_key)
+            found += heads[-1].faults(file, public_key)
         except ValueError as wrong:
-            yield f"{file}: {wrong}"
+            found.append(f"{file}: {wrong}")
+    yield from found
     with open(path, "rb") as stream:
         is_store = stream.read(16) == b"SQLite format 3\0"
     if is_store:
         yield from verify_store(path, heads)
+        if public_key and not heads:
+            tell("--public-key says nothing here: an archive is not signed, heads are, and none is given.")
         return
-    value = strict_object(pathlib.Path(path).read_bytes())
-    if value is not None and value.get("schema") == "gumcert/archive-head/1":
-        try:
-            yield from verify_head(Head(value), path, heads, public_key)
-        except ValueError as wrong:
-            yield f"{path}: {wrong}"
-        return
-    if value is None or value.get("schema") != "gumcert/archive-evidence/1":
-        yield "neither an archive nor evidence"
-        return
+    written = pathlib.Path(path).read_bytes()
+    value = strict_object(written, LONGEST_BASE64)
+    schema = value.get("schema") if value is not None else None
     try:
-        yield from verify_evidence(value, heads, public_key, tell)
-    except (KeyError, TypeError, AttributeError, ValueError, binascii.Error) as missing:
-        yield f"no evidence: {missing}"
+        if schema == "gumcert/archive-head/1":
+            yield from verify_head(Head(strict_object(written)), path, heads, public_key, tell)
+        elif schema == "gumcert/archive-evidence/1":
+            own = list(verify_evidence(value, heads, public_key, verdict))
+            yield from own
+            for line in evidence_in_words(verdict, not found + own, heads, public_key):
+                tell(line)
+        else:
+            yield "neither an archive nor evidence"
+    except (KeyError, TypeError, AttributeError, ValueError) as missing:
+        yield f"no evidence and no head: {missing}"
 
 
 def main():
     parser = argparse.ArgumentParser(description="Verifies an archive of gumcert, or evidence taken out of one.")
     parser.add_argument("file")
+    parser.add_argument("document", nargs="*", help="a file that should be a document of the evidence")
     parser.add_argument("--head", action="append", default=[], help="an earlier head (JSON)")
     parser.add_argument("--public-key", default="", help="Ed25519 key that heads must be signed with, 64 hexadecimal digits")
     arguments = parser.parse_args()
+    key, told, verdict = arguments.public_key.lower(), [], {}
+    if key and not DIGEST.fullmatch(key):
+        parser.error("--public-key has 64 hexadecimal digits")
     try:
-        found = list(findings(arguments.file, arguments.head, arguments.public_key.lower(), print))
+        found = list(findings(arguments.file, arguments.head, key, told.append, verdict))
+        documents = [compared_document(file, verdict) for file in arguments.document]
     except OSError as trouble:
         print(f"{trouble.filename}: {trouble.strerror}", file=sys.stderr)
         return 5
-    for line in found:
-        print(line)
-    print(f"{arguments.file}: {'NOT SOUND' if found else 'sound'}")
-    return 1 if found else 0
+    for line in found + [line for is_own, line in documents if not is_own]:
+        print(shown(line))
+    print(f"{shown(arguments.file)}: {'NOT SOUND' if found else 'sound'}")
+    for line in told + [line for is_own, line in documents if is_own]:
+        print("  " + shown(line))
+    return 1 if found or not all(is_own for is_own, _ in documents) else 0
 
 
 if __name__ == "__main__":

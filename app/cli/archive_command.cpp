@@ -22,6 +22,7 @@
 
 #include "app/archive/affected_certificates.h"
 #include "app/archive/archive_draft.h"
+#include "app/archive/archive_files.h"
 #include "app/archive/archive_replay.h"
 #include "app/archive/archive_statistics.h"
 #include "app/archive/record_parts.h"
@@ -44,6 +45,7 @@
 #include "system/temporary.h"
 #include "system/whole_folders.h"
 #include "text/small_letters.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -90,8 +92,8 @@ ExitCode told(const archive::Written& written, const ArchiveOptions& options, co
                     {"hash", encoding::hexadecimal(entry.hash)},
                     {"repeated", written.repeated}});
     } else if (!common.quiet) {
-        fmt::print("{}{}{}: entry {}, {}{}\n", entry.certificate, entry.certificate.empty() ? "" : " ", entry.kind,
-                   entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
+        fmt::print("{}{}{}: entry {}, {}{}\n", text::one_line(entry.certificate), entry.certificate.empty() ? "" : " ",
+                   entry.kind, entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
     }
     return done;
 }
@@ -136,7 +138,7 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
                              random_nonce(), request_of(options));
     const auto store = archive::create_store(options.store, first);
     if (!common.quiet) {
-        fmt::print("Begun: {}\n", store->name());
+        fmt::print("Begun: {}\n", text::one_line(store->name()));
     }
     return told({first, false}, options, common);
 }
@@ -242,7 +244,8 @@ ExitCode list_certificates(const ArchiveOptions& options, const CommonOptions& /
     }
     std::string text;
     for (const archive::ListedCertificate& one : certificates) {
-        text += fmt::format("{:<24}  {:<10}  {}  {}\n", one.number, one.state, one.since, one.item);
+        text += fmt::format("{:<24}  {:<10}  {}  {}\n", text::one_line(one.number), text::one_line(one.state),
+                            text::one_line(one.since), text::one_line(one.item));
     }
     write_to_stdout(text.empty() ? "No certificates.\n" : text);
     return done;
@@ -269,7 +272,7 @@ std::string shown_changes(const json& body) {
         const auto part = [&](const char* key) {
             const auto found = change.find(key);
             const std::string value = found != change.end() && found->is_string() ? found->get<std::string>() : "";
-            return value.empty() ? std::string("nothing") : value;
+            return value.empty() ? std::string("nothing") : text::one_line(value);
         };
         text += fmt::format("        {} {}: {} -> {}\n", part("where"), part("kind"), part("before"), part("after"));
     }
@@ -298,25 +301,34 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
                     {"entries", list}});
         return done;
     }
-    std::string text = fmt::format("{}: {} since {}\n", number, life.state, life.since);
+    // Every text here is one that somebody wrote: none of them may bring a line of its own.
+    std::string text = fmt::format("{}: {} since {}\n", text::one_line(number), text::one_line(life.state),
+                                   text::one_line(life.since));
     if (!life.amends.empty()) {
-        text += fmt::format("  {} {}\n", life.amendment_kind == "replaced" ? "replaces" : "amends", life.amends);
+        text += fmt::format("  {} {}\n", life.amendment_kind == "replaced" ? "replaces" : "amends",
+                            text::one_line(life.amends));
     }
-    if (!life.later.empty()) {
-        text += fmt::format("  see {}\n", life.later);
+    std::set<std::string> seen{number};
+    for (std::string later = life.later; !later.empty() && seen.insert(later).second;) {
+        const archive::CertificateLife of_later = archive.life(later);
+        text += fmt::format("  see {}, which is {} since {}\n", text::one_line(later), text::one_line(of_later.state),
+                            text::one_line(of_later.since));
+        later = of_later.later;
     }
     for (const archive::LogEntry& entry : entries) {
         const json body = archive::body_of(entry).value_or(json::object());
-        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, entry.at, entry.kind, entry.actor);
+        text += fmt::format("  {:>6}  {}  {:<10}  {}", entry.seq, text::one_line(entry.at), text::one_line(entry.kind),
+                            text::one_line(entry.actor));
         const auto why = body.find("why");
         text += why != body.end() && why->is_string() && !why->get_ref<const std::string&>().empty()
-                    ? ": " + why->get<std::string>() + "\n"
+                    ? ": " + text::one_line(why->get_ref<const std::string&>()) + "\n"
                     : "\n";
         if (entry.kind == "drafted") {
-            text += fmt::format("        record {}\n", entry.record);
+            text += fmt::format("        record {}\n", text::one_line(entry.record));
             const json documents = body.value("new", json::object()).value("documents", json::array());
             for (const json& document : documents) {
-                text += fmt::format("        {} {}\n", document.value("name", ""), document.value("sha256", ""));
+                text += fmt::format("        {} {}\n", text::one_line(document.value("name", "")),
+                                    text::one_line(document.value("sha256", "")));
             }
             text += shown_changes(body);
         }
@@ -344,7 +356,7 @@ public:
         }
         write_outputs({{place_, text}}, inputs_, at_start_);
         if (!quiet_) {
-            fmt::print("Written: {}\n", place_);
+            fmt::print("Written: {}\n", text::one_line(place_));
         }
     }
 
@@ -362,11 +374,26 @@ std::string file_name_of_number(std::string number) {
     return number;
 }
 
+archive::Head::Signature signature_of(const std::string& bytes, const std::string& key) {
+    signing::Ed25519Signature signature = signing::sign_ed25519(bytes, key);
+    return {std::move(signature.public_key), std::move(signature.value)};
+}
+
 void sign(archive::Head& head, const std::string& key) {
     if (!key.empty()) {
-        signing::Ed25519Signature signature = signing::sign_ed25519(archive::signed_bytes(head), key);
-        head.signature = archive::Head::Signature{std::move(signature.public_key), std::move(signature.value)};
+        head.signature = signature_of(archive::signed_bytes(head), key);
     }
+}
+
+/// The earlier head of --since: a file of a head, or of evidence, which has one.
+std::optional<archive::Head> head_since_of(const ArchiveOptions& options) {
+    if (options.since.empty()) {
+        return std::nullopt;
+    }
+    const std::string text = app::read_file(options.since);
+    return app::archive_file_of(text) == app::ArchiveFile::evidence
+               ? archive::evidence_from_json(text, options.since).head
+               : archive::head_from_json(text, options.since);
 }
 
 ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
@@ -374,8 +401,13 @@ ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& 
         options.output.empty() ? file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
     const auto store = opened(options, archive::Access::read_only);
     const Output file(output, options, common);
-    archive::Evidence evidence = archive::evidence_of(*store, options.named.front());
+    archive::Evidence evidence = archive::evidence_of(*store, options.named.front(), head_since_of(options));
     sign(evidence.head, options.sign);
+    if (!options.sign.empty()) {
+        evidence.states = archive::states_in(evidence, std::max(time_now(), evidence.head.at));
+        evidence.states->signature =
+            signature_of(archive::signed_bytes(*evidence.states, evidence.head, evidence.certificate), options.sign);
+    }
     file.write(archive::to_json(evidence));
     return done;
 }
@@ -384,47 +416,12 @@ ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) 
     const auto store = opened(options, archive::Access::read_only);
     const Output file(options.output, options, common);
     archive::Archive archive(*store);
-    const std::string& since = options.since;
-    archive::Head head =
-        since.empty() ? archive.head() : archive.head_since(archive::head_from_json(app::read_file(since), since));
+    const std::optional<archive::Head> since = head_since_of(options);
+    archive::Head head = since ? archive.head_since(*since) : archive.head();
     sign(head, options.sign);
     file.write(archive::to_json(head));
     return done;
 }
-
-/// Reads heads and looks at their signatures.
-class Heads {
-public:
-    explicit Heads(const ArchiveOptions& options)
-        : trusted_(options.trust.empty() ? "" : signing::ed25519_public_key(options.trust)) {
-        for (const std::string& file : options.heads) {
-            heads_.push_back(archive::head_from_json(app::read_file(file), file));
-            look_at(heads_.back(), file);
-        }
-    }
-    void look_at(const archive::Head& head, const std::string& name) {
-        const bool is_signed = head.signature.has_value();
-        const bool fits = is_signed && signing::is_signed_ed25519(archive::signed_bytes(head),
-                                                                  {head.signature->public_key, head.signature->value});
-        const bool is_trusted = trusted_.empty() || (fits && head.signature->public_key == trusted_);
-        if ((is_signed && !fits) || !is_trusted) {
-            findings_.push_back({.code = "GC-ARCHIVE-0050",
-                                 .where = name,
-                                 .what = !is_signed ? "the head is not signed"
-                                         : !fits    ? "the signature is not one of this head"
-                                                    : "the head is signed with another key than the trusted one",
-                                 .rule = "a signed head is one that the laboratory made",
-                                 .action = "ask the laboratory for its head and its public key"});
-        }
-    }
-    [[nodiscard]] const std::vector<archive::Head>& all() const { return heads_; }
-    [[nodiscard]] const std::vector<gum::Diagnostic>& findings() const { return findings_; }
-
-private:
-    std::string trusted_;
-    std::vector<archive::Head> heads_;
-    std::vector<gum::Diagnostic> findings_;
-};
 
 json shown_findings(const std::vector<gum::Diagnostic>& findings) {
     json list = json::array();
@@ -440,94 +437,51 @@ void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOp
     }
 }
 
-ExitCode verify_bundle(const std::string& text, const std::string& file, const ArchiveOptions& options,
-                       const CommonOptions& common) {
-    const archive::Evidence evidence = archive::evidence_from_json(text, file);
-    Heads heads(options);
-    if (evidence.head.signature) {
-        heads.look_at(evidence.head, file + "#/head");
+/// Evidence and heads, each by itself; behind the first evidence also documents that should be of one of them.
+ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
+    const app::TrustedHeads heads(options.heads, options.trust);
+    std::vector<app::DocumentInHand> documents;
+    std::vector<std::string> evidence;
+    bool has_evidence = false;
+    ExitCode code = done;
+    for (const std::string& file : options.named) {
+        code = std::max(code, explained(common, [&] {
+                            const std::string text = app::read_file(file);
+                            const app::ArchiveFile kind = app::archive_file_of(text);
+                            if (kind == app::ArchiveFile::other && has_evidence) {
+                                documents.push_back({file, encoding::sha256(text)});
+                            } else {
+                                evidence.push_back(file);
+                                has_evidence = has_evidence || kind == app::ArchiveFile::evidence;
+                            }
+                            return done;
+                        }));
     }
-    archive::EvidenceVerdict verdict = archive::verify_evidence(evidence, heads.all());
-    verdict.findings.insert(verdict.findings.end(), heads.findings().begin(), heads.findings().end());
-    print_findings(verdict.findings, common);
-    const bool sound = verdict.findings.empty();
-    if (as_json(options)) {
-        print_json({{"schema", "gumcert/archive-verification/1"},
-                    {"sound", sound},
-                    {"certificate", evidence.certificate},
-                    {"state", verdict.state},
-                    {"amended_by", verdict.later},
-                    {"entries", evidence.entries.size()},
-                    {"contents", evidence.contents.size()},
-                    {"findings", shown_findings(verdict.findings)}});
-    } else if (!common.quiet) {
-        fmt::print("{}: {}\n", file, sound ? "sound" : "NOT SOUND");
-        fmt::print("  certificate {}, {}{}, as the archive stood at {} ({} entries)\n", evidence.certificate,
-                   verdict.state.empty() ? "of unknown state" : verdict.state,
-                   verdict.later.empty() ? "" : ", see " + verdict.later, evidence.head.at, evidence.head.size);
+    for (const std::string& file : evidence) {
+        code = std::max(code, explained(common, [&] {
+                            const std::string text = app::read_file(file);
+                            const app::VerifiedFile said = app::archive_file_of(text) == app::ArchiveFile::head
+                                                               ? app::verified_head(text, file, heads)
+                                                               : app::verified_evidence(text, file, heads, documents);
+                            print_findings(said.findings, common);
+                            if (as_json(options)) {
+                                print_json(said.json);
+                            } else if (!common.quiet) {
+                                write_to_stdout(said.text);
+                            }
+                            return said.sound() ? done : negative_answer;
+                        }));
     }
-    return sound ? done : negative_answer;
-}
-
-bool is_head(const std::string& text) {
-    const json value = json::parse(text, nullptr, false);
-    return value.is_object() && value.value("schema", json()) == "gumcert/archive-head/1";
-}
-
-/// A head without its archive: its signature, and whether it extends earlier ones.
-ExitCode verify_head(const std::string& text, const std::string& file, const ArchiveOptions& options,
-                     const CommonOptions& common) {
-    const archive::Head head = archive::head_from_json(text, file);
-    Heads heads(options);
-    heads.look_at(head, file);
-    std::vector<gum::Diagnostic> findings = heads.findings();
-    const auto add = [&](const archive::Head* earlier) {
-        findings.push_back(
-            {.code = "GC-ARCHIVE-0051",
-             .where = file,
-             .what = earlier == nullptr ? std::string("its proof does not lead to its root")
-                                        : "does not prove that it extends the head of " +
-                                              std::to_string(earlier->size) + " entries, " + earlier->at,
-             .rule = "a later head proves that the log begins with what an earlier one says",
-             .action = "ask for a head that is made with gumcert archive head --since and the earlier head"});
-    };
-    if (head.extends && !archive::proves_its_extension(head)) {
-        add(nullptr);
-    }
-    for (const archive::Head& earlier : heads.all()) {
-        if (!archive::proves_extension(head, earlier)) {
-            add(&earlier);
-        }
-    }
-    print_findings(findings, common);
-    if (as_json(options)) {
-        print_json({{"schema", "gumcert/archive-verification/1"},
-                    {"sound", findings.empty()},
-                    {"entries", head.size},
-                    {"extends", head.extends ? json(head.extends->size) : json()},
-                    {"heads", heads.all().size()},
-                    {"findings", shown_findings(findings)}});
-    } else if (!common.quiet) {
-        fmt::print("{}: {}\n  {} entries, {}{}\n", file, findings.empty() ? "sound" : "NOT SOUND", head.size, head.at,
-                   head.extends ? fmt::format("; extends a head of {} entries", head.extends->size)
-                                : "; extends no earlier head");
-    }
-    return findings.empty() ? done : negative_answer;
+    const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
+    print_findings(of_others, common);
+    return of_others.empty() ? code : std::max(code, negative_answer);
 }
 
 ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& common) {
     if (!options.named.empty()) {
-        ExitCode code = done;
-        for (const std::string& file : options.named) {
-            code = std::max(code, explained(common, [&] {
-                                const std::string text = app::read_file(file);
-                                return is_head(text) ? verify_head(text, file, options, common)
-                                                     : verify_bundle(text, file, options, common);
-                            }));
-        }
-        return code;
+        return verify_files(options, common);
     }
-    const Heads heads(options);
+    const app::TrustedHeads heads(options.heads, options.trust);
     const auto store = opened(options, archive::Access::read_only);
     ProgressLine progress(!common.quiet);
     archive::Verification verification =
@@ -535,6 +489,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     progress.clear();
     verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
     print_findings(verification.findings, common);
+    const bool trust_is_idle = heads.has_key() && heads.all().empty();
     if (as_json(options)) {
         json head;
         if (verification.head) {
@@ -546,19 +501,25 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
                     {"contents", verification.contents},
                     {"certificates", verification.certificates},
                     {"heads", heads.all().size()},
+                    {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
                     {"head", head},
                     {"findings", shown_findings(verification.findings)}});
     } else if (!common.quiet) {
-        fmt::print("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n", store->name(),
-                   verification.sound() ? "sound" : "NOT SOUND", verification.entries, verification.contents,
-                   verification.certificates, heads.all().size());
+        std::string said =
+            fmt::format("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n",
+                        text::one_line(store->name()), verification.sound() ? "sound" : "NOT SOUND",
+                        verification.entries, verification.contents, verification.certificates, heads.all().size());
         if (verification.head) {
-            fmt::print("  head {} of {}\n", encoding::hexadecimal(verification.head->root), verification.head->at);
+            said += fmt::format("  head {} of {}\n", encoding::hexadecimal(verification.head->root),
+                                text::one_line(verification.head->at));
         }
         if (heads.all().empty()) {
-            fmt::print(
-                "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n");
+            said += "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
         }
+        if (trust_is_idle) {
+            said += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
+        }
+        write_to_stdout(said);
     }
     return verification.sound() ? done : negative_answer;
 }
@@ -624,9 +585,9 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
                     {"contents", verification.contents},
                     {"head", json::parse(archive::to_json(*verification.head))}});
     } else if (!common.quiet) {
-        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n", to->name(),
-                   verification.entries, verification.contents, verification.certificates, from->name(),
-                   encoding::hexadecimal(verification.head->root), verification.head->at);
+        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
+                   text::one_line(to->name()), verification.entries, verification.contents, verification.certificates,
+                   text::one_line(from->name()), encoding::hexadecimal(verification.head->root), verification.head->at);
     }
     return done;
 }
@@ -723,7 +684,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     } else {
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto& [number, record] = records[i];
-            progress(fmt::format("{} of {}: {}", i + 1, records.size(), number));
+            progress(fmt::format("{} of {}: {}", i + 1, records.size(), text::one_line(number)));
             take(number, app::replay_record(archive.content(record).value_or(""), number, threads, templates));
         }
     }
@@ -735,11 +696,11 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                     {"certificates", list}});
     } else if (!common.quiet) {
         for (const json& one : list) {
-            fmt::print("{:<24}  {}  made by gumcert {}\n", one["number"].get<std::string>(),
+            fmt::print("{:<24}  {}  made by gumcert {}\n", text::one_line(one["number"].get<std::string>()),
                        one["same"].get<bool>()        ? "same     "
                        : one["evaluated"].get<bool>() ? "DIFFERENT"
                                                       : "NOT DONE ",
-                       one["made_by"].get<std::string>());
+                       text::one_line(one["made_by"].get<std::string>()));
         }
         fmt::print("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
     }
@@ -886,7 +847,7 @@ constexpr std::array<Action, 20> k_actions = {{
     {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
     {"list", 0, k_any, "words to search for, or nothing for all", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
-    {"export", 1, 1, "the number of a certificate", " store output sign ", export_certificate},
+    {"export", 1, 1, "the number of a certificate", " store output sign since ", export_certificate},
     {"head", 0, 0, "nothing more", " store output sign since ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
     {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},

@@ -327,9 +327,10 @@ void add_archive(CLI::App& program, Arguments& a) {
         "archive", "Certificates and their evidence: kept so that nothing is lost, and no change goes unseen");
     ArchiveOptions& o = a.archive;
     command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
-    command.add_option("NAME", o.named,
-                       "Numbers of certificates; of add and amend a record and its documents; of verify "
-                       "evidence; of list words that number, state, time or item contain");
+    command.add_option(
+        "NAME", o.named,
+        "Numbers of certificates; of add and amend a record and its documents; of verify evidence, "
+        "behind it documents that should be its own; of list words that number, state, time or item contain");
     add_file(command, "--store", o.store,
              "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
              "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");
@@ -365,10 +366,11 @@ void add_archive(CLI::App& program, Arguments& a) {
     command.add_option("--head", o.heads, "For verify: an earlier head, which the archive must still begin with")
         ->allow_extra_args(false)
         ->type_name("FILE");
-    add_file(command, "--sign", o.sign, "For head and export: private key of kind Ed25519 (PEM) that signs the head");
+    add_file(command, "--sign", o.sign,
+             "For head and export: private key of kind Ed25519 (PEM) that signs the head, and the states in evidence");
     add_file(command, "--trust", o.trust,
              "For add and amend: certificates that are trusted, as of gumcert verify. For verify: the public key\n"
-             "(PEM, Ed25519) that heads must be signed with");
+             "(PEM, Ed25519) that heads and evidence must be signed with");
     command
         .add_option("--amend", o.amend,
                     "For number: the certificate that is amended; taken is its next number, as EX-2026-0042/A1")
@@ -379,10 +381,9 @@ void add_archive(CLI::App& program, Arguments& a) {
             "For affected: the standard, by its identification in the register or the number of its certificate")
         ->type_name("ID");
     command
-        .add_option(
-            "--since", o.since,
-            "For affected: the first day of use that counts, as 2026-11-21. For head: an earlier head, which the "
-            "new one proves to extend")
+        .add_option("--since", o.since,
+                    "For affected: the first day of use that counts, as 2026-11-21. For head and export: an earlier "
+                    "head, or evidence, which the new one proves to extend")
         ->type_name("DATE");
     command.add_option("--until", o.until, "For affected: the last day of use that counts. Default: there is none")
         ->type_name("DATE");

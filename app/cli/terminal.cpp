@@ -11,6 +11,7 @@
 #include "app/cli/clock.h"
 #include "app/cli/interruption.h"
 #include "app/refusal_log.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -31,7 +32,7 @@ void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& commo
             // A name from the command line may hold a line feed; a message is one line.
             character = static_cast<unsigned char>(character) < 0x20 ? ' ' : character;
         }
-        print_to_stderr("{}{} [{}]\n", prefix, text, diagnostic.code);
+        print_to_stderr("{}{} [{}]\n", prefix, text::one_line(text), diagnostic.code);
     }
 }
 

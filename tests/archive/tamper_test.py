@@ -267,9 +267,22 @@ def rewritten_from_the_start(rng, db):
     rewrite(db, log)
 
 
+def another_grammar(text):
+    """A body with a member that JSON may not have here (docs/adr/0062-the-statement-of-states.md), in a chain made anew."""
+    def attack_body(rng, db):
+        log = entries(db)
+        index = rng.randrange(len(log))
+        log[index]["body"] = f'{log[index]["body"].rstrip()[:-1]}, "x": {text}}}'
+        rewrite(db, log)
+    attack_body.__name__ = f"another grammar, {text[:12]}"
+    return attack_body
+
+
+GRAMMARS = [another_grammar(text) for text in (
+    r'"\ud800"', r'"\u0000"', "1e999", "9" * 400, str(2**53 + 1), "NaN", "[" * 150 + "]" * 150, '"' + "a" * 3_000_000 + '"', '1, "x": 2')]
 ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, edit_list, take_from_list,
            add_to_list, delete_entry,
-           delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken]
+           delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken, *GRAMMARS]
 ATTACKS_ON_THE_END = [truncate, recompute, rewritten_from_the_start]  # without a head nobody can know
 
 

@@ -410,6 +410,54 @@ TEST_F(ArchiveOfALaboratory, SignsItsHead) {
     EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json"), "--public-key", key}).code, 1);
 }
 
+TEST_F(ArchiveOfALaboratory, ProvesTheStateAndTheDocumentsOfACertificate) {
+    issue_the_example();
+    write_bytes(folder() / "key.pem",
+                "-----BEGIN PRIVATE KEY-----\nMC4CAQAwBQYDK2VwBCIEINTuctv5E1hK1bbY8fdp+K06/nwoy/HU++CXqI9EdVhC\n"
+                "-----END PRIVATE KEY-----\n");  // RFC 8410, 10.3
+    write_bytes(folder() / "public.pem",
+                "-----BEGIN PUBLIC KEY-----\nMCowBQYDK2VwAyEAGb9ECWmEzf6FQbrBZ9w7lshQhqowtrbLDFw4rXAxZuE=\n"
+                "-----END PUBLIC KEY-----\n");
+    const std::string key = "19bf44096984cdfe8541bac167dc3b96c85086aa30b6b6cb0c5c38ad703166e1";
+    ASSERT_EQ(archive({"withdraw", "EX-2026-0042", "--why", "the standard was wrong"}, "M. Weber").code, 0);
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "--sign", path("key.pem"), "-o", path("evidence.json")}).code, 0);
+    const auto verified = [&](std::vector<std::string> words) {
+        std::vector<std::string> elsewhere = words;
+        elsewhere.insert(elsewhere.end(), {"--public-key", key});
+        words.insert(words.begin(), {"archive", "verify"});
+        words.insert(words.end(), {"--trust", path("public.pem")});
+        const Ended ended = gumcert(words);
+        EXPECT_EQ(verified_elsewhere(elsewhere).code, ended.code) << words[2];
+        return ended;
+    };
+    const Ended sound = verified({path("evidence.json"), path("first.html")});
+    EXPECT_EQ(sound.code, 0) << sound.err;
+    EXPECT_TRUE(tells(sound, "certificate EX-2026-0042, withdrawn, as the archive stood at"));
+    EXPECT_TRUE(tells(sound, "first.html: is the document first.html of EX-2026-0042"));
+    write_bytes(folder() / "other.pdf", "%PDF-1.7 another");
+    EXPECT_TRUE(tells(verified({path("evidence.json"), path("other.pdf")}), "[GC-ARCHIVE-0057]"));
+    EXPECT_TRUE(tells(gumcert({"archive", "verify", path("evidence.json")}), "that no other entry followed is not"));
+    change_json(folder() / "evidence.json", [](json& evidence) { evidence["entries"].erase(5); });
+    EXPECT_TRUE(tells(verified({path("evidence.json")}), "[GC-ARCHIVE-0056]")) << "the withdrawal was left out";
+    EXPECT_TRUE(tells(archive({"verify", "--trust", path("public.pem")}), "--trust says nothing here"));
+}
+
+/// Whatever a person, a reason or a key says: show has one line of each entry, and no control characters.
+TEST_F(ArchiveOfALaboratory, ShowsTextsOfOthersInOneLine) {
+    issue_the_example();
+    const std::string why = "wrong\n      99  2026-11-28T00:00:00Z  issued      M. Weber\x1B[31m\xE2\x80\xAE";
+    ASSERT_EQ(archive({"withdraw", "EX-2026-0042", "--why", why}, "M. Weber").code, 0);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"show", "EX-2026-0042"}, {"list"}, {"verify"}, {"statistics"}, {"head"}}) {
+        const Ended ended = archive(words);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_EQ(ended.out.find('\x1B'), std::string::npos) << words[0];
+        EXPECT_EQ(ended.out.find("\xE2\x80\xAE"), std::string::npos) << words[0];
+        EXPECT_EQ(ended.out.find("\n      99  "), std::string::npos) << words[0];
+    }
+    EXPECT_TRUE(tells(archive({"show", "EX-2026-0042"}), "wrong\\u{000A}"));
+}
+
 TEST_F(ArchiveOfALaboratory, BacksUpAndReplays) {
     issue_the_example();
     const Ended ended = archive({"backup", "-o", path("copy.archive")}, "K. Keeper");

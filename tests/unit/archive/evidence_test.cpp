@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -55,9 +56,20 @@ TEST_F(EvidenceOfCertificates, IsSoundForEveryCertificate) {
         const Evidence read = evidence_from_json(to_json(evidence_of(*store_, one.number)), "evidence.json");
         const EvidenceVerdict verdict = verify_evidence(read, {archive.head()});
         EXPECT_TRUE(verdict.findings.empty()) << one.number << ": " << gum::message(verdict.findings.front());
-        EXPECT_EQ(verdict.state, one.state);
-        EXPECT_EQ(verdict.later, archive.life(one.number).later);
-        states.insert(verdict.state);
+        ASSERT_FALSE(verdict.chain.empty());
+        EXPECT_EQ(verdict.chain.front().state, one.state);
+        std::string number = one.number;
+        for (const EvidenceVerdict::Certificate& of_chain : verdict.chain) {
+            EXPECT_EQ(of_chain.number, number);
+            EXPECT_EQ(of_chain.state, archive.life(number).state);
+            number = archive.life(number).later;
+        }
+        EXPECT_EQ(number, "") << "the end of the chain is not told";
+        for (const std::string& sha256 : archive.life(one.number).documents) {
+            EXPECT_TRUE(std::any_of(verdict.parts.begin(), verdict.parts.end(),
+                                    [&](const auto& part) { return part.sha256 == sha256 && part.holds; }));
+        }
+        states.insert(verdict.chain.front().state);
     }
     EXPECT_GE(states.size(), 4U) << "the archive of chance has few kinds of certificates";
 }
@@ -96,6 +108,77 @@ TEST_F(EvidenceOfCertificates, IsComparedWithHeads) {
     EXPECT_TRUE(verify_evidence(evidence, {evidence.head}).findings.empty());
 }
 
+/// Every entry but the first one, of every certificate, left out: with the statement each one shows, whatever state is left.
+TEST_F(EvidenceOfCertificates, ShowsEveryEntryThatWasLeftOutOfAStatement) {
+    std::size_t silent_without = 0;
+    for (const ListedCertificate& one : list_) {
+        Evidence evidence = evidence_of(*store_, one.number);
+        evidence.states = states_in(evidence, evidence.head.at);
+        evidence.states->signature = {std::string(32, 'k'), std::string(64, 's')};
+        evidence.head.signature = evidence.states->signature;
+        EXPECT_TRUE(verify_evidence(evidence_from_json(to_json(evidence), "evidence.json")).findings.empty());
+        for (std::size_t i = 1; i < evidence.entries.size(); ++i) {
+            if (evidence.entries[i].entry.certificate.empty()) {
+                continue;  // changes of settings are no entries of a certificate
+            }
+            Evidence less = evidence;
+            less.entries.erase(less.entries.begin() + static_cast<std::ptrdiff_t>(i));
+            const EvidenceVerdict verdict = verify_evidence(less);
+            EXPECT_TRUE(std::any_of(verdict.findings.begin(), verdict.findings.end(),
+                                    [](const gum::Diagnostic& found) {
+                                        return found.code == "GC-ARCHIVE-0056" || found.code == "GC-ARCHIVE-0048";
+                                    }))
+                << one.number << " without entry " << evidence.entries[i].entry.seq;
+            less.states.reset();
+            silent_without += verify_evidence(less).findings.empty() ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(silent_without, 0U) << "an entry at the end is seen by its statement alone";
+}
+
+TEST_F(EvidenceOfCertificates, HasAStatementOfTheSameStates) {
+    Evidence evidence = evidence_of(*store_, drafted());
+    const auto code = [&](const auto& change) {
+        Evidence other = evidence;
+        other.states = states_in(evidence, evidence.head.at);
+        other.head.signature = other.states->signature;
+        const std::string before = signed_bytes(*other.states, other.head, other.certificate);
+        change(*other.states);
+        EXPECT_NE(signed_bytes(*other.states, other.head, other.certificate), before);
+        const EvidenceVerdict verdict = verify_evidence(other);
+        return verdict.findings.empty() ? std::string() : verdict.findings.front().code;
+    };
+    EXPECT_EQ(code([](StateStatement& s) { s.at = "2026-01-01T00:00:00Z"; }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.at = "soon"; }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates[0].state = "withdrawn"; }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates[0].later = "another"; }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates[0].number = "another"; }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates[0].entries.pop_back(); }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates.clear(); }), "GC-ARCHIVE-0056");
+    EXPECT_EQ(code([](StateStatement& s) { s.certificates.push_back(s.certificates[0]); }), "GC-ARCHIVE-0056");
+}
+
+TEST_F(EvidenceOfCertificates, ProvesThatItExtendsOtherHeads) {
+    Archive archive(*store_);
+    const Head early = archive.head();
+    (void)archive.change_settings({},
+                                  {.actor = "K. Keeper", .at = "2099-01-01T00:00:00Z", .request_key = "", .why = "x"});
+    const Evidence plain = evidence_of(*store_, drafted());
+    EXPECT_EQ(verify_evidence(plain, {early}).findings.front().code, "GC-ARCHIVE-0051");
+    const Evidence since = evidence_from_json(to_json(evidence_of(*store_, drafted(), early)), "evidence.json");
+    EXPECT_TRUE(verify_evidence(since, {early}).findings.empty());
+    (void)archive.change_settings({},
+                                  {.actor = "K. Keeper", .at = "2099-01-02T00:00:00Z", .request_key = "", .why = "x"});
+    EXPECT_EQ(verify_evidence(plain, {archive.head()}).findings.front().code, "GC-ARCHIVE-0051");
+    EXPECT_TRUE(verify_evidence(plain, {archive.head_since(plain.head)}).findings.empty());
+    Head other = early;
+    other.root[0] ^= 1;
+    EXPECT_EQ(code_of([&] { (void)evidence_of(*store_, drafted(), other); }), "GC-ARCHIVE-0036");
+    other = plain.head;
+    other.at = "2099-01-01T00:00:01Z";
+    EXPECT_EQ(verify_evidence(plain, {other}).findings.front().code, "GC-ARCHIVE-0045") << "a time that nobody signed";
+}
+
 TEST_F(EvidenceOfCertificates, IsRefusedWhereItHasAnotherForm) {
     const json good = json::parse(to_json(evidence_of(*store_, drafted())));
     const auto code = [](const json& value) {
@@ -120,9 +203,17 @@ TEST_F(EvidenceOfCertificates, IsRefusedWhereItHasAnotherForm) {
     json wrong = good;
     wrong["entries"][0]["proof"] = {"xyz"};
     EXPECT_EQ(code(wrong), "GC-ARCHIVE-0047");
-    wrong = good;
-    wrong["contents"][0]["base64"] = "*";
-    EXPECT_EQ(code(wrong), "GC-ARCHIVE-0047");
+    const std::string digits = good["contents"][0]["base64"].get<std::string>();
+    for (const std::string& other : {std::string("*"), digits + "\n", " " + digits, digits + "=", digits + "===="}) {
+        wrong = good;
+        wrong["contents"][0]["base64"] = other;
+        EXPECT_EQ(code(wrong), "GC-ARCHIVE-0047") << other;
+    }
+    for (const json& other : {json(), json(""), json::object()}) {
+        wrong = good;
+        wrong["printed_heads"] = other;
+        EXPECT_EQ(code(wrong), "GC-ARCHIVE-0047") << other;
+    }
 }
 
 }  // namespace

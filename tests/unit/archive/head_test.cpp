@@ -80,7 +80,7 @@ TEST(ArchiveHead, ProvesThatItExtendsEveryEarlierOne) {
     for (int i = 0; i < 20; ++i) {
         LogEntry entry;
         entry.hash = encoding::sha256_bytes(std::to_string(i));
-        entry.at = "2026";
+        entry.at = "2026-01-01T00:00:00Z";
         log.add(entry);
         heads.push_back(log.head());
     }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace gumcert::text {
 namespace {
 
@@ -11,6 +13,8 @@ TEST(VisibleText, ShowsWhatIsHidden) {
     EXPECT_EQ(visible("a\nb\x01"), "a\\u{000A}b\\u{0001}");
     EXPECT_EQ(visible("a\xFF"), "a\\x{FF}");
     EXPECT_EQ(visible("\U000E0041"), "\\u{E0041}");
+    EXPECT_EQ(one_line(std::string(500, 'a') + "\n\x1B[2J"), std::string(500, 'a') + "\\u{000A}\\u{001B}[2J");
+    EXPECT_EQ(one_line(""), "");
 }
 
 TEST(VisibleText, JoinersAreShownWhereTheyWouldHide) {

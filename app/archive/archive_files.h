@@ -1,0 +1,65 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "archive/head.h"
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::app {
+
+/// What a file may be that somebody has of an archive.
+enum class ArchiveFile { head, evidence, other };
+[[nodiscard]] ArchiveFile archive_file_of(std::string_view text);
+
+/// Heads from elsewhere, and the key that they must be signed with.
+class TrustedHeads {
+public:
+    /// \param files  of heads
+    /// \param trust  PEM file of the public key of the laboratory; "" without
+    TrustedHeads(const std::vector<std::string>& files, const std::string& trust);
+
+    [[nodiscard]] bool has_key() const { return !key_.empty(); }
+    [[nodiscard]] const std::string& key() const { return key_; }
+    [[nodiscard]] const std::vector<archive::Head>& all() const { return heads_; }
+    /// GC-ARCHIVE-0050, of their signatures.
+    [[nodiscard]] const std::vector<gum::Diagnostic>& findings() const { return findings_; }
+
+private:
+    std::string key_;
+    std::vector<archive::Head> heads_;
+    std::vector<gum::Diagnostic> findings_;
+};
+
+/// A document that somebody has in hand beside evidence.
+struct DocumentInHand {
+    std::string file;
+    std::string sha256;
+    bool is_told = false;         ///< an evidence names it
+    std::string earlier_of = {};  ///< number of the certificate of which it was a draft; "" without
+};
+/// GC-ARCHIVE-0057 for each one that no evidence names.
+[[nodiscard]] std::vector<gum::Diagnostic> findings_of(const std::vector<DocumentInHand>& documents);
+
+/// What there is to say of a file.
+struct VerifiedFile {
+    std::vector<gum::Diagnostic> findings;
+    std::string text;     ///< for a reader, lines
+    nlohmann::json json;  ///< the same for programs, schema "gumcert/archive-verification/1"
+
+    [[nodiscard]] bool sound() const { return findings.empty(); }
+};
+
+/// Evidence: its own proofs, signatures, heads from elsewhere, and which of the documents in hand are its own. The state of
+/// the certificate is proved where the trusted key has signed head and statement of states, else it is told as what the
+/// entries show.
+/// \throws gum::InputError  GC-ARCHIVE-0047, -0049
+[[nodiscard]] VerifiedFile verified_evidence(const std::string& text, const std::string& file,
+                                             const TrustedHeads& heads, std::vector<DocumentInHand>& documents);
+/// A head without its archive: its signature, and whether it extends earlier ones (GC-ARCHIVE-0051).
+/// \throws gum::InputError  GC-ARCHIVE-0049
+[[nodiscard]] VerifiedFile verified_head(const std::string& text, const std::string& file, const TrustedHeads& heads);
+
+}  // namespace gumcert::app
