@@ -491,6 +491,7 @@ void describe(Archive& a, Struct& r) {
     a("printed_unit", r.printed_unit);
     a("values", r.values);
     a("printed", r.printed);
+    a.stated("decimals", r.decimals, {"", "of_uncertainty"});
 }
 
 template <class Archive, Described<ShownColumn> Struct>
