@@ -12,6 +12,7 @@
 #include "gum/quantity/unit.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/laboratory/laboratory_codes.h"
+#include "laboratory/outlook.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -427,6 +428,19 @@ void LaboratoryUse::note_use(const std::string& standard) {
     }
 }
 
+void LaboratoryUse::note_day(const StandardRecord& record, const std::string& day) {
+    // The points of a table use a standard on one day, as a rule: its plan is asked once.
+    if (day.empty() || !days_of_use_.emplace(record.id, day).second) {
+        return;
+    }
+    const laboratory::CalibrationOutlook outlook = laboratory::calibration_outlook(record, day);
+    const bool is_told = std::any_of(facts_.overdue.begin(), facts_.overdue.end(),
+                                     [&](const auto& one) { return one.standard == record.id; });
+    if (outlook.last != nullptr && certificate::is_after(day, outlook.next) && !is_told) {
+        facts_.overdue.push_back({record.id, day, outlook.next});
+    }
+}
+
 void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
                                    const std::string& unit_of_input, ProblemList& problems) {
     json& statement = job.value.at(json::json_pointer(pointer));
@@ -446,6 +460,7 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
         return;
     }
     const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
+    note_day(*record, use->date);
     facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because});
     note_use(record->id);
     if (!is_point) {
@@ -509,6 +524,16 @@ std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, cons
     }
     if (!statement.contains("date")) {
         use.date = day_of_work();
+    } else if (is_read && !day_of_work().empty() &&
+               (certificate::is_after(use.date, day_of_work()) ||
+                certificate::is_after(first_day_of_work_, use.date))) {
+        const bool is_one_day = first_day_of_work_.empty() || first_day_of_work_ == day_of_work();
+        CertificatePlace{&job, child_pointer(pointer, "date"), &problems}.refuse(
+            k_laboratory_other_day, use.date,
+            "a standard is used on a day of the work, and the certificate states " +
+                (is_one_day ? day_of_work() : first_day_of_work_ + " to " + day_of_work()),
+            "correct \"date\", or leave it out, or correct the dates of the certificate");
+        is_read = false;
     }
     return is_read ? std::optional(std::move(use)) : std::nullopt;
 }
@@ -644,9 +669,13 @@ const std::string& LaboratoryUse::day_of_work() {
     }
     if (data.is_object() && data.contains("dates") && data["dates"].is_object()) {
         const std::string to = text_in(data["dates"], "performed_to");
-        const std::string day = to.empty() ? text_in(data["dates"], "performed_from") : to;
+        const std::string from = text_in(data["dates"], "performed_from");
+        const std::string day = to.empty() ? from : to;
         if (certificate::calendar_date(day)) {
             day_of_work_ = day;
+        }
+        if (certificate::calendar_date(from)) {
+            first_day_of_work_ = from;
         }
     }
     return *day_of_work_;
@@ -930,6 +959,7 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
             }
             continue;
         }
+        note_day(*record, day);
         const json row = row_of(*record, day);
         compare_standard(entry, row, *record, pointer);
         for (const auto& [key, value] : row.items()) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,6 +67,8 @@ private:
                   std::size_t row, const std::string& input, ProblemList& problems);
     [[nodiscard]] const laboratory::StandardRecord* standard_of(const Json& id, const CertificatePlace& place);
     void note_use(const std::string& standard);
+    /// Notes for the gates where the plan of a standard wants it calibrated before a day of its use.
+    void note_day(const laboratory::StandardRecord& record, const std::string& day);
     /// "" where it is left out; nothing where it was refused.
     [[nodiscard]] static std::optional<std::string> read_take(const JsonDocument& job, const Json& statement,
                                                               const std::string& pointer, ProblemList& problems);
@@ -96,6 +99,8 @@ private:
     ProblemList& problems_;
     std::optional<LaboratoryFolder> folder_;
     std::optional<std::string> day_of_work_;
+    std::string first_day_of_work_;                              ///< "": not stated; read with day_of_work_
+    std::set<std::pair<std::string, std::string>> days_of_use_;  ///< of the standards
     certificate::LaboratoryRegister facts_;
     std::vector<std::string> used_;                                        ///< standards, in the order of the inputs
     std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
