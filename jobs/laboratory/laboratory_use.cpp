@@ -187,8 +187,8 @@ void place_below(JsonDocument& document, const std::string& pointer, const json&
 }
 
 /// U of a row in SI units, for two rows in different units.
-std::optional<double> U_in_si(const json& row) {
-    const auto U = row.find("U");
+std::optional<double> U_in_si(const json& row, const char* key) {
+    const auto U = row.find(key);
     const std::string unit = text_in(row, "unit");
     if (U == row.end() || !U->is_number() || unit.empty()) {
         return std::nullopt;
@@ -201,6 +201,39 @@ std::optional<double> U_in_si(const json& row) {
 }
 
 constexpr double k_same_U = 1e-9;
+
+double factor_of(const laboratory::CalibrationResult& line) {
+    return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+}
+
+/// From the smallest U of the lines that were used to the largest, in the unit of the first: that of one line alone would
+/// be taken for all of them. Lines of another kind of quantity are not among these.
+void put_uncertainty(json& row, const std::vector<const laboratory::CalibrationResult*>& lines) {
+    const laboratory::CalibrationResult& first = *lines.front();
+    const std::string unit = gum::unit_of_difference(first.unit);
+    std::vector<std::pair<double, double>> all;  // U in the unit, and its k
+    for (const laboratory::CalibrationResult* line : lines) {
+        const UnitChange change(gum::unit_of_difference(line->unit), unit);
+        if (change.is_possible()) {
+            all.emplace_back(change.difference(line->U), factor_of(*line));
+        }
+    }
+    const auto less = [](const auto& a, const auto& b) { return a.first / a.second < b.first / b.second; };
+    const double k = std::max_element(all.begin(), all.end(), less)->second;
+    for (auto& [U, own] : all) {
+        if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
+            const std::string text = text::significant(U / own * k, 2);
+            std::from_chars(text.data(), text.data() + text.size(), U);
+        }
+    }
+    const auto [least, largest] = std::minmax_element(all.begin(), all.end());
+    row["U"] = least->first;
+    row["k"] = k;
+    row["unit"] = unit;
+    if (largest->first > least->first * (1.0 + k_same_U)) {
+        row["U_to"] = largest->first;
+    }
+}
 
 }  // namespace
 
@@ -558,8 +591,11 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
         }
         return std::nullopt;
     }
-    if (!line_of_.contains(record.id)) {
-        line_of_[record.id] = value.result;
+    std::vector<const laboratory::CalibrationResult*>& lines = lines_of_[record.id];
+    for (const laboratory::CalibrationResult* line : {value.result, value.other}) {
+        if (line != nullptr && std::find(lines.begin(), lines.end(), line) == lines.end()) {
+            lines.push_back(line);
+        }
     }
     std::string of_value = value.unit;
     double estimate = value.value;
@@ -883,11 +919,8 @@ json LaboratoryUse::row_of(const StandardRecord& record, const std::string& day)
     set_if_stated(row, "evidence", last.evidence);
     set_if_stated(row, "valid_to", last.valid_to);
     set_if_stated(row, "sha256", last.sha256);
-    const auto used = line_of_.find(record.id);
-    const laboratory::CalibrationResult& line = used != line_of_.end() ? *used->second : last.results.front();
-    row["U"] = line.U;
-    row["k"] = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
-    row["unit"] = gum::unit_of_difference(line.unit);
+    const auto used = lines_of_.find(record.id);
+    put_uncertainty(row, used != lines_of_.end() ? used->second : std::vector{&last.results.front()});
     return row;
 }
 
@@ -899,25 +932,26 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
                                          .stated = a,
                                          .registered = b});
     };
-    const std::optional<double> U = U_in_si(stated);
     for (const auto& [key, value] : stated.items()) {
         if (key == "name" || key == "identification" || value.is_discarded()) {
             continue;  // a name may be worded for the reader of a certificate
         }
         const auto registered = row.find(key);
-        if (key == "U" || key == "k" || key == "unit") {
+        if (key == "U" || key == "U_to" || key == "k" || key == "unit") {
             // Of any of its lines, in any unit.
             const laboratory::Calibration* calibration = laboratory::calibration_on(record, text_in(row, "calibrated"));
+            const std::optional<double> U = U_in_si(stated, key == "U_to" ? "U_to" : "U");
             bool fits = false;
             for (const laboratory::CalibrationResult& line : calibration->results) {
                 const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
-                const double k = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+                const double k = factor_of(line);
                 fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
                                            : U && std::abs(*U - of_line) <= k_same_U * of_line);
             }
-            if (!fits && (key == "k" || (key == "U" && U))) {
-                contradict(key, described(value) + (key == "U" ? " " + text_in(stated, "unit") : std::string()),
-                           described(*registered) + (key == "U" ? " " + text_in(row, "unit") : std::string()));
+            if (!fits && (key == "k" || (key != "unit" && U))) {
+                const auto of_row = registered == row.end() ? row.find("U") : registered;
+                contradict(key, described(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
+                           described(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
             }
         } else if (registered == row.end() ? value.is_string() : *registered != value) {
             contradict(key, described(value), registered == row.end() ? "nothing" : described(*registered));
@@ -962,8 +996,9 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         note_day(*record, day);
         const json row = row_of(*record, day);
         compare_standard(entry, row, *record, pointer);
+        const bool states_U = entry.contains("U");  // and whether it is that of several lines
         for (const auto& [key, value] : row.items()) {
-            if (!entry.contains(key)) {
+            if (!entry.contains(key) && !(key == "U_to" && states_U)) {
                 entry[key] = value;
             }
         }

@@ -102,10 +102,11 @@ private:
     std::string first_day_of_work_;                              ///< "": not stated; read with day_of_work_
     std::set<std::pair<std::string, std::string>> days_of_use_;  ///< of the standards
     certificate::LaboratoryRegister facts_;
-    std::vector<std::string> used_;                                        ///< standards, in the order of the inputs
-    std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
-    std::map<std::string, const laboratory::CalibrationResult*> line_of_;  ///< the first line that an input takes
-    std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;     ///< by row and input
+    std::vector<std::string> used_;                              ///< standards, in the order of the inputs
+    std::map<std::string, std::vector<std::string>> inputs_of_;  ///< of a standard
+    std::map<std::string, std::vector<const laboratory::CalibrationResult*>>
+        lines_of_;                                                      ///< that inputs take, each once
+    std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;  ///< by row and input
     std::map<std::string, Json> once_;  ///< by input: standard, how it is used, and components, as the job states them
 };
 

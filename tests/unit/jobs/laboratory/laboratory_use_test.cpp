@@ -495,5 +495,62 @@ TEST(LaboratoryUseTest, AListedStandardMayBeOverdueToo) {
     EXPECT_EQ(facts.overdue[0].due, "2026-04-01");  // 1.5 of 60 days after the calibration
 }
 
+/// The row of the traceability table of a standard with lines at 10, 20, 30 …, of which points use some.
+certificate::StandardUsed row_of_lines(const json& lines, const std::vector<double>& at, const json& stated = {}) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(test::k_sample_standard);
+    standard["drift"] = {{"model", "none"}, {"reason", "r"}};
+    standard["interpolation"] = "linear";
+    standard["calibrations"].erase(0);
+    standard["calibrations"][0]["results"] = lines;
+    files["lab/standards/STD-1.json"] = standard.dump();
+    json work = k_work;
+    if (!stated.is_null()) {
+        work["standards"] = {stated};
+    }
+    json job = job_of({{"V", {{"standard", "STD-1"}, {"unit", "mV"}}}}, work);
+    job["points"] = json::array();
+    for (const double value : at) {
+        job["points"].push_back({{"V", {{"at", value}}}});
+    }
+    files["job.json"] = job.dump();
+    return read_budget_job(MemoryFileSource(files), "job.json").certificate->standards.at(0);
+}
+
+json line_at(double nominal, double U, double k = 2.0) {
+    return {{"nominal", nominal}, {"value", nominal}, {"unit", "V"}, {"U", U}, {"k", k}};
+}
+
+// One U would be read as that of everything that was measured with the standard (ISO/IEC 17025:2017, 7.8.4.1 c).
+TEST(LaboratoryUseTest, TheRowOfAStandardSpansTheLinesThatWereUsed) {
+    const json lines{line_at(10, 0.002), line_at(20, 0.003), line_at(30, 0.005), line_at(40, 0.01),
+                     line_at(50, 0.0001)};
+    for (std::size_t first = 0; first < 4; ++first) {
+        for (std::size_t last = first; last < 4; ++last) {
+            std::vector<double> at;
+            for (std::size_t i = last + 1; i > first; --i) {  // not in the order of the lines
+                at.push_back(10.0 * static_cast<double>(i));
+            }
+            const certificate::StandardUsed row = row_of_lines(lines, at);
+            EXPECT_EQ(row.U, lines[first]["U"].get<double>());
+            EXPECT_EQ(row.U_to, first == last ? std::nullopt : std::optional(lines[last]["U"].get<double>()));
+            EXPECT_EQ(row.k, 2.0);
+            EXPECT_EQ(row.unit, "V");
+        }
+    }
+    const certificate::StandardUsed between = row_of_lines(lines, {23.0});
+    EXPECT_EQ(between.U, 0.003);
+    EXPECT_EQ(between.U_to, 0.005) << "both neighbours";
+    EXPECT_EQ(row_of_lines({line_at(10, 0.002), line_at(20, 0.002)}, {10.0, 20.0}).U_to, std::nullopt);
+    const certificate::StandardUsed other_k = row_of_lines({line_at(10, 0.002), line_at(20, 0.009, 3.0)}, {10.0, 20.0});
+    EXPECT_EQ(other_k.k, 3.0);
+    EXPECT_EQ(other_k.U, 0.003);
+    EXPECT_EQ(other_k.U_to, 0.009);
+    const certificate::StandardUsed own =
+        row_of_lines(lines, {10.0, 40.0}, {{"identification", "STD-1"}, {"U", 2}, {"k", 2}, {"unit", "mV"}});
+    EXPECT_EQ(own.U, 2.0);
+    EXPECT_EQ(own.U_to, std::nullopt) << "what the author states is not mixed with the register";
+}
+
 }  // namespace
 }  // namespace gumcert::jobs
