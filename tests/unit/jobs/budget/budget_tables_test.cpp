@@ -284,5 +284,35 @@ TEST(BudgetTables, RoundMeansThatTheJobStatesToo) {
     }
 }
 
+// What a table shows, or a limit depends on, is used, though no result depends on it.
+TEST(BudgetTables, AndLimitsUseInputs) {
+    const auto warnings = [](const std::string& more) {
+        std::vector<std::string> codes;
+        for (const gum::Diagnostic& one : read_budget(R"j("model": ["E = x"], "inputs": {"x": {"unit": "mm", "u": 0.1},
+                          "n": {"unit": "mm", "constant": true)j" +
+                                                      more + R"j(, "points": [{"x": 1, "n": 10}, {"x": 2, "n": 20}])j")
+                                              .warnings) {
+            codes.push_back(one.code);
+        }
+        return codes;
+    };
+    const std::string outputs = R"j("outputs": {"E": {"unit": "mm"}})j";
+    EXPECT_THAT(warnings("}}, " + outputs), ElementsAre(k_warn_unused_input.code));
+    EXPECT_THAT(warnings(R"j(, "role": "nominal"}}, )j" + outputs), ElementsAre()) << "a column by its role";
+    EXPECT_THAT(warnings("}}, " + outputs + R"j(, "tables": [{"columns": ["n", "E", "U"]}])j"), ElementsAre());
+    const std::string table =
+        outputs + R"j(, "tables": [{"columns": ["E", "U"]}], "certificate": {"status": "specimen")j";
+    EXPECT_THAT(warnings("}}, " + table + "}"), ElementsAre(k_warn_unused_input.code));
+    EXPECT_THAT(warnings("}}, " + table +
+                         R"j(, "specifications": [{"id": "s", "results": ["E"], "unit": "mm", "rule": {"id": "DR-06"},
+                "limits": {"by": "expression", "arguments": [{"name": "L", "unit": "mm", "of": "n"}],
+                           "expression": "0.02 + 0.0001*L"}}]})j"),
+                ElementsAre());
+    EXPECT_THAT(warnings("}}, " + table + R"j(, "accreditation": {"body": "B", "number": "1", "scope": [{"id": "a",
+                "results": ["E"], "capability": {"form": "function", "unit": "mm", "expression": "0.1 + 0*L",
+                "arguments": [{"name": "L", "unit": "mm", "of": "n"}]}}]}})j"),
+                ElementsAre());
+}
+
 }  // namespace
 }  // namespace gumcert::jobs
