@@ -269,6 +269,8 @@ bool BudgetInputs::add_readings_and_resolution(const Stated& stated, const State
         return false;
     }
     out.input.components.back().name = k_resolution;
+    own_components_.emplace(k_readings);
+    own_components_.emplace(k_resolution);
     return true;
 }
 
@@ -339,6 +341,7 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
             out.input.components.back().name = k_readings;
         }
         names.emplace(k_readings);
+        own_components_.emplace(k_readings);
     }
     for (std::size_t i = 0; i < list->size(); ++i) {
         const std::string pointer = child_pointer(keys.pointer("components"), i);

@@ -40,6 +40,8 @@ public:
     [[nodiscard]] const std::map<std::string, certificate::LocalisedText>& descriptions() const {
         return descriptions_;
     }
+    /// Names that the program gave to components: "readings", "resolution".
+    [[nodiscard]] const std::set<std::string>& own_components() const { return own_components_; }
     /// Decimals with which a point states the value of an input, or one more where it is a mean of several readings;
     /// nothing where the point does not state it by numbers of its own.
     [[nodiscard]] std::optional<int> decimals(const std::string& input, std::size_t point) const;
@@ -149,6 +151,7 @@ private:
     std::vector<bool> has_words_;                       ///< columns of points that are declared, as in the job
     std::map<std::size_t, std::vector<int>> decimals_;  ///< of stated_: one a point, -1 where not stated
     std::vector<std::vector<bool>> used_;               ///< one a section, or one alone: of stated_
+    std::set<std::string> own_components_;
     std::map<std::string, gum::Unit> resolutions_;  ///< of the inputs that state one, in the job or at a point
     bool symbols_are_whole_ = true;
 };

@@ -97,6 +97,8 @@ private:
         if (root->has("points") || root->has("sections")) {
             inputs.finish_points(job_);
         }
+        job_.standard_components = laboratory.components();
+        job_.own_components = inputs.own_components();
         job_.input_descriptions = inputs.descriptions();
         job_.input_parts = inputs.parts();
         double p = job_.coverage_probability;

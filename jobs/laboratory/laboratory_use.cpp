@@ -629,7 +629,13 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
     }
     const std::string source = record.id + ", certificate " + value.calibration->certificate;
     json components = json::array();
-    json calibration{{"name", "calibration of " + record.id}, {"value", change->value(estimate)}, {"source", source}};
+    const auto named = [&](const std::string& name, const char* kind) {
+        components_[{name, source}] = {kind, record.id, value.calibration->certificate, value.calibration->calibrated};
+        return name;
+    };
+    json calibration{{"name", named("calibration of " + record.id, "calibration")},
+                     {"value", change->value(estimate)},
+                     {"source", source}};
     const double U = change->difference(value.U);
     if (value.k && *value.k == 1.0) {
         calibration["u"] = U;
@@ -649,10 +655,10 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
                               {"source", source}});
     };
     if (value.interpolation_half_width > 0.0) {
-        add_uniform("interpolation of " + record.id, value.interpolation_half_width);
+        add_uniform(named("interpolation of " + record.id, "interpolation"), value.interpolation_half_width);
     }
     const Drift& drift = value.drift;
-    const std::string since = "drift of " + record.id + " since " + value.calibration->calibrated;
+    const std::string since = named("drift of " + record.id + " since " + value.calibration->calibrated, "drift");
     if (drift.half_width > 0.0) {
         add_uniform(since, drift.half_width);
     } else if (drift.u > 0.0 || drift.value != 0.0) {

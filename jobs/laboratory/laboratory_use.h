@@ -20,6 +20,13 @@
 
 namespace gumcert::jobs {
 
+/// What a component is that a standard of the register puts into an input; its name and its source say so in English.
+struct StandardComponent {
+    std::string kind;  ///< "calibration", "interpolation", "drift"
+    std::string standard, certificate;
+    std::string since;  ///< day of the calibration
+};
+
 /// What a job takes from the folder of the laboratory, put where the job refers to it, before the job is read: the readers
 /// know statements of uncertainty and certificate data only, wherever they come from.
 ///
@@ -51,6 +58,10 @@ public:
     /// "V_s.at" is {"V_s", "at"}; two empty texts where a column is none of these. The first one lives as long as the column.
     [[nodiscard]] static std::pair<std::string_view, std::string_view> reference_column(std::string_view column);
     [[nodiscard]] static std::span<const std::string_view> reference_keys();
+
+    /// By name and source of the component.
+    using StandardComponents = std::map<std::pair<std::string, std::string>, StandardComponent>;
+    [[nodiscard]] const StandardComponents& components() const { return components_; }
 
     void complete(JsonDocument& document, const CertificatePlace& place) override;
 
@@ -98,6 +109,7 @@ private:
     const JsonDocument& job_;
     ProblemList& problems_;
     std::optional<LaboratoryFolder> folder_;
+    StandardComponents components_;
     std::optional<std::string> day_of_work_;
     std::string first_day_of_work_;                              ///< "": not stated; read with day_of_work_
     std::set<std::pair<std::string, std::string>> days_of_use_;  ///< of the standards
