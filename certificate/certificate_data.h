@@ -108,6 +108,8 @@ struct StandardUsed {
     std::string calibrated, valid_to;
     std::string role = "working";  ///< "reference" or "working"
     std::optional<double> U, k;    ///< headline uncertainty of the certificate
+    /// The largest U with this k, in `unit`, where several lines of the certificate were used; U is the smallest then
+    std::optional<double> U_to;
     std::string unit;
     bool conformity_statement_only = false;  ///< no values: its limits are in the budget
     std::string sha256;                      ///< of the certificate, a DCC for instance

@@ -181,6 +181,7 @@ void describe(Archive& a, Struct& r) {
     a("valid_to", r.valid_to, TextForm::date);
     a("role", r.role, {"reference", "working"});
     a("U", r.U, NumberRule::positive);
+    a.stated("U_to", r.U_to, NumberRule::positive);
     a("k", r.k, NumberRule::at_least_one);
     a("unit", r.unit, TextForm::unit);
     a("conformity_statement_only", r.conformity_statement_only);
@@ -491,6 +492,7 @@ void describe(Archive& a, Struct& r) {
     a("printed_unit", r.printed_unit);
     a("values", r.values);
     a("printed", r.printed);
+    a.stated("decimals", r.decimals, {"", "of_uncertainty"});
 }
 
 template <class Archive, Described<ShownColumn> Struct>

@@ -26,7 +26,13 @@ struct LaboratoryRegister {
         std::vector<std::string> methods;  ///< identifications of those that the person may sign; empty: any
         bool authorises = true;            ///< may authorise certificates
     };
+    /// A standard that the plan of the laboratory wants calibrated again before it is used.
+    struct Overdue {
+        std::string standard, day;  ///< a day of its use
+        std::string due;            ///< by the plan
+    };
     std::vector<Contradiction> contradictions;
+    std::vector<Overdue> overdue;  ///< one a standard
     std::vector<Use> uses;
     std::vector<std::string> not_registered;  ///< standards that the certificate lists and the register does not have
     std::vector<std::string> not_listed;      ///< used in the budget, and not in the list that the certificate states

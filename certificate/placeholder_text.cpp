@@ -228,6 +228,11 @@ bool names_only_a_field(std::string_view text) {
                        [](const std::u32string& word) { return says_nothing(word) || is_particle_or_field(word); });
 }
 
+bool is_particle(std::string_view text) {
+    const std::u32string letters = letters_of(text);
+    return k_particles.has(letters) && !k_fields.has(letters) && letters != U"no" && letters != U"not";
+}
+
 bool names_nobody(std::string_view text) {
     const std::vector<std::u32string> words = words_of(text);
     bool any = false;

@@ -19,6 +19,9 @@ namespace gumcert::certificate {
 /// do the names of nobody ("John Doe", "Sample").
 [[nodiscard]] bool names_nobody(std::string_view text);
 
+/// Whether a text is an article, a preposition or another word that tells nothing by itself: "is", "en", "für".
+[[nodiscard]] bool is_particle(std::string_view text);
+
 /// Whether an identification is still to come in part: "EX-2026-tbd", "SN-XXXX", "CP-??".
 [[nodiscard]] bool is_still_to_come(std::string_view text);
 

@@ -32,6 +32,7 @@ struct PointColumn {
     std::string printed_unit;
     std::vector<std::optional<double>> values;  ///< one a point, in `unit`; none: a word
     std::vector<std::string> printed;           ///< one a point
+    std::string decimals = {};  ///< "of_uncertainty": each value ends where its uncertainty does; "": as it was written
 };
 
 /// One column that a table shows.

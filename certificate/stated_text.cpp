@@ -1,5 +1,6 @@
 #include "certificate/stated_text.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 
@@ -94,6 +95,25 @@ bool is_name(const std::string& text) {
     const bool long_enough = letters.size() > 1 || (!letters.empty() && is_ideograph(letters.front()));
     return !names_only_a_field(text) && !names_nobody(text) && !is_email(text) && !is_web_address(text) &&
            long_enough && weight(letters) > 0;
+}
+
+bool is_name_of_document(const std::string& text) {
+    if (is_name(text)) {
+        return true;
+    }
+    constexpr std::size_t k_least_digits = 2;
+    const auto is_capital = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const auto is_figure = [](char c) { return c >= '0' && c <= '9'; };
+    const std::size_t letters =
+        static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_capital) - text.begin());
+    const std::size_t number = text.find_first_not_of(" -", letters);
+    if (letters < 2 || number == std::string::npos || number == letters) {
+        return false;
+    }
+    const auto behind = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(number), text.end(), is_figure);
+    const auto digits = static_cast<std::size_t>(behind - text.begin()) - number;
+    // "NO 12" and "ID 12" name a field, "TBD 12" nothing.
+    return digits >= k_least_digits && is_particle(text.substr(0, letters));
 }
 
 bool is_name(const LocalisedText& text) {

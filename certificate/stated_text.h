@@ -24,6 +24,8 @@ template <class Text>
 /// A name of a person, an organisation or a thing: stated, of two letters or digits or one ideograph at least, no
 /// number, no e-mail address and no address of a site.
 [[nodiscard]] bool is_name(const std::string& text);
+/// A name, or letters and a number as documents have them: "EN 837-1", "IS 3624", although "en" and "is" alone tell nothing.
+[[nodiscard]] bool is_name_of_document(const std::string& text);
 [[nodiscard]] bool is_name(const LocalisedText& text);
 
 /// A number or a mark that identifies something: stated in all of its parts, and not "0", "0000", "9999",

@@ -483,6 +483,7 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
         [](const ImportedQuantity& q) { return q.role == "result" && (q.kind != "none" || !q.objection.empty()); });
     const Rows rows(certificate);
     std::vector<Input> inputs;
+    std::vector<std::size_t> quantities;
     std::map<std::string, std::size_t> distributions;
     std::set<std::size_t> tables;  // that inputs come from
     for (const ImportedQuantity& q : certificate.quantities) {
@@ -503,6 +504,7 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
             input->members.emplace_back("source", json_text(source_of(certificate)));
             note_distribution(q, input->members);
             inputs.push_back(std::move(*input));
+            quantities.push_back(static_cast<std::size_t>(&q - certificate.quantities.data()));
             tables.insert(q.table);
         }
     }
@@ -521,7 +523,10 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
                                                         .action = "enter the inputs by hand"});
         throw gum::InputError(std::move(refusal));
     }
-    ImportedJob out{.job = job_text(certificate, inputs), .remarks = reservations, .negative = unreliable};
+    ImportedJob out{.job = job_text(certificate, inputs),
+                    .remarks = reservations,
+                    .quantities = quantities,
+                    .negative = unreliable};
     out.remarks.insert(out.remarks.end(), certificate.remarks.begin(), certificate.remarks.end());
     out.remarks.insert(out.remarks.end(), importer.remarks.begin(), importer.remarks.end());
     add_notes(file, inputs.size(), left_out, distributions, out.remarks);

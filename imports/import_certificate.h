@@ -13,7 +13,9 @@ namespace gumcert::imports {
 struct ImportedJob {
     std::string job;                       ///< JSON text: a job of kind "budget" that can be evaluated at once
     std::vector<gum::Diagnostic> remarks;  ///< what could not be carried over, and what a person has to decide
-    bool negative = false;                 ///< imported, and the answer is no: its signature cannot be relied on
+    std::vector<std::size_t>
+        quantities;         ///< of its inputs, in their order: in reports::ImportedCertificate::quantities
+    bool negative = false;  ///< imported, and the answer is no: its signature cannot be relied on
 };
 
 /// Use case of `gumcert import dcc FILE`: every result of the certificate that has an uncertainty becomes an input

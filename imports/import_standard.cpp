@@ -1,10 +1,19 @@
 #include "imports/import_standard.h"
 
+#include <algorithm>
+#include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "json/readable_json.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
+#include "text/lists.h"
 
 namespace gumcert::imports {
 
@@ -12,9 +21,98 @@ namespace {
 
 using nlohmann::ordered_json;
 
+using reports::ImportedQuantity;
+
+/// Where a value was measured: a number of its row of a table.
+struct NominalValue {
+    double value = 0.0;
+    std::string unit;
+};
+
+/// Of the rows of all tables.
+class NominalValues {
+public:
+    explicit NominalValues(const reports::ImportedCertificate& certificate) {
+        for (const std::string_view type : {"basic_nominalValue", "basic_referenceValue"}) {
+            for (const ImportedQuantity& q : certificate.quantities) {
+                double value = 0.0;
+                const char* const end = q.value.data() + q.value.size();
+                if (q.table > 0 && q.row && q.role == "result" && !q.unit.empty() && has_type(q, type) &&
+                    std::from_chars(q.value.data(), end, value).ptr == end) {
+                    values_[{q.table, *q.row}].push_back({&q, {value, q.unit}});
+                }
+            }
+        }
+    }
+
+    /// The nominal value of the row, else the value of the reference; nothing where the table has neither.
+    [[nodiscard]] std::optional<NominalValue> of(const ImportedQuantity& q) const {
+        const auto row = q.row ? values_.find({q.table, *q.row}) : values_.end();
+        if (row == values_.end()) {
+            return std::nullopt;
+        }
+        const auto other =
+            std::find_if(row->second.begin(), row->second.end(), [&](const auto& entry) { return entry.first != &q; });
+        return other == row->second.end() ? std::nullopt : std::optional(other->second);
+    }
+
+private:
+    static bool has_type(const ImportedQuantity& q, std::string_view type) {
+        const std::size_t at = q.ref_type.find(type);
+        const std::size_t end = at + type.size();
+        return at != std::string::npos && (at == 0 || q.ref_type[at - 1] == ' ') &&
+               (end == q.ref_type.size() || q.ref_type[end] == ' ');
+    }
+
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::pair<const ImportedQuantity*, NominalValue>>>
+        values_;
+};
+
+/// "e_l" of "e_l_3" in the third row of a list.
+std::string name_of_column(const std::string& name, const ImportedQuantity& q) {
+    const std::string ending = q.row ? "_" + std::to_string(*q.row + 1) : std::string();
+    return !ending.empty() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size()) : name;
+}
+
+/// A result that becomes a line.
+struct StandardLine {
+    std::string name;
+    const ordered_json* input = nullptr;
+    const ImportedQuantity* quantity = nullptr;
+    std::optional<NominalValue> nominal;
+};
+
+/// Columns whose nominal values tell the rows apart: one quantity of the register.
+std::set<std::string> columns_by_nominal(const std::vector<StandardLine>& lines) {
+    std::map<std::string, std::set<double>> values;
+    std::set<std::string> others;
+    for (const StandardLine& line : lines) {
+        const std::string column = name_of_column(line.name, *line.quantity);
+        if (!line.nominal || !values[column].insert(line.nominal->value).second) {
+            others.insert(column);
+        }
+    }
+    std::set<std::string> columns;
+    for (const auto& [column, numbers] : values) {
+        if (!others.contains(column)) {
+            columns.insert(column);
+        }
+    }
+    return columns;
+}
+
 /// A line of the register from an input of the job.
-ordered_json line_of(const std::string& name, const ordered_json& input) {
-    ordered_json line{{"quantity", name}, {"value", input.at("value")}, {"unit", input.at("unit")}};
+ordered_json line_of(const std::string& name, const StandardLine& from) {
+    const ordered_json& input = *from.input;
+    ordered_json line{{"quantity", name}};
+    if (from.nominal) {
+        line["nominal"] = from.nominal->value;
+        if (from.nominal->unit != input.at("unit")) {
+            line["nominal_unit"] = from.nominal->unit;
+        }
+    }
+    line["value"] = input.at("value");
+    line["unit"] = input.at("unit");
     if (input.contains("u")) {
         line["U"] = input["u"];
         line["k"] = 1;
@@ -40,11 +138,26 @@ ImportedJob import_standard(std::string_view bytes, const std::string& file, con
     ImportedJob imported = import_certificate(bytes, file, trust);
     const reports::ImportedCertificate certificate = reports::read_dcc(bytes, file);
     const ordered_json job = ordered_json::parse(imported.job);
-    ordered_json lines = ordered_json::array();
+    const NominalValues nominal_values(certificate);
+    std::vector<StandardLine> results;
+    std::vector<std::string> before;  // an adjustment: what the standard was, and is not any more
+    std::size_t position = 0;
     for (const auto& [name, input] : job.at("inputs").items()) {
-        if (!input.contains("constant")) {
-            lines.push_back(line_of(name, input));
+        const ImportedQuantity& q = certificate.quantities.at(imported.quantities.at(position++));
+        if (input.contains("constant")) {
+            continue;
         }
+        if (q.before_adjustment) {
+            before.push_back(name);
+            continue;
+        }
+        results.push_back({.name = name, .input = &input, .quantity = &q, .nominal = nominal_values.of(q)});
+    }
+    const std::set<std::string> columns = columns_by_nominal(results);
+    ordered_json lines = ordered_json::array();
+    for (const StandardLine& result : results) {
+        const std::string column = name_of_column(result.name, *result.quantity);
+        lines.push_back(line_of(columns.contains(column) ? column : result.name, result));
     }
     if (lines.empty()) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-LAB-0021",
@@ -67,6 +180,17 @@ ImportedJob import_standard(std::string_view bytes, const std::string& file, con
                                 {"description", certificate.item.empty() ? id : reports::printable(certificate.item)},
                                 {"calibrations", ordered_json::array({std::move(calibration)})}};
     imported.job = gumcert::json::readable_json(standard) + "\n";
+    if (!before.empty()) {
+        imported.remarks.push_back(
+            {.code = "GC-LAB-0022",
+             .where = file,
+             .what = std::to_string(before.size()) + (before.size() == 1 ? " result" : " results") +
+                     " before the adjustment left out: " + text::listed(before, 8),
+             .rule = "the value of a standard is that after its adjustment",
+             .action = "nothing; its drift is seen from the result before the adjustment and the "
+                       "certificate before",
+             .severity = gum::Severity::note});
+    }
     imported.remarks.push_back({.code = "GC-LAB-0020",
                                 .where = file,
                                 .what = "a certificate does not say how the standard drifts, how long it may be used, "

@@ -72,6 +72,13 @@ StatementKeys StatementKeys::with(std::string_view key, const std::vector<double
     return both;
 }
 
+StatementKeys StatementKeys::without(std::span<const std::string_view> keys) const {
+    StatementKeys rest = *this;
+    std::erase_if(rest.entries_,
+                  [&](const Entry& entry) { return std::find(keys.begin(), keys.end(), entry.key) != keys.end(); });
+    return rest;
+}
+
 void StatementKeys::put(Entry entry) {
     const auto same =
         std::find_if(entries_.begin(), entries_.end(), [&](const Entry& known) { return known.key == entry.key; });

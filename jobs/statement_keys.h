@@ -37,6 +37,9 @@ public:
                                      const CsvTable& table, const CsvCell& cell, ProblemList& problems,
                                      const std::string& column) const;
 
+    /// The same without some keys.
+    [[nodiscard]] StatementKeys without(std::span<const std::string_view> keys) const;
+
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
     /// Null pointer when the key is absent, or its number was refused while the text was read.
     [[nodiscard]] const nlohmann::json* value(std::string_view key) const;

@@ -116,6 +116,7 @@ StandardValue linear(const StandardRecord& record, const Calibration& calibratio
         bend = std::max(bend, std::abs(second_divided_difference(below, above, *lines[upper + 1])));
     }
     StandardValue out = l <= 0.5 ? low : high;
+    out.other = l <= 0.5 ? &above : &below;
     out.value = base_at(below, at) + (1.0 - l) * correction(below) + l * correction(above);
     // Added as they are and not as squares: points of one certificate share its standard, so that nothing averages out.
     out.U = (1.0 - l) * standard_uncertainty(below) + l * standard_uncertainty(above);

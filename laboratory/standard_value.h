@@ -14,6 +14,7 @@ namespace gumcert::laboratory {
 struct StandardValue {
     const Calibration* calibration = nullptr;
     const CalibrationResult* result = nullptr;  ///< the line of the certificate, between two the nearer one
+    const CalibrationResult* other = nullptr;   ///< between two whose uncertainties both count, the farther one
     std::string unit;
     double value = 0.0;  ///< as calibrated; the drift is not in it
     double U = 0.0;      ///< as on the certificate; between two values a standard uncertainty with k = 1

@@ -39,6 +39,13 @@ void standards(FindingList& found, const LaboratoryRegister& registered) {
                   is_refuted ? "Use a standard that is calibrated for this."
                              : "State it in the register, or where the input uses the standard.");
     }
+    for (const LaboratoryRegister::Overdue& one : registered.overdue) {
+        // Its last day of use may be later: the laboratory has found since that it moves faster (6.4.7).
+        found.critical("T14", iso_17025("6.4"), "/standards",
+                       "the standard \"" + one.standard + "\" was used on " + one.day +
+                           ", and by the plan of the laboratory its calibration was due on " + one.due,
+                       "Use a standard whose calibration is not due, or bring its plan in the register up to date.");
+    }
     for (const std::string& id : registered.not_registered) {
         found.major("T12", iso_17025("6.4"), "/standards",
                     "the standard \"" + id + "\" of the certificate is not in the register of the laboratory",

@@ -143,8 +143,8 @@ void specification(FindingList& found, const Certificate& certificate, std::size
     agreement(found, certificate.data, s, i);
     rule_of_others(found, certificate.data, s, i);
     empty_parameter(found, s, i);
-    if (!is_name(s.document) || !is_stated(s.edition)) {
-        found.major("D03", iso_17025("7.8.6.2 b"), where(!is_name(s.document) ? "document" : "edition"),
+    if (!is_name_of_document(s.document) || !is_stated(s.edition)) {
+        found.major("D03", iso_17025("7.8.6.2 b"), where(!is_name_of_document(s.document) ? "document" : "edition"),
                     name + " has no document or no edition", "State both.");
     }
     if (is_same(s.document, certificate.data.number)) {

@@ -67,6 +67,8 @@ double value_in_unit(const gum::BudgetInput& input) {
     return sum;
 }
 
+constexpr std::string_view k_readings = "readings";  // the component that they make beside others
+constexpr std::string_view k_resolution = "resolution";
 constexpr int k_most_decimals = 15;  // a number in double precision has no more that mean something
 
 /// Readings of one input in a row of a file of points.
@@ -108,6 +110,7 @@ void BudgetInputs::read(const JsonObject& root) {
         return;
     }
     names_ = keys_in_order(document_, pointer);
+    note_resolutions(*inputs);
     stated_.reserve(names_.size());
     for (const std::string& name : names_) {
         read_input(name, child_pointer(pointer, name), root.has("points") || root.has("sections"));
@@ -216,21 +219,72 @@ std::optional<BudgetInputs::Evaluated> BudgetInputs::evaluate(const Stated& stat
         out.is_stated_common = word && *word == "common";
         out.input.common = word != "independent";
     }
-    const bool is_evaluated =
-        keys.has("components") ? evaluate_components(stated, keys, out) : add_component(stated, keys, false, out);
+    const bool has_readings = keys.has("observations") || keys.has("groups");
+    const bool is_evaluated = keys.has("components")                   ? evaluate_components(stated, keys, out)
+                              : has_readings && keys.has("resolution") ? add_readings_and_resolution(stated, keys, out)
+                                                                       : add_component(stated, keys, false, out);
     if (!is_evaluated || !is_read) {
         return std::nullopt;
     }
     return out;
 }
 
-bool BudgetInputs::add_component(const Stated& stated, const StatementKeys& keys, bool is_component, Evaluated& out) {
+void BudgetInputs::note_resolutions(const json& inputs) {
+    const auto has_resolution = [](const json& statement) {
+        return statement.is_object() && statement.contains("resolution");
+    };
+    for (const auto& [name, input] : inputs.items()) {
+        const auto parts = input.is_object() ? input.find("components") : input.end();
+        const bool is_in_part = input.is_object() && parts != input.end() && parts->is_array() &&
+                                std::any_of(parts->begin(), parts->end(), has_resolution);
+        if (!has_resolution(input) && !is_in_part) {
+            continue;
+        }
+        const auto unit = input.find("unit");
+        try {
+            resolutions_.emplace(name, unit != input.end() && unit->is_string()
+                                           ? gum::Unit::parse(unit->get_ref<const std::string&>())
+                                           : gum::Unit());
+        } catch (const gum::InputError&) {
+            continue;  // refused where the input is read
+        }
+    }
+}
+
+std::string BudgetInputs::other_resolution(const Stated& stated) const {
+    const auto found = std::find_if(resolutions_.begin(), resolutions_.end(), [&](const auto& other) {
+        return other.first != stated.name && other.second.dimension() == stated.unit.dimension();
+    });
+    return found == resolutions_.end() ? "" : found->first;
+}
+
+bool BudgetInputs::add_readings_and_resolution(const Stated& stated, const StatementKeys& keys, Evaluated& out) {
+    constexpr std::array<std::string_view, 4> k_of_resolution{"resolution", "distribution", "nu", "reliability"};
+    constexpr std::array<std::string_view, 4> k_of_readings{"observations", "pooled", "groups", "type"};
+    if (!add_component(stated, keys.without(k_of_resolution), true, out, true)) {
+        return false;
+    }
+    out.input.components.back().name = k_readings;
+    if (!add_component(stated, keys.without(k_of_readings), true, out)) {
+        return false;
+    }
+    out.input.components.back().name = k_resolution;
+    own_components_.emplace(k_readings);
+    own_components_.emplace(k_resolution);
+    return true;
+}
+
+bool BudgetInputs::add_component(const Stated& stated, const StatementKeys& keys, bool is_component, Evaluated& out,
+                                 bool holds_resolution) {
     const StatementContext context{
         .unit = stated.unit,
         .is_later_component = !out.input.components.empty(),
         .is_component = is_component,
         .input = stated.name,
         .variance = covariance_ && !is_component ? covariance_->variance_of(stated.name) : std::nullopt,
+        .resolution = is_component                                     ? std::string(holds_resolution ? "here" : "")
+                      : keys.has("observations") || keys.has("groups") ? other_resolution(stated)
+                                                                       : std::string(),
         .files = files_};
     std::optional<EvaluatedStatement> statement = evaluate_statement(keys, context);
     if (!statement) {
@@ -253,11 +307,16 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
         is_read = is_read && (text || !keys.has(k_shared[i]));
         shared[i] = text.value_or("");
     }
+    const bool has_readings = keys.has("observations") || keys.has("groups");
+    constexpr std::array<std::string_view, 3> k_of_readings{"observations", "pooled", "groups"};
     for (const std::string_view key : keys.present()) {
-        if (key != "components" && key != "unit" && key != "description" && key != "between_points" &&
+        const bool is_reading =
+            has_readings && std::find(k_of_readings.begin(), k_of_readings.end(), key) != k_of_readings.end();
+        if (key != "components" && key != "unit" && key != "description" && key != "between_points" && !is_reading &&
             std::find(k_shared.begin(), k_shared.end(), key) == k_shared.end()) {
             keys.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"components\"",
-                        "an input is one statement or a sum of components, each with its own statement",
+                        "an input is one statement or a sum of components, each with its own statement; readings may "
+                        "stand beside them",
                         "move it into a component");
             is_read = false;
         }
@@ -272,6 +331,18 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
         return false;
     }
     std::set<std::string> names;
+    if (has_readings) {
+        // The readings of a point, and what does not change from point to point: the display, a cable.
+        const bool holds_resolution = std::any_of(list->begin(), list->end(), [](const json& component) {
+            return component.is_object() && component.contains("resolution");
+        });
+        is_read = add_component(stated, keys, true, out, holds_resolution) && is_read;
+        if (!out.input.components.empty()) {
+            out.input.components.back().name = k_readings;
+        }
+        names.emplace(k_readings);
+        own_components_.emplace(k_readings);
+    }
     for (std::size_t i = 0; i < list->size(); ++i) {
         const std::string pointer = child_pointer(keys.pointer("components"), i);
         const JsonDocument& document = keys.document("components");
@@ -1077,6 +1148,11 @@ void BudgetInputs::read_point(gum::BudgetPoint& point, const std::map<std::size_
                               const std::set<std::size_t>& told, BudgetJob& job) {
     std::map<std::size_t, Evaluated> here;
     std::set<std::size_t> read_again;
+    for (const auto& [index, keys] : overrides) {
+        if (keys.has("resolution")) {
+            resolutions_.emplace(stated_[index].name, stated_[index].unit);
+        }
+    }
     for (std::size_t i = 0; i < stated_.size(); ++i) {
         if (!used_.back()[i]) {
             continue;

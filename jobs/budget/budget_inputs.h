@@ -40,6 +40,8 @@ public:
     [[nodiscard]] const std::map<std::string, certificate::LocalisedText>& descriptions() const {
         return descriptions_;
     }
+    /// Names that the program gave to components: "readings", "resolution".
+    [[nodiscard]] const std::set<std::string>& own_components() const { return own_components_; }
     /// Decimals with which a point states the value of an input, or one more where it is a mean of several readings;
     /// nothing where the point does not state it by numbers of its own.
     [[nodiscard]] std::optional<int> decimals(const std::string& input, std::size_t point) const;
@@ -87,8 +89,13 @@ private:
     void read_input(const std::string& name, const std::string& pointer, bool has_points);
     [[nodiscard]] std::optional<Evaluated> evaluate(const Stated& stated, const StatementKeys& keys);
     [[nodiscard]] bool evaluate_components(const Stated& stated, const StatementKeys& keys, Evaluated& out);
-    [[nodiscard]] bool add_component(const Stated& stated, const StatementKeys& keys, bool is_component,
-                                     Evaluated& out);
+    [[nodiscard]] bool add_component(const Stated& stated, const StatementKeys& keys, bool is_component, Evaluated& out,
+                                     bool holds_resolution = false);
+    /// Readings, and the resolution that stands beside them.
+    [[nodiscard]] bool add_readings_and_resolution(const Stated& stated, const StatementKeys& keys, Evaluated& out);
+    void note_resolutions(const nlohmann::json& inputs);
+    /// What holds the resolution of the readings of an input where it does not itself: "" where nothing does.
+    [[nodiscard]] std::string other_resolution(const Stated& stated) const;
     /// Uncertainties from specifications, once the values of all inputs are known.
     [[nodiscard]] bool complete(Evaluated& evaluated, const Reading& reading) const;
     void warn_of_similar_names();
@@ -144,6 +151,8 @@ private:
     std::vector<bool> has_words_;                       ///< columns of points that are declared, as in the job
     std::map<std::size_t, std::vector<int>> decimals_;  ///< of stated_: one a point, -1 where not stated
     std::vector<std::vector<bool>> used_;               ///< one a section, or one alone: of stated_
+    std::set<std::string> own_components_;
+    std::map<std::string, gum::Unit> resolutions_;  ///< of the inputs that state one, in the job or at a point
     bool symbols_are_whole_ = true;
 };
 

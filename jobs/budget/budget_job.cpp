@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "certificate/point_limits.h"
 #include "gum/expression/name.h"
 #include "jobs/budget/budget_correlation.h"
 #include "jobs/budget/budget_fit_statement.h"
@@ -96,6 +97,8 @@ private:
         if (root->has("points") || root->has("sections")) {
             inputs.finish_points(job_);
         }
+        job_.standard_components = laboratory.components();
+        job_.own_components = inputs.own_components();
         job_.input_descriptions = inputs.descriptions();
         job_.input_parts = inputs.parts();
         double p = job_.coverage_probability;
@@ -109,6 +112,7 @@ private:
         check_sections(inputs);
         job_.certificate = read_certificate(files_, *document_, *problems_, &laboratory);
         read_tables(parts, *document_, inputs, job_, *problems_);
+        warn_of_unused();
     }
 
     bool is_budget() {
@@ -351,21 +355,54 @@ private:
                 }
             }
         }
-        for (const gum::BudgetInput& input : job_.inputs) {
+        for (std::size_t i = 0; i < job_.inputs.size(); ++i) {
             bool is_used = false;
             for (std::size_t s = 0; s < job_.sections.size(); ++s) {
-                is_used = is_used || inputs.is_used(input.name, s);
+                is_used = is_used || inputs.is_used(job_.inputs[i].name, s);
             }
             if (!is_used) {
-                warn_unused(input);
+                unused_.push_back(i);
             }
         }
     }
 
-    void warn_unused(const gum::BudgetInput& input) {
-        problems_->warn(k_warn_unused_input, input.where,
-                        "no result depends on the input " + text::in_quotes(input.name),
-                        "an input that is not used has no part in any uncertainty", "remove it, or complete the model");
+    /// Whether an input is there for the reader: a column of a table, or what a limit or a capability depends on.
+    [[nodiscard]] bool is_named(const std::string& input) const {
+        for (const certificate::TableRequest& table : job_.tables) {
+            if (std::any_of(table.columns.begin(), table.columns.end(),
+                            [&](const auto& column) { return column.show == "column" && column.of == input; })) {
+                return true;
+            }
+        }
+        if (!job_.certificate) {
+            return false;
+        }
+        for (const certificate::AgreedSpecification& s : job_.certificate->specifications) {
+            const std::vector<std::string> names =
+                s.limits ? certificate::columns_of_limits(*s.limits) : std::vector<std::string>();
+            if (std::find(names.begin(), names.end(), input) != names.end()) {
+                return true;
+            }
+        }
+        const auto depends = [&](const std::vector<certificate::ScopeEntry>& scope) {
+            return std::any_of(scope.begin(), scope.end(), [&](const certificate::ScopeEntry& entry) {
+                return std::any_of(
+                    entry.capability.arguments.begin(), entry.capability.arguments.end(),
+                    [&](const certificate::CapabilityArgument& argument) { return argument.of == input; });
+            });
+        };
+        return job_.certificate->accreditation && depends(job_.certificate->accreditation->scope);
+    }
+
+    void warn_of_unused() {
+        for (const std::size_t unused : unused_) {
+            const gum::BudgetInput& input = job_.inputs[unused];
+            if (!is_named(input.name)) {
+                problems_->warn(
+                    k_warn_unused_input, input.where, "no result depends on the input " + text::in_quotes(input.name),
+                    "an input that is not used has no part in any uncertainty", "remove it, or complete the model");
+            }
+        }
     }
 
     /// The key "model" of the job or of a section.
@@ -516,7 +553,7 @@ private:
             for (const std::size_t unused : system.unused_inputs()) {
                 if (is_accepted && job_.sections.empty() && unused < job_.inputs.size() &&
                     !inputs.is_read_by_specification(job_.inputs[unused].name)) {
-                    warn_unused(job_.inputs[unused]);
+                    unused_.push_back(unused);
                 }
             }
         } catch (const gum::DiagnosedError& error) {
@@ -582,6 +619,7 @@ private:
         bool is_used = false;
     };
     std::vector<SharedEquation> shared_;  ///< that sections have in common
+    std::vector<std::size_t> unused_;     ///< inputs on which no result depends
     bool model_is_whole_ = true;          ///< equations, unknowns and outputs could be read
 };
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
 #include "jobs/job_kind.h"
+#include "jobs/laboratory/laboratory_use.h"
 
 namespace gumcert::jobs {
 
@@ -36,6 +38,9 @@ struct BudgetJob : gum::Budget {
     std::vector<std::map<std::string, gum::Unit>> point_units;
     /// What inputs and outputs are, by their names: "length of the standard"; those without are not here.
     std::map<std::string, certificate::LocalisedText> input_descriptions, output_descriptions;
+    /// Components that the program named: those of standards, and "readings" and "resolution" that stand beside each other.
+    LaboratoryUse::StandardComponents standard_components;
+    std::set<std::string> own_components;
     nlohmann::json document;
     std::optional<certificate::CertificateData> certificate;  ///< from the job or a file of its own
     std::vector<std::string> files;                           ///< names as the job gives them, each once, the job first

@@ -32,6 +32,9 @@ struct StatementContext {
     bool is_component = false;
     std::string_view input;               ///< its name
     std::optional<double> variance = {};  ///< from the key `covariance` of the job, [unit²]
+    /// Readings that are all equal: where their resolution stands. "": nowhere that is known; "here": beside them; else the
+    /// name of another input.
+    std::string resolution = {};
     JobFiles& files;
 };
 

@@ -85,16 +85,24 @@ bool StatementReader::set_type_a(std::string_view key, double u, double nu) {
         quantity_.distribution = Distribution::student_t(quantity_.value, quantity_.u, nu);
         return true;
     }
+    // The scatter of equal readings is below the step of the display, which is then the contribution
+    //                                                                                (JCGM 100:2008, F.2.2.1)
     const std::string rule = "equal values say that the scatter is below the resolution, not that it is 0";
-    if (context_.is_component) {
-        keys_.warn(k_warn_equal_observations, key, "all values are equal: the component has u = 0", rule,
-                   "make sure that another component holds the resolution");
+    if (context_.is_component || !context_.resolution.empty()) {
+        if (context_.resolution.empty()) {
+            keys_.warn(k_warn_equal_observations, key, "all values are equal: the component has u = 0", rule,
+                       "make sure that another component holds the resolution");
+        } else if (context_.resolution != "here") {
+            keys_.warn(k_warn_equal_observations, key, "all values are equal: they have u = 0", rule,
+                       "make sure that the resolution of " + text::in_quotes(context_.resolution) +
+                           " is that of these readings");
+        }
         quantity_.degrees_of_freedom = nu;
         quantity_.distribution = Distribution::constant(quantity_.value);
         return true;
     }
     keys_.refuse(k_no_uncertainty, key, "all values are equal: u would be 0", rule,
-                 "list the observations and the resolution as components");
+                 "state \"resolution\" beside them, in the input or its component");
     return false;
 }
 

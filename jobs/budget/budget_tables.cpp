@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -566,6 +567,25 @@ private:
 
     // ---- what follows from it ---------------------------------------------------------------------------------------
 
+    /// Whether nobody wrote the value down: it is a sum (as that of a standard of the register is), a mean, or the middle
+    /// of two limits.
+    [[nodiscard]] static bool is_computed(const gum::BudgetInput& input) {
+        constexpr std::array<std::string_view, 5> k_without_value{"observations", "groups", "samples", "limits",
+                                                                  "distribution"};
+        const gum::StatedQuantity& first = input.components.front();
+        return input.components.size() > 1 || !first.name.empty() ||
+               std::find(k_without_value.begin(), k_without_value.end(), first.statement) != k_without_value.end();
+    }
+
+    /// The digits that double precision holds: 0.3 for 0.1 + 0.2.
+    [[nodiscard]] static double held(double value) {
+        constexpr int k_digits = 15;
+        const std::string text = text::significant(value, k_digits);
+        double number = value;
+        std::from_chars(text.data(), text.data() + text.size(), number);
+        return number;
+    }
+
     /// The inputs that tables and limits name become columns of the points.
     void add_inputs() {
         std::set<std::string> wanted;
@@ -608,11 +628,20 @@ private:
                     added.printed.emplace_back();
                     continue;
                 }
-                const double value = stated.unit.from_si(gum::input_total(gum::input_at(job_, i, p)).value);
+                const gum::BudgetInput& here = gum::input_at(job_, i, p);
+                const gum::InputTotal total = gum::input_total(here);
+                const double value = stated.unit.from_si(total.value);
                 added.values.emplace_back(value);
-                const std::optional<int> decimals = inputs_.decimals(stated.name, p);
-                added.printed.push_back(decimals ? gum::round_to_quantum(value, *decimals)
-                                                 : text::shortest_plain(value));
+                if (const std::optional<int> decimals = inputs_.decimals(stated.name, p)) {
+                    added.printed.push_back(gum::round_to_quantum(value, *decimals));
+                } else if (is_computed(here) && total.u > 0.0) {
+                    // Digits behind the uncertainty are those of a computation (JCGM 100:2008, 7.2.6).
+                    added.printed.push_back(
+                        gum::round_to_uncertainty(value, stated.unit.difference_from_si(total.u)).value);
+                    added.decimals = "of_uncertainty";
+                } else {
+                    added.printed.push_back(text::shortest_plain(held(value)));
+                }
             }
             job_.point_columns.push_back(std::move(added));
         }

@@ -19,10 +19,12 @@ inline constexpr InputCode k_laboratory_day{"GC-LAB-0107", "the day on which a s
 inline constexpr InputCode k_laboratory_unit{"GC-LAB-0108", "a standard of another quantity than its input"};
 inline constexpr InputCode k_laboratory_shared{"GC-LAB-0109", "several inputs draw on one standard"};
 inline constexpr InputCode k_laboratory_schema{"GC-LAB-0110", "a file of the laboratory of another form"};
+inline constexpr InputCode k_laboratory_other_day{"GC-LAB-0111",
+                                                  "a standard that is used outside of the days of the work"};
 
-inline constexpr std::array k_laboratory_codes{k_laboratory_missing,  k_laboratory_id,    k_laboratory_order,
-                                               k_laboratory_coverage, k_laboratory_drift, k_laboratory_interval,
-                                               k_laboratory_person,   k_laboratory_day,   k_laboratory_unit,
-                                               k_laboratory_shared,   k_laboratory_schema};
+inline constexpr std::array k_laboratory_codes{k_laboratory_missing,  k_laboratory_id,     k_laboratory_order,
+                                               k_laboratory_coverage, k_laboratory_drift,  k_laboratory_interval,
+                                               k_laboratory_person,   k_laboratory_day,    k_laboratory_unit,
+                                               k_laboratory_shared,   k_laboratory_schema, k_laboratory_other_day};
 
 }  // namespace gumcert::jobs

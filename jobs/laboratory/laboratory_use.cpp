@@ -12,6 +12,7 @@
 #include "gum/quantity/unit.h"
 #include "jobs/certificate/certificate_archive.h"
 #include "jobs/laboratory/laboratory_codes.h"
+#include "laboratory/outlook.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -186,8 +187,8 @@ void place_below(JsonDocument& document, const std::string& pointer, const json&
 }
 
 /// U of a row in SI units, for two rows in different units.
-std::optional<double> U_in_si(const json& row) {
-    const auto U = row.find("U");
+std::optional<double> U_in_si(const json& row, const char* key) {
+    const auto U = row.find(key);
     const std::string unit = text_in(row, "unit");
     if (U == row.end() || !U->is_number() || unit.empty()) {
         return std::nullopt;
@@ -200,6 +201,39 @@ std::optional<double> U_in_si(const json& row) {
 }
 
 constexpr double k_same_U = 1e-9;
+
+double factor_of(const laboratory::CalibrationResult& line) {
+    return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+}
+
+/// From the smallest U of the lines that were used to the largest, in the unit of the first: that of one line alone would
+/// be taken for all of them. Lines of another kind of quantity are not among these.
+void put_uncertainty(json& row, const std::vector<const laboratory::CalibrationResult*>& lines) {
+    const laboratory::CalibrationResult& first = *lines.front();
+    const std::string unit = gum::unit_of_difference(first.unit);
+    std::vector<std::pair<double, double>> all;  // U in the unit, and its k
+    for (const laboratory::CalibrationResult* line : lines) {
+        const UnitChange change(gum::unit_of_difference(line->unit), unit);
+        if (change.is_possible()) {
+            all.emplace_back(change.difference(line->U), factor_of(*line));
+        }
+    }
+    const auto less = [](const auto& a, const auto& b) { return a.first / a.second < b.first / b.second; };
+    const double k = std::max_element(all.begin(), all.end(), less)->second;
+    for (auto& [U, own] : all) {
+        if (std::abs(own - k) > k_same_U * k) {  // of another k: two digits of what it is with this one
+            const std::string text = text::significant(U / own * k, 2);
+            std::from_chars(text.data(), text.data() + text.size(), U);
+        }
+    }
+    const auto [least, largest] = std::minmax_element(all.begin(), all.end());
+    row["U"] = least->first;
+    row["k"] = k;
+    row["unit"] = unit;
+    if (largest->first > least->first * (1.0 + k_same_U)) {
+        row["U_to"] = largest->first;
+    }
+}
 
 }  // namespace
 
@@ -427,6 +461,19 @@ void LaboratoryUse::note_use(const std::string& standard) {
     }
 }
 
+void LaboratoryUse::note_day(const StandardRecord& record, const std::string& day) {
+    // The points of a table use a standard on one day, as a rule: its plan is asked once.
+    if (day.empty() || !days_of_use_.emplace(record.id, day).second) {
+        return;
+    }
+    const laboratory::CalibrationOutlook outlook = laboratory::calibration_outlook(record, day);
+    const bool is_told = std::any_of(facts_.overdue.begin(), facts_.overdue.end(),
+                                     [&](const auto& one) { return one.standard == record.id; });
+    if (outlook.last != nullptr && certificate::is_after(day, outlook.next) && !is_told) {
+        facts_.overdue.push_back({record.id, day, outlook.next});
+    }
+}
+
 void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer, const std::string& input,
                                    const std::string& unit_of_input, ProblemList& problems) {
     json& statement = job.value.at(json::json_pointer(pointer));
@@ -446,6 +493,7 @@ void LaboratoryUse::fill_statement(JsonDocument& job, const std::string& pointer
         return;
     }
     const laboratory::Applicability verdict = laboratory::applicability(*record, *use);
+    note_day(*record, use->date);
     facts_.uses.push_back({record->id, input, word_of(verdict.answer), verdict.because});
     note_use(record->id);
     if (!is_point) {
@@ -509,6 +557,16 @@ std::optional<StandardUse> LaboratoryUse::read_use(const JsonDocument& job, cons
     }
     if (!statement.contains("date")) {
         use.date = day_of_work();
+    } else if (is_read && !day_of_work().empty() &&
+               (certificate::is_after(use.date, day_of_work()) ||
+                certificate::is_after(first_day_of_work_, use.date))) {
+        const bool is_one_day = first_day_of_work_.empty() || first_day_of_work_ == day_of_work();
+        CertificatePlace{&job, child_pointer(pointer, "date"), &problems}.refuse(
+            k_laboratory_other_day, use.date,
+            "a standard is used on a day of the work, and the certificate states " +
+                (is_one_day ? day_of_work() : first_day_of_work_ + " to " + day_of_work()),
+            "correct \"date\", or leave it out, or correct the dates of the certificate");
+        is_read = false;
     }
     return is_read ? std::optional(std::move(use)) : std::nullopt;
 }
@@ -533,8 +591,11 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
         }
         return std::nullopt;
     }
-    if (!line_of_.contains(record.id)) {
-        line_of_[record.id] = value.result;
+    std::vector<const laboratory::CalibrationResult*>& lines = lines_of_[record.id];
+    for (const laboratory::CalibrationResult* line : {value.result, value.other}) {
+        if (line != nullptr && std::find(lines.begin(), lines.end(), line) == lines.end()) {
+            lines.push_back(line);
+        }
     }
     std::string of_value = value.unit;
     double estimate = value.value;
@@ -568,7 +629,13 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
     }
     const std::string source = record.id + ", certificate " + value.calibration->certificate;
     json components = json::array();
-    json calibration{{"name", "calibration of " + record.id}, {"value", change->value(estimate)}, {"source", source}};
+    const auto named = [&](const std::string& name, const char* kind) {
+        components_[{name, source}] = {kind, record.id, value.calibration->certificate, value.calibration->calibrated};
+        return name;
+    };
+    json calibration{{"name", named("calibration of " + record.id, "calibration")},
+                     {"value", change->value(estimate)},
+                     {"source", source}};
     const double U = change->difference(value.U);
     if (value.k && *value.k == 1.0) {
         calibration["u"] = U;
@@ -588,10 +655,10 @@ std::optional<json> LaboratoryUse::components_of(const StandardRecord& record, c
                               {"source", source}});
     };
     if (value.interpolation_half_width > 0.0) {
-        add_uniform("interpolation of " + record.id, value.interpolation_half_width);
+        add_uniform(named("interpolation of " + record.id, "interpolation"), value.interpolation_half_width);
     }
     const Drift& drift = value.drift;
-    const std::string since = "drift of " + record.id + " since " + value.calibration->calibrated;
+    const std::string since = named("drift of " + record.id + " since " + value.calibration->calibrated, "drift");
     if (drift.half_width > 0.0) {
         add_uniform(since, drift.half_width);
     } else if (drift.u > 0.0 || drift.value != 0.0) {
@@ -644,9 +711,13 @@ const std::string& LaboratoryUse::day_of_work() {
     }
     if (data.is_object() && data.contains("dates") && data["dates"].is_object()) {
         const std::string to = text_in(data["dates"], "performed_to");
-        const std::string day = to.empty() ? text_in(data["dates"], "performed_from") : to;
+        const std::string from = text_in(data["dates"], "performed_from");
+        const std::string day = to.empty() ? from : to;
         if (certificate::calendar_date(day)) {
             day_of_work_ = day;
+        }
+        if (certificate::calendar_date(from)) {
+            first_day_of_work_ = from;
         }
     }
     return *day_of_work_;
@@ -854,11 +925,8 @@ json LaboratoryUse::row_of(const StandardRecord& record, const std::string& day)
     set_if_stated(row, "evidence", last.evidence);
     set_if_stated(row, "valid_to", last.valid_to);
     set_if_stated(row, "sha256", last.sha256);
-    const auto used = line_of_.find(record.id);
-    const laboratory::CalibrationResult& line = used != line_of_.end() ? *used->second : last.results.front();
-    row["U"] = line.U;
-    row["k"] = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
-    row["unit"] = gum::unit_of_difference(line.unit);
+    const auto used = lines_of_.find(record.id);
+    put_uncertainty(row, used != lines_of_.end() ? used->second : std::vector{&last.results.front()});
     return row;
 }
 
@@ -870,25 +938,26 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
                                          .stated = a,
                                          .registered = b});
     };
-    const std::optional<double> U = U_in_si(stated);
     for (const auto& [key, value] : stated.items()) {
         if (key == "name" || key == "identification" || value.is_discarded()) {
             continue;  // a name may be worded for the reader of a certificate
         }
         const auto registered = row.find(key);
-        if (key == "U" || key == "k" || key == "unit") {
+        if (key == "U" || key == "U_to" || key == "k" || key == "unit") {
             // Of any of its lines, in any unit.
             const laboratory::Calibration* calibration = laboratory::calibration_on(record, text_in(row, "calibrated"));
+            const std::optional<double> U = U_in_si(stated, key == "U_to" ? "U_to" : "U");
             bool fits = false;
             for (const laboratory::CalibrationResult& line : calibration->results) {
                 const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
-                const double k = line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
+                const double k = factor_of(line);
                 fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
                                            : U && std::abs(*U - of_line) <= k_same_U * of_line);
             }
-            if (!fits && (key == "k" || (key == "U" && U))) {
-                contradict(key, described(value) + (key == "U" ? " " + text_in(stated, "unit") : std::string()),
-                           described(*registered) + (key == "U" ? " " + text_in(row, "unit") : std::string()));
+            if (!fits && (key == "k" || (key != "unit" && U))) {
+                const auto of_row = registered == row.end() ? row.find("U") : registered;
+                contradict(key, described(value) + (key != "k" ? " " + text_in(stated, "unit") : std::string()),
+                           described(*of_row) + (key != "k" ? " " + text_in(row, "unit") : std::string()));
             }
         } else if (registered == row.end() ? value.is_string() : *registered != value) {
             contradict(key, described(value), registered == row.end() ? "nothing" : described(*registered));
@@ -930,10 +999,12 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
             }
             continue;
         }
+        note_day(*record, day);
         const json row = row_of(*record, day);
         compare_standard(entry, row, *record, pointer);
+        const bool states_U = entry.contains("U");  // and whether it is that of several lines
         for (const auto& [key, value] : row.items()) {
-            if (!entry.contains(key)) {
+            if (!entry.contains(key) && !(key == "U_to" && states_U)) {
                 entry[key] = value;
             }
         }

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,13 @@
 #include "laboratory/standard_value.h"
 
 namespace gumcert::jobs {
+
+/// What a component is that a standard of the register puts into an input; its name and its source say so in English.
+struct StandardComponent {
+    std::string kind;  ///< "calibration", "interpolation", "drift"
+    std::string standard, certificate;
+    std::string since;  ///< day of the calibration
+};
 
 /// What a job takes from the folder of the laboratory, put where the job refers to it, before the job is read: the readers
 /// know statements of uncertainty and certificate data only, wherever they come from.
@@ -51,6 +59,10 @@ public:
     [[nodiscard]] static std::pair<std::string_view, std::string_view> reference_column(std::string_view column);
     [[nodiscard]] static std::span<const std::string_view> reference_keys();
 
+    /// By name and source of the component.
+    using StandardComponents = std::map<std::pair<std::string, std::string>, StandardComponent>;
+    [[nodiscard]] const StandardComponents& components() const { return components_; }
+
     void complete(JsonDocument& document, const CertificatePlace& place) override;
 
     /// What the gates hold against the certificate; none without a folder.
@@ -66,6 +78,8 @@ private:
                   std::size_t row, const std::string& input, ProblemList& problems);
     [[nodiscard]] const laboratory::StandardRecord* standard_of(const Json& id, const CertificatePlace& place);
     void note_use(const std::string& standard);
+    /// Notes for the gates where the plan of a standard wants it calibrated before a day of its use.
+    void note_day(const laboratory::StandardRecord& record, const std::string& day);
     /// "" where it is left out; nothing where it was refused.
     [[nodiscard]] static std::optional<std::string> read_take(const JsonDocument& job, const Json& statement,
                                                               const std::string& pointer, ProblemList& problems);
@@ -95,12 +109,16 @@ private:
     const JsonDocument& job_;
     ProblemList& problems_;
     std::optional<LaboratoryFolder> folder_;
+    StandardComponents components_;
     std::optional<std::string> day_of_work_;
+    std::string first_day_of_work_;                              ///< "": not stated; read with day_of_work_
+    std::set<std::pair<std::string, std::string>> days_of_use_;  ///< of the standards
     certificate::LaboratoryRegister facts_;
-    std::vector<std::string> used_;                                        ///< standards, in the order of the inputs
-    std::map<std::string, std::vector<std::string>> inputs_of_;            ///< of a standard
-    std::map<std::string, const laboratory::CalibrationResult*> line_of_;  ///< the first line that an input takes
-    std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;     ///< by row and input
+    std::vector<std::string> used_;                              ///< standards, in the order of the inputs
+    std::map<std::string, std::vector<std::string>> inputs_of_;  ///< of a standard
+    std::map<std::string, std::vector<const laboratory::CalibrationResult*>>
+        lines_of_;                                                      ///< that inputs take, each once
+    std::map<std::pair<std::size_t, std::string>, JsonDocument> rows_;  ///< by row and input
     std::map<std::string, Json> once_;  ///< by input: standard, how it is used, and components, as the job states them
 };
 

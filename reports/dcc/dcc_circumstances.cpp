@@ -106,9 +106,16 @@ void standard(DccWriter& w, const certificate::StandardUsed& s) {
     line("calibrated", s.calibrated);
     line("valid_to", s.valid_to);
     // Quantities of equipment have no place for the definition of a unit.
-    const bool has_quantity = s.U && !needs_unit_definition(s.unit);
+    // One quantity would state one U for all that was used.
+    const bool has_quantity = s.U && !s.U_to && !needs_unit_definition(s.unit);
     line("k", s.k && !has_quantity ? words.number(d_si_number(*s.k)) : Text());
-    line("standard_U", s.U && !has_quantity ? words.number(d_si_number(*s.U)) + (" " + s.unit) : Text());
+    const auto with_unit_of = [&](double U) { return words.number(d_si_number(U)) + (" " + s.unit); };
+    if (s.U && s.U_to) {
+        line("standard_U",
+             words.filled("certificate", "from_to", {{"low", with_unit_of(*s.U)}, {"high", with_unit_of(*s.U_to)}}));
+    } else if (s.U && !has_quantity) {
+        line("standard_U", with_unit_of(*s.U));
+    }
     w.optional_text("dcc:description", description);
     certificate_of(w, s);
     if (!without_outer_blanks(s.identification).empty()) {

@@ -44,6 +44,7 @@ struct Context {
     std::size_t table = 0;
     /// That the next element around it refers to: one for all rows, or one a row. Null: none.
     std::shared_ptr<const std::vector<std::size_t>> items;
+    bool before_adjustment = false;
 };
 
 bool is_name_character(char c) {
@@ -593,6 +594,7 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
         imported.id = quantity.attribute("id");
         imported.role = context.role;
         imported.table = context.table;
+        imported.before_adjustment = context.before_adjustment;
         if (main.list) {
             imported.row = row;
         }
@@ -665,6 +667,22 @@ std::vector<std::size_t> Reader::items_of(const XmlElement& element) const {
     return found;
 }
 
+/// Whether the results in an element are those before an adjustment; nothing where it does not say, or says both.
+std::optional<bool> is_before_adjustment(const XmlElement& element) {
+    const XmlElement* const conditions = element.child("dcc:influenceConditions");
+    bool before = false, after = false;
+    if (conditions != nullptr) {
+        for (const XmlElement* condition : conditions->children_named("dcc:influenceCondition")) {
+            const XmlElement* const status = condition->child("dcc:status");
+            const std::vector<std::string> words =
+                status == nullptr ? std::vector<std::string>() : xml_list(status->text);
+            before = before || (words.size() == 1 && words.front() == "beforeAdjustment");
+            after = after || (words.size() == 1 && words.front() == "afterAdjustment");
+        }
+    }
+    return before == after ? std::nullopt : std::optional(before);
+}
+
 void Reader::walk(const XmlElement& element, Context context) {
     static constexpr std::array<std::pair<const char*, const char*>, 7> k_roles{
         {{"dcc:influenceCondition", "influence_condition"},
@@ -679,6 +697,7 @@ void Reader::walk(const XmlElement& element, Context context) {
             context.role = role;
         }
     }
+    context.before_adjustment = is_before_adjustment(element).value_or(context.before_adjustment);
     if (element.name == "dcc:list") {
         context.table = ++tables_;
     } else if (element.name == "dcc:metaData") {

@@ -36,7 +36,8 @@ struct ImportedQuantity : ImportedNumber {
     std::optional<std::size_t> row;  ///< in a list, from 0
     /// What the number is about, where the document has several items and refers to one: in ImportedCertificate::items
     std::optional<std::size_t> about;
-    std::size_t table = 0;  ///< quantities of one dcc:list share a number; 0 outside of any
+    bool before_adjustment = false;  ///< by dcc:status of its influence conditions, or of those of what it is part of
+    std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
     /// dcc:conformity of its row ("pass", "fail", "conditionalPass" …), the first that is not "noPass"; "" without one

@@ -158,7 +158,8 @@ std::string unit_in_group(const certificate::TableRequest& table, const std::str
     return found;
 }
 
-/// The rows of a group in the unit of the group, with as many decimals as the finest of them was written with.
+/// The rows of a group in the unit of the group, with as many decimals as the finest of them was written with. A value that
+/// was computed keeps its own: zeros behind the place at which its uncertainty ends would claim what nobody knows.
 certificate::PointColumn in_group(const certificate::PointColumn& all, const std::vector<std::size_t>& rows,
                                   const std::string& unit) {
     certificate::PointColumn column = all;
@@ -172,8 +173,9 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
             decimals = std::max(decimals, certificate::decimals_of(all.printed[row]));
         }
     }
+    const bool is_computed = all.decimals == "of_uncertainty";
     if (unit == all.unit) {
-        for (std::size_t i = 0; i < column.values.size(); ++i) {
+        for (std::size_t i = 0; i < column.values.size() && !is_computed; ++i) {
             if (column.values[i]) {
                 column.printed[i] = gum::round_to_quantum(*column.values[i], decimals);
             }
@@ -184,13 +186,15 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
     const gum::Unit to = gum::Unit::parse(unit);
     constexpr double k_noise = 1e-9;
     const double factor = to.difference_from_si(from.difference_to_si(1.0));
-    decimals = std::max(0, decimals - static_cast<int>(std::floor(std::log10(factor) + k_noise)));
+    const int shift = static_cast<int>(std::floor(std::log10(factor) + k_noise));
+    decimals = std::max(0, decimals - shift);
     column.unit = unit;
     column.printed_unit = gum::unit_for_people(unit);
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         if (std::optional<double>& value = column.values[i]) {
             value = to.from_si(from.to_si(*value));
-            column.printed[i] = gum::round_to_quantum(*value, decimals);
+            const int own = certificate::decimals_of(column.printed[i]) - shift;
+            column.printed[i] = gum::round_to_quantum(*value, is_computed ? own : decimals);
         }
     }
     return column;

@@ -64,6 +64,10 @@ struct BudgetRow {
     /// "fit_data", what comes from each column of the data (their squares add up to that of the row), and
     /// "fit_parameter", each parameter alone, which do not add up. "scatter" for the readings of a circle closure
     std::string role = {};
+    /// Of a component that the program named, in English, so that documents name it in theirs: "calibration", "interpolation"
+    /// and "drift" are those of a standard of the register, by a certificate, since its day; "readings", "resolution". "" else
+    std::string part = {};
+    std::string standard = {}, certificate = {}, since = {};
 };
 
 /// What the correlations of the inputs add to the variance of a result: 2 Σ c_i c_j u_i u_j r_ij, often negative.

@@ -39,6 +39,10 @@ void describe(Archive& a, Struct& r) {
     a("source", r.source);
     a.added("components", r.components);
     a.added("role", r.role, {"", "fit", "fit_data", "fit_parameter", "scatter"});
+    a.stated("part", r.part, {"", "calibration", "interpolation", "drift", "readings", "resolution"});
+    a.stated("standard", r.standard);
+    a.stated("certificate", r.certificate);
+    a.stated("since", r.since);
 }
 
 template <class Archive, certificate::Described<CorrelationRow> Struct>

@@ -430,12 +430,25 @@ std::string type_of(const BudgetRow& row) {
     return types.size() > 1 ? "A, B" : row.type;
 }
 
+/// The name of a row in the languages of the document, where the program gave it.
+Text name_of_row(const BudgetRow& row, const Wording& words) {
+    return row.part.empty() ? Text(row.input)
+                            : words.filled("budget_part", row.part, {{"standard", row.standard}, {"since", row.since}});
+}
+
+/// The same of its source.
+Text source_of_row(const BudgetRow& row, const Wording& words) {
+    return row.certificate.empty()
+               ? Text(row.source)
+               : words.filled("budget_part", "source", {{"standard", row.standard}, {"certificate", row.certificate}});
+}
+
 std::vector<Text> budget_line(const BudgetRow& row, const Result& result, bool part, const Wording& words) {
     const auto bracketed = [&](const std::string& text) { return part && !text.empty() ? "(" + text + ")" : text; };
     const bool is_joint = row.role == "fit" || row.role == "fit_data";
     return {is_joint ? words.filled("label", row.role == "fit" ? "fit_of" : "data_of", {{"name", row.input}})
             : row.role == "scatter" ? words("label", "scatter_of_readings")
-                                    : Text(row.input),
+                                    : name_of_row(row, words),
             with_unit(row.value.text, gum::unit_for_people(row.unit)),
             with_unit(row.u.text, gum::unit_for_people(difference_unit(row.unit))),
             distribution_name(row.distribution, words),
@@ -483,7 +496,7 @@ void budget(CertificateBuilder& builder, const Wording& words, const Result& res
 /// Where the uncertainties of the inputs come from: standards, instruments, certificates.
 void sources(CertificateBuilder& builder, const Wording& words, const std::vector<const Result*>& shown) {
     Facts all;
-    const auto add = [&](const std::string& name, const std::string& source) {
+    const auto add = [&](const Text& name, const Text& source) {
         const std::pair<Text, Text> entry(name, source);
         if (!source.empty() && std::find(all.begin(), all.end(), entry) == all.end()) {
             all.push_back(entry);
@@ -491,9 +504,9 @@ void sources(CertificateBuilder& builder, const Wording& words, const std::vecto
     };
     for (const Result* result : shown) {
         for (const BudgetRow& row : result->budget) {
-            add(row.input, row.source);
+            add(row.input, source_of_row(row, words));
             for (const BudgetRow& part : row.components) {
-                add(row.input + ": " + part.input, part.source);
+                add(Text(row.input + ": ") + name_of_row(part, words), source_of_row(part, words));
             }
         }
     }

@@ -74,7 +74,12 @@ std::string with_decimal_signs(const std::string& drawing, const std::string& si
 
 std::string plain(double v) {
     constexpr double k_least = 1e-7;
-    const std::string text = text::shortest_plain(v, k_least);
+    std::string text = text::shortest_plain(v, k_least);
+    if (const std::size_t e = text.find('e'); e != std::string::npos) {  // "2e-08" as it is printed elsewhere, "2E-8"
+        text[e] = 'E';
+        const std::size_t first = e + (text[e + 1] == '-' || text[e + 1] == '+' ? 2 : 1);
+        text.erase(first, text[first] == '0' ? 1 : 0);
+    }
     return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
 }
 

@@ -46,7 +46,7 @@ std::pair<std::string, std::string> with_equal_decimals(double a, double b) {
     const std::size_t most = std::max(decimals(texts.first), decimals(texts.second));
     for (std::string* text : {&texts.first, &texts.second}) {
         const std::size_t own = decimals(*text);
-        if (own < most && (texts.first + texts.second).find('e') == std::string::npos) {
+        if (own < most && (texts.first + texts.second).find('E') == std::string::npos) {
             *text += (own == 0 ? "." : "") + std::string(most - own, '0');
         }
     }
@@ -212,9 +212,13 @@ void method_section(CertificateBuilder& builder, const Wording& words, const Cer
     builder.definitions(rows);
 }
 
-/// "0.30 µm (k = 2)"
+/// "0.30 µm (k = 2)", "0.02 mg to 0.1 mg (k = 2)"
 Text headline_uncertainty(const certificate::StandardUsed& s, const Wording& words) {
-    Text text = stated_number(s.U, gum::unit_for_people(s.unit), words);
+    const std::string unit = gum::unit_for_people(s.unit);
+    Text text = stated_number(s.U, unit, words);
+    if (s.U && s.U_to) {
+        text = words.filled("certificate", "from_to", {{"low", text}, {"high", stated_number(s.U_to, unit, words)}});
+    }
     return text.empty() || !s.k ? text : text + " (k\u00A0=\u00A0" + words.number(plain(*s.k)) + ")";
 }
 

@@ -162,6 +162,7 @@ inline certificate::CertificateData complete_certificate_data() {
     d.method.deviations = {gumcert::test::in_two_languages("Reduced number of positions.", "Weniger Positionen.")};
     d.standards.front().evidence = "Comparison report CR-7";
     d.standards.front().conformity_statement_only = true;
+    d.standards.front().U_to = 0.05;
     d.persons.authorised_by->authorised_to = "2027-12-31";
     d.persons.performed_by->authorised_from = d.persons.reviewed_by->authorised_from = "2024-01-01";
     d.persons.performed_by->authorised_to = d.persons.reviewed_by->authorised_to = "2027-12-31";

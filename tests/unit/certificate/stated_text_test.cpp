@@ -93,5 +93,19 @@ TEST(StatedText, TakesAnyBytes) {
     }
 }
 
+// Standards of Europe, Ecuador, India, Australia … are named by letters that are words elsewhere.
+TEST(StatedText, LettersAndANumberNameADocument) {
+    for (const char* letters : {"EN", "ES", "IS", "AS", "SE", "LA", "DE", "AN", "IT", "DIN EN", "BS EN", "UNE-EN",
+                                "EN ISO", "EN IEC", "OIML R", "JJG"}) {
+        for (const char* number : {" 837-1", " 13160", "-837", " 60751:2022", " 10"}) {
+            EXPECT_TRUE(is_name_of_document(std::string(letters) + number)) << letters << number;
+        }
+    }
+    for (const char* text : {"en 837-1", "EN", "EN 1", "EN837", "see above", "NO 12", "ID 100", "SN 4711", "NA 12",
+                             "TBD 100", "N/A", "document 12", "12", "12 EN", ""}) {
+        EXPECT_FALSE(is_name_of_document(text)) << text;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

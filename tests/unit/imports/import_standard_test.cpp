@@ -71,5 +71,74 @@ TEST(ImportStandard, NeedsAnUncertainty) {
     }
 }
 
+std::string list_of(const std::string& ref_type, const std::string& values, const std::string& unit,
+                    const std::string& U, const std::string& status = "") {
+    return "<dcc:quantity refType='" + ref_type + "'><dcc:name><dcc:content>" + ref_type +
+           "</dcc:content></dcc:name><si:realListXMLList><si:valueXMLList>" + values +
+           "</si:valueXMLList><si:unitXMLList>" + unit + "</si:unitXMLList>" +
+           (U.empty()
+                ? ""
+                : "<si:measurementUncertaintyUnivariateXMLList><si:expandedMUXMLList><si:valueExpandedMUXMLList>" + U +
+                      "</si:valueExpandedMUXMLList><si:coverageFactorXMLList>2</si:coverageFactorXMLList>"
+                      "<si:coverageProbabilityXMLList>0.95</si:coverageProbabilityXMLList></si:expandedMUXMLList>"
+                      "</si:measurementUncertaintyUnivariateXMLList>") +
+           "</si:realListXMLList>" +
+           (status.empty()
+                ? ""
+                : "<dcc:influenceConditions><dcc:influenceCondition><dcc:name><dcc:content>stage</dcc:content>"
+                  "</dcc:name><dcc:status>" +
+                      status +
+                      "</dcc:status><dcc:data><dcc:text><dcc:content>stage</dcc:content></dcc:text></dcc:data>"
+                      "</dcc:influenceCondition></dcc:influenceConditions>") +
+           "</dcc:quantity>";
+}
+
+ImportedJob import_list(const std::string& quantities) {
+    std::string bytes = certificate_with("");
+    const std::string begin = "<dcc:data>";
+    const std::string end = "</dcc:data></dcc:result>";
+    const std::size_t from = bytes.find(begin) + begin.size();
+    bytes.replace(from, bytes.find(end) - from, "<dcc:list>" + quantities + "</dcc:list>");
+    return import_standard(bytes, "certificate.xml", "STD-2");
+}
+
+// Without nominal values nothing can be used "at" a value, nor interpolated.
+TEST(ImportStandard, RowsOfATableAreLinesOfOneQuantity) {
+    for (const std::string type : {"basic_nominalValue", "basic_nominalValue gumcert_p_n", "basic_referenceValue"}) {
+        for (const bool is_celsius : {true, false}) {
+            const std::string unit = is_celsius ? "\\degreecelsius" : "\\kelvin";
+            const ImportedJob imported =
+                import_list(list_of(type, "0 50 100", unit, "") +
+                            list_of("basic_measurementError", "0.1 0.2 0.3", "\\kelvin", "0.01 0.02 0.03"));
+            const nlohmann::json lines = nlohmann::json::parse(imported.job)["calibrations"][0]["results"];
+            ASSERT_EQ(lines.size(), 3U) << type;
+            for (std::size_t i = 0; i < 3; ++i) {
+                EXPECT_EQ(lines[i]["quantity"], lines[0]["quantity"]);
+                EXPECT_EQ(lines[i]["nominal"], 50.0 * static_cast<double>(i));
+                EXPECT_EQ(lines[i].value("nominal_unit", ""), is_celsius ? "degC" : "");
+                EXPECT_NEAR(lines[i]["U"].get<double>(), 0.01 * static_cast<double>(i + 1), 1e-12);
+            }
+        }
+    }
+    const ImportedJob twice =
+        import_list(list_of("basic_nominalValue", "0 50 50", "\\kelvin", "") +
+                    list_of("basic_measurementError", "0.1 0.2 0.3", "\\kelvin", "0.01 0.02 0.03"));
+    const nlohmann::json lines = nlohmann::json::parse(twice.job)["calibrations"][0]["results"];
+    EXPECT_NE(lines[1]["quantity"], lines[2]["quantity"]) << "nominal values do not tell the rows apart";
+}
+
+TEST(ImportStandard, ResultsBeforeAnAdjustmentAreNoValuesOfTheStandard) {
+    const std::string nominal = list_of("basic_nominalValue", "0 50", "\\kelvin", "");
+    const ImportedJob imported =
+        import_list(nominal + list_of("e_f", "0.5 0.6", "\\kelvin", "0.01 0.02", "beforeAdjustment") +
+                    list_of("e_l", "0.1 0.2", "\\kelvin", "0.01 0.02", "afterAdjustment"));
+    const nlohmann::json lines = nlohmann::json::parse(imported.job)["calibrations"][0]["results"];
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0]["value"], 0.1);
+    EXPECT_THAT(imported.remarks, testing::Contains(testing::Field(&gum::Diagnostic::code, "GC-LAB-0022")));
+    EXPECT_THROW((void)import_list(nominal + list_of("e_f", "0.5 0.6", "\\kelvin", "0.01 0.02", "beforeAdjustment")),
+                 gum::InputError);
+}
+
 }  // namespace
 }  // namespace gumcert::imports

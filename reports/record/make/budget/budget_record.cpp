@@ -87,6 +87,27 @@ BudgetRow budget_row(const std::string& name, const Unit& unit, const gum::Input
     return row;
 }
 
+/// Says of which standard the value of a row is, by which certificate.
+const jobs::StandardComponent* name_standard(BudgetRow& row, const StatedQuantity& component, const BudgetJob& job) {
+    const auto of = job.standard_components.find({component.name, component.source});
+    if (of == job.standard_components.end()) {
+        return nullptr;
+    }
+    row.standard = of->second.standard;
+    row.certificate = of->second.certificate;
+    return &of->second;
+}
+
+/// Says what a component is that the program named.
+void name_part(BudgetRow& row, const StatedQuantity& component, const BudgetJob& job) {
+    if (const jobs::StandardComponent* const of = name_standard(row, component, job)) {
+        row.part = of->kind;
+        row.since = of->since;
+    } else if (job.own_components.contains(component.name)) {
+        row.part = component.name;
+    }
+}
+
 /// Whether a symbol has a row in the budgets of a point: of a section, where its equations use it.
 bool has_row(const gum::BudgetPointResult& point, std::size_t symbol) {
     return !point.section || point.model->is_of_symbols() || point.model->uses(symbol);
@@ -113,6 +134,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
         BudgetRow row = budget_row(input.name, input.unit, total, sensitivity[i], unit, u);
         row.type = reports::type_letter(first.evaluation);
         row.source = first.source;
+        (void)name_standard(row, first, job);
         row.distribution = std::string(gum::distribution_name(first.distribution.kind));
         if (input.components.size() == 1) {
             row.value = {first.stated_value, printed_estimate(first.stated_value, row.u.number)};
@@ -124,6 +146,7 @@ std::vector<BudgetRow> budget_rows(const BudgetJob& job, const gum::BudgetResult
                 part.value = {component.stated_value, printed_estimate(component.stated_value, part.u.number)};
                 part.type = reports::type_letter(component.evaluation);
                 part.source = component.source;
+                name_part(part, component, job);
                 part.distribution = std::string(gum::distribution_name(component.distribution.kind));
                 if (component.evaluation == gum::Evaluation::type_b) {
                     row.type = "B";

@@ -59,6 +59,15 @@ TEST(RegisterGate, StandardsStandInRegisterAndList) {
                    "T13", "ISO/IEC 17025:2017, 7.8.4.1 c", k_minor, "/standards");
 }
 
+TEST(RegisterGate, APlanOfTheLaboratoryBindsIt) {
+    const Finding finding = only(with_register([](CertificateData&, LaboratoryRegister& r) {
+        r.overdue = {{"STD-1", "2026-11-19", "2026-02-03"}};
+    }));
+    expect_finding(finding, "T14", "ISO/IEC 17025:2017, 6.4", k_critical, "/standards");
+    EXPECT_THAT(finding.what, testing::HasSubstr("used on 2026-11-19"));
+    EXPECT_THAT(finding.what, testing::HasSubstr("due on 2026-02-03"));
+}
+
 TEST(RegisterGate, OnlyARegisteredSignatoryAuthorises) {
     const auto signatory = [](const std::function<void(LaboratoryRegister::Signatory&)>& change) {
         return only(with_register([&](CertificateData&, LaboratoryRegister& r) { change(r.signatories.front()); }));

@@ -448,5 +448,67 @@ TEST(BudgetJob, HasTheDocumentedDefaults) {
     EXPECT_EQ(job.inputs[0].unit.text(), "1");
 }
 
+/// The same readings as columns of a file and as a list in the job, with what the input states beside them.
+std::vector<BudgetJob> with_readings(const std::string& beside, const std::string& more = "") {
+    const auto keys = [&](const std::string& points) {
+        return R"j("model": ["e = p - s)j" + std::string(more.empty() ? "" : " + d") +
+               R"j("], "inputs": {"p": {"unit": "bar")j" + beside +
+               R"j(}, "s": {"unit": "mbar", "value": 1, "u": 1})j" + more +
+               R"j(}, "outputs": {"e": {"unit": "bar"}}, "points": )j" + points;
+    };
+    std::vector<BudgetJob> jobs;
+    jobs.push_back(test::read_budget(keys(R"({"file": "points.csv"})"),
+                                     {{"points.csv", "p.1,p.2,p.3\n0.00,0.00,0.00\n10.00,10.05,10.05\n"}}));
+    jobs.push_back(test::read_budget(
+        keys(R"([{"p": {"observations": [0.00, 0.00, 0.00]}}, {"p": {"observations": [10.00, 10.05, 10.05]}}])")));
+    return jobs;
+}
+
+// A gauge at zero shows equal readings every day: its resolution is the contribution then (JCGM 100:2008, F.2.2.1).
+TEST(BudgetJobTest, ReadingsStandBesideWhatTheDisplayAdds) {
+    const double u_display = 0.05e5 / std::sqrt(12.0);
+    for (const std::string beside :
+         {R"(, "resolution": 0.05)", R"(, "components": [{"name": "display", "value": 0, "resolution": 0.05}])"}) {
+        SCOPED_TRACE(beside);
+        for (const BudgetJob& job : with_readings(beside)) {
+            EXPECT_THAT(job.warnings, testing::IsEmpty());
+            for (std::size_t p = 0; p < 2; ++p) {
+                const gum::BudgetInput& input = gum::input_at(job, 0, p);
+                ASSERT_EQ(input.components.size(), 2U);
+                EXPECT_EQ(input.components[0].name, "readings");
+                EXPECT_EQ(input.components[0].observations.size(), 3U);
+                EXPECT_NEAR(input.components[1].u, u_display, 1e-9 * u_display);
+                const double u_readings = p == 0 ? 0.0 : 0.05e5 / 3.0;  // s = 0.05/√3, over √3
+                EXPECT_NEAR(input.components[0].u, u_readings, 1e-9 * u_display);
+                EXPECT_NEAR(gum::input_total(input).u, std::hypot(u_readings, u_display), 1e-9 * u_display);
+                EXPECT_NEAR(gum::input_total(input).value, p == 0 ? 0.0 : 1.00333333333e6, 1e-2);
+            }
+        }
+    }
+}
+
+TEST(BudgetJobTest, EqualReadingsAreToldWhereAnotherInputHoldsTheResolution) {
+    for (const std::string d : {R"(, "d": {"unit": "mbar", "value": 0, "resolution": 50})",
+                                R"(, "d": {"unit": "bar", "components": [{"name": "x", "resolution": 0.05}]})"}) {
+        for (const BudgetJob& job : with_readings("", d)) {
+            ASSERT_EQ(job.warnings.size(), 1U) << d;
+            EXPECT_EQ(job.warnings[0].code, "GC-WARN-0011");
+            EXPECT_THAT(gum::message(job.warnings[0]), testing::HasSubstr("resolution of \"d\""));
+            EXPECT_EQ(gum::input_total(gum::input_at(job, 0, 0)).u, 0.0);
+        }
+    }
+}
+
+TEST(BudgetJobTest, EqualReadingsWithoutAResolutionAreRefused) {
+    for (const std::string d : {"", R"(, "d": {"unit": "bar", "value": 0, "u": 0.05})",
+                                R"(, "d": {"unit": "K", "value": 0, "resolution": 0.05})"}) {
+        const std::vector<gum::Diagnostic> refused = test::budget_refusals(
+            R"j("model": ["e = p"], "inputs": {"p": {"unit": "bar", "observations": [1, 1, 1]})j" + d + "}");
+        ASSERT_EQ(refused.size(), 1U) << d;
+        EXPECT_EQ(refused[0].code, "GC-INPUT-0305");
+        EXPECT_THAT(refused[0].action, testing::HasSubstr("state \"resolution\" beside them"));
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::jobs

@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include "certificate/statement_of_uncertainty.h"
+#include "gum/budget/budget.h"
 
 #include "jobs/input_codes.h"
 #include "tests/support/budget_campaign.h"
@@ -204,6 +208,110 @@ TEST(BudgetTables, RefuseAPointWithoutTheLimitsOfItsSpecification) {
     EXPECT_TRUE(budget_refusals(limits(R"j({"by": "accuracy", "of": "V_s", "accuracy": [{"percent_of_reading": 1}]})j"),
                                 k_points)
                     .empty());
+}
+
+/// A standard with four calibrations of four nominal values.
+std::string calibrated_standard(const std::string& drift, const std::string& interpolation) {
+    std::string calibrations;
+    const std::vector<std::string> days{"2022-03-01", "2023-03-06", "2024-03-04", "2026-03-02"};
+    for (std::size_t c = 0; c < days.size(); ++c) {
+        std::string lines;
+        for (int n = 0; n <= 60; n += 20) {
+            const double value = n * 1.0001 + 0.001 * static_cast<double>(c * (c % 2U + 1U));
+            lines += (n > 0 ? "," : "") + std::string(R"({"nominal": )") + std::to_string(n) + R"(, "value": )" +
+                     std::to_string(value) + R"(, "unit": "bar", "U": )" + std::to_string(0.004 + n * 1e-4) +
+                     R"(, "k": 2, "nu": 30})";
+        }
+        calibrations += (c > 0 ? "," : "") + std::string(R"({"calibrated": ")") + days[c] +
+                        R"(", "valid_to": "2027-03-31", "certificate": "C", "issuer": "I", "route": "2",
+                            "issuer_accreditation": "A", "results": [)" +
+                        lines + "]}";
+    }
+    return R"({"schema": "gumcert/standard/1", "id": "PR-1", "description": "Calibrator", "calibrations": [)" +
+           calibrations + R"(], "drift": )" + drift +
+           (interpolation.empty() ? "" : R"(, "interpolation": ")" + interpolation + "\"") + "}";
+}
+
+// Readers of a certificate take every printed digit of a reference value for one that somebody measured.
+TEST(BudgetTables, PrintNoDigitOfAStandardBehindItsUncertainty) {
+    for (const char* drift :
+         {R"({"model": "none", "reason": "r"})", R"({"model": "limit_per_year", "limit": 0.0123, "unit": "bar"})",
+          R"({"model": "linear", "weights": "equal"})", R"({"model": "linear", "weights": "by_uncertainty"})",
+          R"({"model": "last_difference"})"}) {
+        for (const std::string interpolation : {"", "nearest", "linear"}) {
+            for (const std::string take : {"value", "deviation"}) {
+                SCOPED_TRACE(drift + (" " + interpolation + " " + take));
+                const std::string at = interpolation.empty() ? "0\n20\n40\n60\n" : "0\n7\n20\n31.3\n40\n59\n60\n";
+                const BudgetJob job = read_budget(
+                    R"j("laboratory": "lab", "model": ["E = p_x - p_s"], "inputs": {
+                        "p_x": {"unit": "bar", "value": 1, "u": 0.1},
+                        "p_s": {"standard": "PR-1", "unit": "bar", "date": "2026-11-19", "take": ")j" +
+                        take + R"j("}}, "outputs": {"E": {"unit": "bar"}}, "points": {"file": "points.csv"},
+                        "tables": [{"columns": ["p_s", "E", "U"]}])j",
+                    {{"points.csv", "p_s.at\n" + at},
+                     {"lab/standards/PR-1.json", calibrated_standard(drift, interpolation)}});
+                const auto column = std::find_if(job.point_columns.begin(), job.point_columns.end(),
+                                                 [](const auto& c) { return c.name == "p_s"; });
+                ASSERT_NE(column, job.point_columns.end());
+                EXPECT_EQ(column->decimals, "of_uncertainty");
+                for (std::size_t p = 0; p < job.points.size(); ++p) {
+                    const double u =
+                        job.inputs[1].unit.difference_from_si(gum::input_total(gum::input_at(job, 1, p)).u);
+                    ASSERT_GT(u, 0.0);
+                    const int justified = 1 - static_cast<int>(std::floor(std::log10(u)));  // two digits of u
+                    EXPECT_LE(certificate::decimals_of(column->printed[p]), justified) << column->printed[p];
+                    EXPECT_NEAR(certificate::number_of(column->printed[p]).value(), column->values[p].value(),
+                                0.51 * std::pow(10.0, 1 - justified));
+                }
+            }
+        }
+    }
+}
+
+TEST(BudgetTables, RoundMeansThatTheJobStatesToo) {
+    const BudgetJob job = read_budget(R"j("model": ["E = x - m - n"], "inputs": {
+            "x": {"unit": "V"}, "n": {"unit": "V", "value": 0.125, "u": 0.1},
+            "m": {"unit": "V", "observations": [1.01, 1.02, 1.02]}},
+            "outputs": {"E": {"unit": "V"}},
+            "points": [{"x": {"value": 1, "u": 0.1}}, {"x": {"value": 2, "u": 0.1}}],
+            "tables": [{"columns": ["m", "n", "E", "U"]}])j");
+    for (const certificate::PointColumn& column : job.point_columns) {
+        if (column.name == "m") {  // 1.016666…, u = 0.0033
+            EXPECT_THAT(column.printed, ElementsAre("1.0167", "1.0167"));
+        } else if (column.name == "n") {
+            EXPECT_THAT(column.printed, ElementsAre("0.125", "0.125")) << "as it was written";
+        }
+    }
+}
+
+// What a table shows, or a limit depends on, is used, though no result depends on it.
+TEST(BudgetTables, AndLimitsUseInputs) {
+    const auto warnings = [](const std::string& more) {
+        std::vector<std::string> codes;
+        for (const gum::Diagnostic& one : read_budget(R"j("model": ["E = x"], "inputs": {"x": {"unit": "mm", "u": 0.1},
+                          "n": {"unit": "mm", "constant": true)j" +
+                                                      more + R"j(, "points": [{"x": 1, "n": 10}, {"x": 2, "n": 20}])j")
+                                              .warnings) {
+            codes.push_back(one.code);
+        }
+        return codes;
+    };
+    const std::string outputs = R"j("outputs": {"E": {"unit": "mm"}})j";
+    EXPECT_THAT(warnings("}}, " + outputs), ElementsAre(k_warn_unused_input.code));
+    EXPECT_THAT(warnings(R"j(, "role": "nominal"}}, )j" + outputs), ElementsAre()) << "a column by its role";
+    EXPECT_THAT(warnings("}}, " + outputs + R"j(, "tables": [{"columns": ["n", "E", "U"]}])j"), ElementsAre());
+    const std::string table =
+        outputs + R"j(, "tables": [{"columns": ["E", "U"]}], "certificate": {"status": "specimen")j";
+    EXPECT_THAT(warnings("}}, " + table + "}"), ElementsAre(k_warn_unused_input.code));
+    EXPECT_THAT(warnings("}}, " + table +
+                         R"j(, "specifications": [{"id": "s", "results": ["E"], "unit": "mm", "rule": {"id": "DR-06"},
+                "limits": {"by": "expression", "arguments": [{"name": "L", "unit": "mm", "of": "n"}],
+                           "expression": "0.02 + 0.0001*L"}}]})j"),
+                ElementsAre());
+    EXPECT_THAT(warnings("}}, " + table + R"j(, "accreditation": {"body": "B", "number": "1", "scope": [{"id": "a",
+                "results": ["E"], "capability": {"form": "function", "unit": "mm", "expression": "0.1 + 0*L",
+                "arguments": [{"name": "L", "unit": "mm", "of": "n"}]}}]}})j"),
+                ElementsAre());
 }
 
 }  // namespace

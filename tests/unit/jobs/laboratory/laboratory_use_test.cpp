@@ -7,6 +7,8 @@
 #include <string>
 
 #include "jobs/budget/budget_job.h"
+#include "jobs/laboratory/laboratory_folder.h"
+#include "laboratory/outlook.h"
 #include "tests/support/sample_laboratory.h"
 
 namespace gumcert::jobs {
@@ -199,12 +201,13 @@ std::map<std::string, std::string> files_with_table(const std::string& table, co
 TEST(LaboratoryUseTest, RowsOfATableNameStandards) {
     const auto files = files_with_table(
         "point,V.standard,V.at,V.range,V.date\n"
-        "low,STD-1,10,10 V,2026-01-01\n"
+        "low,STD-1,10,10 V,2026-07-01\n"
         "high,STD-1,,100 V,\n");
     const BudgetJob job = read_budget_job(MemoryFileSource(files), "job.json");
     ASSERT_EQ(job.points.size(), 2U);
     const auto& low = job.points[0].inputs.at(0).second.components;
-    ASSERT_EQ(low.size(), 1U) << "no drift on the day of the calibration";
+    ASSERT_EQ(low.size(), 2U);
+    EXPECT_NEAR(low[1].u, 0.0005 * 181.0 / 365.25 / std::sqrt(3.0), 1e-12) << "to the day that is stated";
     EXPECT_DOUBLE_EQ(low[0].value, 10.002);
     EXPECT_DOUBLE_EQ(low[0].u, 0.001);
     EXPECT_EQ(low[0].source, "STD-1, certificate C-2");
@@ -217,7 +220,7 @@ TEST(LaboratoryUseTest, RowsOfATableNameStandards) {
     auto objects = files_with_table(
         "",
         {{"points",
-          {{{"point", "low"}, {"V", {{"standard", "STD-1"}, {"at", 10}, {"range", "10 V"}, {"date", "2026-01-01"}}}},
+          {{{"point", "low"}, {"V", {{"standard", "STD-1"}, {"at", 10}, {"range", "10 V"}, {"date", "2026-07-01"}}}},
            {{"point", "high"}, {"V", {{"standard", "STD-1"}, {"range", "100 V"}}}}}}});
     const BudgetJob same = read_budget_job(MemoryFileSource(objects), "job.json");
     ASSERT_EQ(same.points.size(), 2U);
@@ -393,6 +396,160 @@ TEST(LaboratoryUseTest, WhatIsWrongInARowIsToldWithItsCell) {
     EXPECT_THAT(first(good + "high,STD-9,100 V\n").where, testing::HasSubstr("lab/standards/STD-9.json"));
     EXPECT_EQ(first("point,V.standard,V.range,V\nlow,STD-1,10 V,3\n").code, "GC-INPUT-0301")
         << "a value of its own beside that of the register";
+}
+
+TEST(LaboratoryUseTest, AStandardIsUsedOnADayOfTheWork) {
+    const auto on = [](const char* date, json dates) {
+        json work = k_work;
+        work["dates"] = std::move(dates);
+        return codes_of_job(job_of({{"V", {{"standard", "STD-1"}, {"date", date}}}}, work));
+    };
+    const json two_days{{"performed_from", "2026-07-01"}, {"performed_to", "2026-07-02"}};
+    const json one_day{{"performed_from", "2026-07-01"}};
+    for (const char* date : {"2026-07-01", "2026-07-02"}) {
+        EXPECT_TRUE(on(date, two_days).empty()) << date;
+    }
+    for (const char* date : {"2026-01-01", "2026-06-30", "2026-07-03", "2027-04-01"}) {
+        EXPECT_THAT(on(date, two_days), testing::ElementsAre("GC-LAB-0111")) << date;
+        EXPECT_THAT(on(date, one_day), testing::ElementsAre("GC-LAB-0111")) << date;
+    }
+    EXPECT_TRUE(on("2026-07-01", one_day).empty());
+}
+
+// What the overview of the folder says of a standard on a day, the gates say of its use on that day.
+TEST(LaboratoryUseTest, TheGatesKnowWhatTheOverviewOfTheFolderSays) {
+    const std::vector<json> plans{{},
+                                  {{"method", "staircase"},
+                                   {"limit", 1},
+                                   {"unit", "V"},
+                                   {"present_days", 60},
+                                   {"extend_by", 1.5},
+                                   {"reduce_by", 0.5}},
+                                  {{"method", "staircase"},
+                                   {"limit", 1},
+                                   {"unit", "mV"},
+                                   {"present_days", 400},
+                                   {"extend_by", 1.2},
+                                   {"reduce_by", 0.7}},
+                                  {{"method", "in_use_time"},
+                                   {"hours", 100},
+                                   {"hours_at_calibration", 0},
+                                   {"readings", {{{"date", "2026-02-01"}, {"hours", 60}}}}}};
+    int overdue = 0;
+    for (const json& plan : plans) {
+        for (const char* valid_to : {"", "2026-03-31", "2028-12-31"}) {
+            for (const char* day : {"2024-12-31", "2025-06-01", "2026-01-01", "2026-02-28", "2026-03-31", "2026-04-01",
+                                    "2026-12-31", "2027-06-30", "2029-01-01"}) {
+                SCOPED_TRACE(plan.dump() + " " + valid_to + " " + day);
+                json standard = json::parse(test::k_sample_standard);
+                if (!plan.is_null()) {
+                    standard["interval"] = plan;
+                }
+                for (json& calibration : standard["calibrations"]) {
+                    calibration.erase("valid_to");
+                }
+                if (*valid_to != '\0') {
+                    standard["calibrations"][1]["valid_to"] = valid_to;
+                }
+                std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+                files["lab/standards/STD-1.json"] = standard.dump();
+                json work = k_work;
+                work["dates"] = {{"performed_from", day}, {"performed_to", day}};
+                files["job.json"] = job_of({{"V", {{"standard", "STD-1"}}}}, work).dump();
+                const MemoryFileSource source(files);
+                JobFiles folder_files(source, "");
+                ProblemList problems("");
+                JsonDocument named;
+                named.value = json{{"laboratory", "lab"}};
+                std::optional<LaboratoryFolder> folder = LaboratoryFolder::of_job(folder_files, named, problems);
+                ASSERT_TRUE(folder);
+                const laboratory::StandardRecord* record = folder->standard("STD-1");
+                ASSERT_NE(record, nullptr);
+                const laboratory::CalibrationState state = laboratory::calibration_outlook(*record, day).state;
+                const certificate::LaboratoryRegister facts = register_of_job(source, "job.json").value();
+                const bool is_blocked = !facts.overdue.empty() || facts.uses.empty() ||  // refused: not calibrated yet
+                                        facts.uses.front().answer == "no";
+                const bool is_out = state == laboratory::CalibrationState::overdue ||
+                                    state == laboratory::CalibrationState::not_calibrated;
+                EXPECT_EQ(is_blocked, is_out);
+                overdue += facts.overdue.empty() ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(overdue, 5);
+}
+
+TEST(LaboratoryUseTest, AListedStandardMayBeOverdueToo) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(test::k_sample_standard);
+    standard["interval"] = {{"method", "staircase"}, {"limit", 1},       {"unit", "V"},
+                            {"present_days", 60},    {"extend_by", 1.5}, {"reduce_by", 0.5}};
+    files["lab/standards/STD-1.json"] = standard.dump();
+    json work = k_work;
+    work["standards"] = {"STD-1"};
+    files["job.json"] = job_of({{"V", {{"value", 1}, {"u", 1}}}}, work).dump();
+    const certificate::LaboratoryRegister facts = register_of_job(MemoryFileSource(files), "job.json").value();
+    ASSERT_EQ(facts.overdue.size(), 1U);
+    EXPECT_EQ(facts.overdue[0].standard, "STD-1");
+    EXPECT_EQ(facts.overdue[0].day, "2026-07-02");
+    EXPECT_EQ(facts.overdue[0].due, "2026-04-01");  // 1.5 of 60 days after the calibration
+}
+
+/// The row of the traceability table of a standard with lines at 10, 20, 30 …, of which points use some.
+certificate::StandardUsed row_of_lines(const json& lines, const std::vector<double>& at, const json& stated = {}) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(test::k_sample_standard);
+    standard["drift"] = {{"model", "none"}, {"reason", "r"}};
+    standard["interpolation"] = "linear";
+    standard["calibrations"].erase(0);
+    standard["calibrations"][0]["results"] = lines;
+    files["lab/standards/STD-1.json"] = standard.dump();
+    json work = k_work;
+    if (!stated.is_null()) {
+        work["standards"] = {stated};
+    }
+    json job = job_of({{"V", {{"standard", "STD-1"}, {"unit", "mV"}}}}, work);
+    job["points"] = json::array();
+    for (const double value : at) {
+        job["points"].push_back({{"V", {{"at", value}}}});
+    }
+    files["job.json"] = job.dump();
+    return read_budget_job(MemoryFileSource(files), "job.json").certificate->standards.at(0);
+}
+
+json line_at(double nominal, double U, double k = 2.0) {
+    return {{"nominal", nominal}, {"value", nominal}, {"unit", "V"}, {"U", U}, {"k", k}};
+}
+
+// One U would be read as that of everything that was measured with the standard (ISO/IEC 17025:2017, 7.8.4.1 c).
+TEST(LaboratoryUseTest, TheRowOfAStandardSpansTheLinesThatWereUsed) {
+    const json lines{line_at(10, 0.002), line_at(20, 0.003), line_at(30, 0.005), line_at(40, 0.01),
+                     line_at(50, 0.0001)};
+    for (std::size_t first = 0; first < 4; ++first) {
+        for (std::size_t last = first; last < 4; ++last) {
+            std::vector<double> at;
+            for (std::size_t i = last + 1; i > first; --i) {  // not in the order of the lines
+                at.push_back(10.0 * static_cast<double>(i));
+            }
+            const certificate::StandardUsed row = row_of_lines(lines, at);
+            EXPECT_EQ(row.U, lines[first]["U"].get<double>());
+            EXPECT_EQ(row.U_to, first == last ? std::nullopt : std::optional(lines[last]["U"].get<double>()));
+            EXPECT_EQ(row.k, 2.0);
+            EXPECT_EQ(row.unit, "V");
+        }
+    }
+    const certificate::StandardUsed between = row_of_lines(lines, {23.0});
+    EXPECT_EQ(between.U, 0.003);
+    EXPECT_EQ(between.U_to, 0.005) << "both neighbours";
+    EXPECT_EQ(row_of_lines({line_at(10, 0.002), line_at(20, 0.002)}, {10.0, 20.0}).U_to, std::nullopt);
+    const certificate::StandardUsed other_k = row_of_lines({line_at(10, 0.002), line_at(20, 0.009, 3.0)}, {10.0, 20.0});
+    EXPECT_EQ(other_k.k, 3.0);
+    EXPECT_EQ(other_k.U, 0.003);
+    EXPECT_EQ(other_k.U_to, 0.009);
+    const certificate::StandardUsed own =
+        row_of_lines(lines, {10.0, 40.0}, {{"identification", "STD-1"}, {"U", 2}, {"k", 2}, {"unit", "mV"}});
+    EXPECT_EQ(own.U, 2.0);
+    EXPECT_EQ(own.U_to, std::nullopt) << "what the author states is not mixed with the register";
 }
 
 }  // namespace

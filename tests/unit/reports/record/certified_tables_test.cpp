@@ -97,6 +97,13 @@ TEST(CertifiedTables, HoldAGroupOfPointsEachInItsUnits) {
     EXPECT_EQ(tables[0].columns.at(0).values.size(), 2U);
     EXPECT_EQ(tables[1].layout->columns.at(0).printed, (std::vector<std::string>{"10"}));
     EXPECT_EQ(tables[1].layout->columns.at(0).unit, "V");
+
+    points.columns.back().decimals = "of_uncertainty";
+    const std::vector<CertifiedTable> computed = certified_tables(record);
+    EXPECT_EQ(computed[0].layout->columns.at(0).printed, (std::vector<std::string>{"50.00", "1E+2"}))
+        << "each as its uncertainty has it";
+    points.tables[0].units.clear();
+    EXPECT_EQ(certified_tables(record)[0].layout->columns.at(0).printed, (std::vector<std::string>{"0.05000", "0.1"}));
 }
 
 TEST(CertifiedTables, HoldARotaryTable) {

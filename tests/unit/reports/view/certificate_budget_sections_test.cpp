@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -400,6 +401,37 @@ TEST(BudgetCertificate, ExactResultsAreNoMultipleOfAStandardUncertainty) {
     }
     EXPECT_THAT(text_of(r), HasSubstr("Values with U = 0 follow from constants alone"));
     EXPECT_THAT(text_of(r), Not(HasSubstr("multiplied by the coverage factor")));
+}
+
+// Every name that the program gives to a component, in every language.
+TEST(CertificateBudget, ComponentsHaveTheirNamesInTheLanguageOfTheDocument) {
+    EvaluationRecord record = test::sample_budget_record();
+    const auto row = std::find_if(record.results.front().budget.begin(), record.results.front().budget.end(),
+                                  [](const BudgetRow& one) { return !one.components.empty(); });
+    ASSERT_NE(row, record.results.front().budget.end());
+    BudgetRow& part = row->components.front();
+    for (const std::string kind : {"calibration", "interpolation", "drift", "readings", "resolution"}) {
+        part.part = kind;
+        part.input = "The English name of " + kind;
+        part.source = "The English source";
+        part.standard = "STD-17";
+        part.certificate = "C-2";
+        part.since = "2026-01-01";
+        std::set<std::string> names;
+        for (const std::string language : {"en", "de", "es", "zh-Hant"}) {
+            std::ifstream file(std::string(GUMCERT_SOURCE_DIR) + "/templates/wording/" + language + ".json");
+            const json wording = json::parse(file);
+            const std::string view = certificate_view(record, Wording(wording)).dump();
+            EXPECT_THAT(view, Not(HasSubstr("The English"))) << language << " " << kind;
+            EXPECT_THAT(view, HasSubstr("C-2")) << "its source";
+            if (kind != "readings" && kind != "resolution") {
+                EXPECT_THAT(view, HasSubstr("STD-17"));
+            }
+            EXPECT_EQ(view.find("2026-01-01") != std::string::npos, kind == "drift") << language << " " << kind;
+            names.insert(wording.at("budget_part").at(kind).get<std::string>());
+        }
+        EXPECT_EQ(names.size(), 4U) << kind;
+    }
 }
 
 }  // namespace

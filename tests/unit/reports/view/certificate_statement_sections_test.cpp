@@ -143,6 +143,18 @@ TEST(CertificateStatement, StatesMethodTraceabilityAndConditions) {
     EXPECT_THAT(text_of(sections, "conditions"), HasSubstr("Air temperature|19.8|20.3|0.1|°C|T-04|19|21|"));
 }
 
+TEST(CertificateStatement, StatesTheRangeOfUOfAStandard) {
+    EvaluationRecord record = test::certified_rotary_record();
+    certificate::StandardUsed& standard = record.certificate->data.standards.front();
+    standard.U_to = 0.1;
+    EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
+                HasSubstr("|0.025\u00A0µm to 0.1\u00A0µm (k\u00A0=\u00A02)|"));
+    standard.U = 2e-11;
+    standard.U_to.reset();
+    EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
+                HasSubstr("|2\u00A0×\u00A010⁻¹¹\u00A0µm (k\u00A0=\u00A02)|"));
+}
+
 TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
     EvaluationRecord record = test::certified_rotary_record();
     CertifiedValue& v = record.certificate->tables[0].columns[0].values[0];

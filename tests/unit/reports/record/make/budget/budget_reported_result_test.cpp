@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -19,6 +20,7 @@
 #include "reports/record/make/certificate/certified_conformity.h"
 #include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
+#include "tests/support/sample_laboratory.h"
 
 namespace gumcert::reports {
 namespace {
@@ -427,6 +429,33 @@ TEST(ReportedResult, SeesWhatOnlyTheScatterOfAllInputsShows) {
         EXPECT_NEAR((*result.reported().interval)[0], one.low, 0.02) << one.model;
         EXPECT_NEAR((*result.reported().interval)[1], one.high, 0.02) << one.model;
     }
+}
+
+// What the program called so, documents call so in their languages.
+TEST(BudgetRecordTest, SaysWhatTheComponentsOfAStandardAre) {
+    std::map<std::string, std::string> files = gumcert::test::sample_laboratory_files("lab/");
+    const Evaluated out = evaluated(jobs::test::read_budget(
+        R"j("laboratory": "lab", "model": ["y = x + s"], "inputs": {
+            "x": {"unit": "mV", "observations": [1.0, 1.2, 1.1], "resolution": 0.1},
+            "s": {"standard": "STD-1", "date": "2026-07-01", "unit": "mV",
+                  "components": [{"name": "drift of the cable", "u": 0.1}]}})j",
+        files));
+    const std::vector<reports::BudgetRow>& rows = out.y().budget;
+    ASSERT_EQ(rows.size(), 2U);
+    ASSERT_EQ(rows[0].components.size(), 2U);
+    EXPECT_EQ(rows[0].components[0].part, "readings");
+    EXPECT_EQ(rows[0].components[1].part, "resolution");
+    ASSERT_EQ(rows[1].components.size(), 3U);
+    EXPECT_EQ(rows[1].components[0].part, "calibration");
+    EXPECT_EQ(rows[1].components[1].part, "drift");
+    EXPECT_EQ(rows[1].components[2].part, "") << "the words of the laboratory";
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(rows[1].components[i].standard, "STD-1");
+        EXPECT_EQ(rows[1].components[i].certificate, "C-2");
+        EXPECT_EQ(rows[1].components[i].since, "2026-01-01");
+    }
+    EXPECT_EQ(rows[1].certificate, "C-2");
+    EXPECT_EQ(rows[1].part, "");
 }
 
 }  // namespace
