@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "text/numbers.h"
 #include "text/utf8.h"
 
 namespace gumcert::audit {
@@ -49,6 +50,18 @@ std::u32string characters(std::string_view text) {
         }
     }
     return all;
+}
+
+/// So many characters of a text, without spaces at their end.
+std::string beginning(std::string_view text, std::size_t characters) {
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < characters && bytes < text.size(); ++i) {
+        bytes += text::decode_utf8(text, bytes).bytes;
+    }
+    while (bytes > 0 && (text[bytes - 1] == ' ' || text[bytes - 1] == '\t')) {
+        --bytes;
+    }
+    return std::string(text.substr(0, bytes));
 }
 
 bool is_digit(char32_t code) {
@@ -249,7 +262,7 @@ std::optional<double> take_root(Walk& walk) {
     return std::sqrt(value);
 }
 
-std::optional<StatedNumber> take_number(Walk& walk) {
+std::optional<StatedNumber> take_number(Walk& walk, Percent percent) {
     walk.skip_spaces();
     double sign = 1.0;
     if (walk.take_if(k_plus_minus)) {
@@ -287,7 +300,7 @@ std::optional<StatedNumber> take_number(Walk& walk) {
     number.half_step = digits->whole && !exponent ? 0.0 : 0.5 * std::pow(10.0, exponent.value_or(0) - digits->decimals);
     const std::size_t before = walk.position();
     walk.skip_spaces();
-    if (walk.take_if(U'%')) {
+    if (percent == Percent::hundredth && walk.take_if(U'%')) {
         number.value /= 100.0;
         number.half_step /= 100.0;
     } else if (const std::optional<double> root = take_root(walk)) {
@@ -314,6 +327,35 @@ double printed_half_step(const StatedNumber& number) {
     return 0.5 * std::pow(10.0, static_cast<double>(zeros));
 }
 
+void convert(StatedNumber& number, double factor) {
+    if (factor == 1.0) {
+        return;
+    }
+    constexpr double k_power = 1e-12;
+    constexpr int k_most_decimals = 17;
+    const double exponent = std::round(std::log10(std::abs(factor)));
+    const bool is_power = factor > 0.0 && std::abs(factor / std::pow(10.0, exponent) - 1.0) < k_power;
+    const bool is_whole = number.half_step == 0.0 && number.value == std::round(number.value);
+    const int decimals =
+        static_cast<int>((is_whole ? 0.0 : std::round(-std::log10(2.0 * number.half_step))) - exponent);
+    const bool has_comma = number.text.find(',') != std::string::npos && number.text.find('.') == std::string::npos;
+    number.value *= factor;
+    number.half_step *= std::abs(factor);
+    number.scale *= factor;
+    if (number.text.empty() || !is_power || !std::isfinite(number.value) || decimals > k_most_decimals ||
+        (!is_whole && number.half_step == 0.0)) {
+        number.text.clear();
+        return;
+    }
+    number.text = number.value == 0.0 && is_whole ? "0" : text::fixed(number.value, std::max(0, decimals));
+    // The digits are those of before: the number is the nearest one to them, as if it had been read in this unit.
+    std::from_chars(number.text.data(), number.text.data() + number.text.size(), number.value);
+    const std::size_t point = number.text.find('.');
+    if (has_comma && point != std::string::npos) {
+        number.text[point] = ',';
+    }
+}
+
 StatedNumber exact_number(double value, std::string place) {
     StatedNumber number;
     number.value = value;
@@ -321,17 +363,17 @@ StatedNumber exact_number(double value, std::string place) {
     return number;
 }
 
-std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place) {
+std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place, Percent percent) {
     constexpr std::size_t k_longest = 400;
     if (text.size() > k_longest) {
         return std::nullopt;
     }
     Walk walk(characters(text));
-    std::optional<StatedNumber> number = take_number(walk);
+    std::optional<StatedNumber> number = take_number(walk, percent);
     if (!number) {
         return std::nullopt;
     }
-    number->text = std::string(text);
+    number->text = beginning(text, walk.position());
     number->place = std::move(place);
     return LeadingNumber{.number = std::move(*number), .rest = walk.rest()};
 }

@@ -21,8 +21,9 @@ struct Interval {
 struct StatedNumber {
     double value = 0.0;
     double half_step = 0.0;  ///< half a unit of the last printed digit; 0: the number is exact
-    std::string text;        ///< as it stands there
+    std::string text;        ///< as it stands there, without its unit; in another unit after convert()
     std::string place;       ///< "row 3, u" or "Budget!D5"
+    double scale = 1.0;      ///< what the number that stands there was multiplied by to be in the unit it is used in
 
     [[nodiscard]] Interval interval() const { return {value - half_step, value + half_step}; }
 };
@@ -34,6 +35,17 @@ struct StatedNumber {
 
 /// A number that is known to all of its digits.
 [[nodiscard]] StatedNumber exact_number(double value, std::string place);
+
+/// Brings a number to another unit: value, what its digits leave open, and, where the factor is a power of ten, its digits,
+/// as many as they were. Else it has no text any more.
+/// \param factor  finite, not 0
+void convert(StatedNumber& number, double factor);
+
+/// What a percent sign behind a number is.
+enum class Percent {
+    hundredth,  ///< "5 %" is 0.05
+    unit,       ///< "5 %" is 5, and what follows it "%"
+};
 
 /// Reads a printed number: decimal point or comma, groups of digits by space or apostrophe, "±0.5", "1.2E-3",
 /// "1.2·10^-3", "1.2 × 10-3", "5 %" (0.05), "∞", "inf", "√3", "sqrt(6)", "2√3", U+2212 as minus sign.
@@ -47,6 +59,7 @@ struct LeadingNumber {
     StatedNumber number;
     std::string rest;  ///< without spaces at its ends
 };
-[[nodiscard]] std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place);
+[[nodiscard]] std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place,
+                                                               Percent percent = Percent::hundredth);
 
 }  // namespace gumcert::audit

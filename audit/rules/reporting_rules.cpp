@@ -52,7 +52,7 @@ int digits_in(const std::string& text) {
 
 /// Unit of the last digit of a printed number.
 double last_place(const StatedNumber& number) {
-    return number.half_step > 0.0 ? 2.0 * number.half_step : 1.0;
+    return number.half_step > 0.0 ? 2.0 * number.half_step : std::abs(number.scale);
 }
 
 /// A budget may be careless in its print where a certificate may not.

@@ -11,6 +11,7 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
+#include "audit/sources/table_units.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -24,6 +25,11 @@ using workbook::CellKind;
 using workbook::CellValue;
 
 constexpr std::size_t k_most_tables = 10'000, k_most_rows = 2'000;
+
+struct NumberWithUnit {
+    StatedNumber number;
+    std::string unit;  ///< "" where none stands there
+};
 
 /// The cells of a sheet row by row, with the values that formulas give.
 class SheetView {
@@ -71,6 +77,17 @@ public:
         }
         return std::nullopt;
     }
+    /// The number that a cell begins with, and the unit behind it: "0.36 µm" and "5 %".
+    [[nodiscard]] std::optional<NumberWithUnit> number_with_unit(const Cell& cell) const {
+        const CellValue held = value(cell);
+        if (held.kind == CellKind::text) {
+            std::optional<LeadingNumber> leading = read_leading_number(held.text, place(cell.address), Percent::unit);
+            return leading ? std::optional(NumberWithUnit{std::move(leading->number), unit_in_rest(leading->rest)})
+                           : std::nullopt;
+        }
+        std::optional<StatedNumber> whole = number(cell);
+        return whole ? std::optional(NumberWithUnit{std::move(*whole), ""}) : std::nullopt;
+    }
     [[nodiscard]] std::string words(const Cell& cell) const {
         const CellValue held = value(cell);
         if (held.kind == CellKind::text) {
@@ -89,31 +106,46 @@ private:
     std::map<std::uint32_t, std::vector<const Cell*>> rows_;
 };
 
-/// Which column of the sheet has which meaning, and the units that heads state: "u [µm]".
+/// Which column of the sheet has which meaning, and where the units of its numbers stand.
 struct Heads {
     std::map<Column, std::uint32_t> columns;
-    std::map<Column, std::string> units;
+    std::map<Column, std::string> units;             ///< that heads state: "u [µm]"
+    std::map<Column, std::uint32_t> unit_columns;    ///< of columns that have one of their own, to their right
+    std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
 };
 
-std::string unit_of_head(const std::string& head) {
-    const std::size_t open = head.find('['), close = head.find(']');
-    if (open != std::string::npos && close != std::string::npos && close > open + 1) {
-        return head.substr(open + 1, close - open - 1);
-    }
-    const std::size_t slash = head.rfind(" / ");
-    return slash != std::string::npos ? head.substr(slash + 3) : "";
+bool has_numbers_with_units(Column column) {
+    return column == Column::estimate || column == Column::stated || column == Column::u ||
+           column == Column::sensitivity || column == Column::contribution;
 }
 
 std::optional<Heads> heads_of(const SheetView& sheet, const std::vector<const Cell*>& row) {
     Heads heads;
+    std::vector<std::pair<std::optional<Column>, std::uint32_t>> owned;  // unit columns, and the column before each
+    std::optional<Column> before;
     for (const Cell* cell : row) {
         const CellValue held = sheet.value(*cell);
         if (held.kind != CellKind::text) {
             continue;
         }
         const std::optional<Column> column = column_of(held.text);
-        if (column && heads.columns.emplace(*column, cell->address.column).second) {
-            heads.units[*column] = unit_of_head(held.text);
+        if (!column) {
+            before.reset();
+            continue;
+        }
+        if (*column == Column::unit) {
+            owned.emplace_back(before, cell->address.column);
+        }
+        if (heads.columns.emplace(*column, cell->address.column).second) {
+            heads.units[*column] = unit_in_head(held.text);
+            heads.all_units[cell->address.column] = heads.units[*column];
+        }
+        before = column;
+    }
+    // One column of units holds those of the rows; of several, each holds those of the numbers before it.
+    for (const auto& [column, position] : owned) {
+        if (owned.size() > 1 && column && has_numbers_with_units(*column)) {
+            heads.unit_columns.emplace(*column, position);
         }
     }
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };
@@ -134,26 +166,33 @@ public:
               std::vector<Sentence>& not_read)
         : sheet_(sheet), heads_(heads), row_(row), not_read_(not_read) {}
 
-    [[nodiscard]] AuditedRow read() {
+    [[nodiscard]] AuditedRow read(RowUnits& units) {
         AuditedRow read;
         read.quantity = words(Column::quantity);
-        read.unit = words(Column::unit);
         read.source = words(Column::source);
         read.comment = words(Column::comment);
         if (const Cell* cell = at(Column::quantity)) {
             read.place = sheet_.place(cell->address);
         }
-        if (read.unit.empty()) {
-            const auto unit = heads_.units.find(Column::u);
-            read.unit = unit == heads_.units.end() ? "" : unit->second;
-        }
-        read.estimate = number(Column::estimate);
-        read.stated = number(Column::stated);
-        read.divisor = number(Column::divisor);
-        read.u = number(Column::u);
-        read.sensitivity = number(Column::sensitivity);
-        read.contribution = number(Column::contribution);
-        read.nu = number(Column::nu);
+        read.estimate = number(Column::estimate, units.estimate);
+        read.stated = number(Column::stated, units.stated);
+        std::string none;
+        read.divisor = number(Column::divisor, none);
+        read.u = number(Column::u, units.u);
+        read.sensitivity = number(Column::sensitivity, units.sensitivity);
+        read.contribution = number(Column::contribution, units.contribution);
+        read.nu = number(Column::nu, none);
+        // What has no unit of its own has that of the row; of a row without one, that of what u was divided from.
+        const std::string of_row = words(Column::unit);
+        const std::string& of_stated = units.stated.empty() ? of_row : units.stated;
+        const std::string& of_u = units.u.empty() ? of_stated : units.u;
+        const std::string& of_estimate = units.estimate.empty() ? of_row : units.estimate;
+        read.unit = shared_unit(of_u, read.estimate ? of_estimate : of_u);
+        units = {.estimate = of_estimate,
+                 .stated = of_stated,
+                 .u = of_u,
+                 .sensitivity = units.sensitivity,
+                 .contribution = units.contribution};
         read.shape_text = words(Column::distribution);
         read.shape = shape_of(read.shape_text);
         const std::string type = words(Column::type);
@@ -171,10 +210,6 @@ public:
                 (*rounded)->half_step = printed_half_step(**rounded);  // "12" of an uncertainty was rounded as well
             }
         }
-        read.contributor = contributor_of(read.quantity, read.comment, read.source);
-        read_comment(read);
-        complete_row(read);
-        note_row_facts(read);
         return read;
     }
 
@@ -187,23 +222,33 @@ private:
         const Cell* cell = at(column);
         return cell == nullptr ? "" : sheet_.words(*cell);
     }
-    [[nodiscard]] std::optional<StatedNumber> number(Column column) {
+    /// \param unit  that the cell, its head, or a column of units of its own states; else as it was
+    [[nodiscard]] std::optional<StatedNumber> number(Column column, std::string& unit) {
         const Cell* cell = at(column);
         if (cell == nullptr) {
             return std::nullopt;
         }
-        std::optional<StatedNumber> read = sheet_.number(*cell);
+        std::optional<NumberWithUnit> read = sheet_.number_with_unit(*cell);
         const std::string held = sheet_.words(*cell);
         const bool says_nothing = held.empty() || held == "-" || held == "–" || held == "—";
-        if (!read && !says_nothing) {
-            // "0.36 µm" in a cell of numbers: the number counts, and the unit where none is stated.
-            if (std::optional<LeadingNumber> leading = read_leading_number(held, sheet_.place(cell->address))) {
-                return std::move(leading->number);
+        if (!read) {
+            if (!says_nothing) {
+                not_read_.push_back(say("{cell}: {text} is no number; what is meant?", sheet_.place(cell->address),
+                                        text::in_quotes(held)));
             }
-            not_read_.push_back(
-                say("{cell}: {text} is no number; what is meant?", sheet_.place(cell->address), text::in_quotes(held)));
+            return std::nullopt;
         }
-        return read;
+        const std::string of_head = heads_.units.at(column), of_column = unit_of_column(column);
+        const std::string& beside = of_head.empty() ? of_column : of_head;
+        // Words behind a number that are no unit that we know count where no other place states one.
+        const bool cell_first = !read->unit.empty() && (beside.empty() || known_unit(read->unit));
+        unit = cell_first ? read->unit : beside;
+        return std::move(read->number);
+    }
+    [[nodiscard]] std::string unit_of_column(Column column) const {
+        const auto position = heads_.unit_columns.find(column);
+        const Cell* cell = position == heads_.unit_columns.end() ? nullptr : cell_in(row_, position->second);
+        return cell == nullptr ? "" : sheet_.words(*cell);
     }
 
     const SheetView& sheet_;
@@ -212,17 +257,44 @@ private:
     std::vector<Sentence>& not_read_;
 };
 
+/// A number that a statement gives.
+struct StatedResult {
+    StatedNumber number;
+    std::string unit;          ///< "" where none stands beside it
+    std::uint32_t column = 0;  ///< where the number stands
+};
+
 /// Statements on a result, from the rows above and below its table.
 struct Statements {
-    std::map<Statement, StatedNumber> numbers;
+    std::map<Statement, StatedResult> numbers;
     std::map<Statement, std::string> words;
-    std::string unit;
 };
+
+/// Whether a statement is a number with the dimension of the result.
+bool is_of_result(Statement statement) {
+    switch (statement) {
+        case Statement::value:
+        case Statement::u_c:
+        case Statement::U:
+        case Statement::reported_U:
+        case Statement::capability:
+        case Statement::lower_limit:
+        case Statement::upper_limit:
+        case Statement::tolerance:
+        case Statement::nominal:
+        case Statement::reference_value:
+        case Statement::reference_U:
+            return true;
+        default:
+            return false;
+    }
+}
 
 std::optional<Statement> take_statement(const SheetView& sheet, const std::vector<const Cell*>& row,
                                         Statements& statements) {
     std::optional<Statement> statement;
     std::size_t named = 0;
+    std::string name;
     for (std::size_t i = 0; i < row.size() && !statement; ++i) {
         const CellValue held = sheet.value(*row[i]);
         if (held.kind != CellKind::text) {
@@ -230,6 +302,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         }
         statement = statement_of(held.text);
         named = i;
+        name = held.text;
         if (!statement && i > 0) {
             return std::nullopt;
         }
@@ -237,37 +310,43 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     if (!statement) {
         return std::nullopt;
     }
+    const bool has_unit = is_of_result(*statement);
     const auto follows_number = [&](std::size_t i) {
         return i + 1 < row.size() && sheet.number(*row[i + 1]).has_value();
     };
+    std::string of_quantity, of_cell, words;
+    std::optional<StatedResult> result;
     for (std::size_t i = named + 1; i < row.size(); ++i) {
-        if (sheet.words(*row[i]) == "1" && follows_number(i)) {
-            statements.unit = statements.unit.empty() ? "1" : statements.unit;  // of a quantity without dimension
-            continue;
-        }
-        if (std::optional<StatedNumber> number = sheet.number(*row[i])) {
-            statements.numbers.emplace(*statement, std::move(*number));
-            continue;
-        }
         const std::string held = sheet.words(*row[i]);
-        if (held.empty()) {
+        if (held == "1" && follows_number(i)) {
+            of_quantity = "1";  // of a quantity without dimension
             continue;
         }
-        std::optional<LeadingNumber> leading = read_leading_number(held, sheet.place(row[i]->address));
-        if (leading && !statements.numbers.contains(*statement)) {
-            statements.numbers.emplace(*statement, std::move(leading->number));
-            if (statements.unit.empty()) {
-                statements.unit = leading->rest;
-            }
-        } else {
-            statements.words.emplace(*statement, held);
+        std::optional<NumberWithUnit> number;
+        if (!result) {
+            number = sheet.number_with_unit(*row[i]);
+        }
+        if (number) {
+            of_cell = number->unit;
+            result = StatedResult{.number = std::move(number->number), .unit = "", .column = row[i]->address.column};
+            continue;
+        }
+        if (held.empty() || sheet.number(*row[i])) {
+            continue;
+        }
+        // The unit is the first word that is one, or the first word.
+        if (words.empty() || (has_unit && !known_unit(words) && known_unit(held))) {
+            words = held;
         }
     }
-    const bool has_unit = *statement == Statement::U || *statement == Statement::u_c ||
-                          *statement == Statement::value || *statement == Statement::reported_U;
-    if (has_unit && statements.unit.empty()) {
-        const auto words = statements.words.find(*statement);
-        statements.unit = words == statements.words.end() ? "" : words->second;
+    if (result) {
+        for (const std::string& unit : {of_cell, has_unit ? words : std::string(), of_quantity, unit_in_head(name)}) {
+            result->unit = result->unit.empty() ? unit : result->unit;
+        }
+        statements.numbers.emplace(*statement, std::move(*result));
+    }
+    if (!words.empty()) {
+        statements.words.emplace(*statement, std::move(words));
     }
     return statement;
 }
@@ -305,63 +384,127 @@ void state_coverage(AuditedBudget& budget) {
     budget.coverage.kind = CoverageRule::Kind::fixed;
 }
 
-std::optional<StatedNumber> number_of(const Statements& statements, Statement statement) {
-    const auto found = statements.numbers.find(statement);
-    return found == statements.numbers.end() ? std::nullopt : std::optional(found->second);
-}
-std::optional<double> value_of(const Statements& statements, Statement statement) {
-    const std::optional<StatedNumber> number = number_of(statements, statement);
-    return number ? std::optional(number->value) : std::nullopt;
-}
 std::string words_of(const Statements& statements, Statement statement) {
     const auto found = statements.words.find(statement);
     return found == statements.words.end() ? "" : found->second;
 }
 
-void state_limits(AuditedBudget& budget, const Statements& statements) {
-    budget.limits.lower = value_of(statements, Statement::lower_limit);
-    budget.limits.upper = value_of(statements, Statement::upper_limit);
-    const std::optional<double> tolerance = value_of(statements, Statement::tolerance);
-    if (tolerance && !budget.limits.lower && !budget.limits.upper) {
-        const double nominal = value_of(statements, Statement::nominal).value_or(0.0);
-        budget.limits.lower = nominal - std::abs(*tolerance);
-        budget.limits.upper = nominal + std::abs(*tolerance);
+/// The numbers of statements, in the unit of the result.
+class ResultNumbers {
+public:
+    /// \param of_contributions  the unit that contributions state
+    ResultNumbers(const Statements& statements, const std::string& of_contributions, std::vector<Sentence>& not_read)
+        : statements_(statements), not_read_(not_read) {
+        const std::string of_value = own(Statement::value);
+        for (const std::string& unit :
+             {own(Statement::reported_U), own(Statement::U), own(Statement::u_c), of_contributions, of_value,
+              own(Statement::capability), own(Statement::lower_limit), own(Statement::upper_limit),
+              own(Statement::tolerance), own(Statement::reference_value)}) {
+            unit_ = unit_.empty() ? unit : unit_;
+        }
+        unit_ = shared_unit(unit_, of_value);
+        const std::optional<double> factor = factor_between(of_value, unit_);
+        has_two_units_ = !of_value.empty() && factor != 1.0;
+    }
+
+    [[nodiscard]] const std::string& unit() const { return unit_; }
+    /// Nothing where the statement is not there, or its unit cannot be turned into that of the result; then it is said.
+    [[nodiscard]] std::optional<StatedNumber> number(Statement statement) {
+        const auto found = statements_.numbers.find(statement);
+        if (found == statements_.numbers.end()) {
+            return std::nullopt;
+        }
+        StatedNumber number = found->second.number;
+        if (!is_of_result(statement)) {
+            return number;
+        }
+        const std::string& from = found->second.unit;
+        const bool is_uncertainty = statement == Statement::U || statement == Statement::reported_U ||
+                                    statement == Statement::u_c || statement == Statement::value;
+        if (from.empty() && has_two_units_ && !is_uncertainty && number.value != 0.0) {
+            not_read_.push_back(
+                say("{cell}: no unit is stated, and value and U are in {value} and {unit}; the number is not "
+                    "used; in which unit is it?",
+                    number.place, text::in_quotes(own(Statement::value)), text::in_quotes(unit_)));
+            return std::nullopt;
+        }
+        const std::optional<double> factor = factor_between(from, unit_);
+        if (!factor) {
+            not_read_.push_back(
+                say("{cell}: a number in {from} beside a result in {to}; it is not used, as one unit cannot "
+                    "be turned into the other",
+                    number.place, text::in_quotes(from), text::in_quotes(unit_)));
+            return std::nullopt;
+        }
+        if (*factor != 1.0 && statement != Statement::value) {
+            number.half_step = printed_half_step(number);
+        }
+        convert(number, *factor);
+        return number;
+    }
+    [[nodiscard]] std::optional<double> value(Statement statement) {
+        const std::optional<StatedNumber> stated = number(statement);
+        return stated ? std::optional(stated->value) : std::nullopt;
+    }
+
+private:
+    [[nodiscard]] std::string own(Statement statement) const {
+        const auto found = statements_.numbers.find(statement);
+        return found == statements_.numbers.end() ? "" : found->second.unit;
+    }
+
+    const Statements& statements_;
+    std::vector<Sentence>& not_read_;
+    std::string unit_;
+    bool has_two_units_ = false;  ///< the value is in another unit than its uncertainty
+};
+
+void state_limits(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers) {
+    budget.limits.lower = numbers.value(Statement::lower_limit);
+    budget.limits.upper = numbers.value(Statement::upper_limit);
+    const std::optional<double> tolerance = numbers.value(Statement::tolerance);
+    const std::optional<double> nominal = numbers.value(Statement::nominal);
+    // A nominal value that could not be read is not 0.
+    const bool has_nominal = nominal || !statements.numbers.contains(Statement::nominal);
+    if (tolerance && has_nominal && !budget.limits.lower && !budget.limits.upper) {
+        budget.limits.lower = nominal.value_or(0.0) - std::abs(*tolerance);
+        budget.limits.upper = nominal.value_or(0.0) + std::abs(*tolerance);
     }
     const std::string rule = words_of(statements, Statement::decision_rule);
     budget.rule = gum::decision_rule_from_id(rule.substr(0, 5));
 }
 
-void state_claims(AuditedBudget& budget, const Statements& statements) {
+void state_claims(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers) {
     Claims& claims = budget.claims;
-    claims.value = number_of(statements, Statement::value);
-    claims.u_c = number_of(statements, Statement::u_c);
-    claims.nu_eff = number_of(statements, Statement::nu_eff);
-    claims.k = number_of(statements, Statement::k);
-    claims.U = number_of(statements, Statement::reported_U);
+    claims.value = numbers.number(Statement::value);
+    claims.u_c = numbers.number(Statement::u_c);
+    claims.nu_eff = numbers.number(Statement::nu_eff);
+    claims.k = numbers.number(Statement::k);
+    claims.U = numbers.number(Statement::reported_U);
     if (!claims.U) {
-        claims.U = number_of(statements, Statement::U);
+        claims.U = numbers.number(Statement::U);
     }
-    claims.coverage_probability = value_of(statements, Statement::coverage_probability);
+    claims.coverage_probability = numbers.value(Statement::coverage_probability);
     if (claims.coverage_probability && *claims.coverage_probability > 1.0) {
-        *claims.coverage_probability /= 100.0;  // "95" without its percent sign
+        *claims.coverage_probability /= 100.0;  // "95" and "95 %"
     }
     claims.verdict = verdict_in_our_words(words_of(statements, Statement::verdict));
-    claims.en = number_of(statements, Statement::en);
+    claims.en = numbers.number(Statement::en);
     budget.value = claims.value ? std::optional(claims.value->value) : std::nullopt;
-    budget.unit = statements.unit;
+    budget.unit = numbers.unit();
     budget.equation = words_of(statements, Statement::equation);
     budget.method = words_of(statements, Statement::method);
-    budget.capability = value_of(statements, Statement::capability);
+    budget.capability = numbers.value(Statement::capability);
     if (budget.capability && claims.U) {
         budget.floor_applied = claims.U->value + claims.U->half_step >= *budget.capability;
     }
-    const std::optional<double> reference = value_of(statements, Statement::reference_value);
-    const std::optional<double> reference_U = value_of(statements, Statement::reference_U);
+    const std::optional<double> reference = numbers.value(Statement::reference_value);
+    const std::optional<double> reference_U = numbers.value(Statement::reference_U);
     if (reference && reference_U) {
         budget.reference =
             ComparedReference{.value = *reference, .expanded_uncertainty = *reference_U, .name = "reference value"};
     }
-    state_limits(budget, statements);
+    state_limits(budget, statements, numbers);
     if (const std::string measurand = words_of(statements, Statement::measurand); !measurand.empty()) {
         budget.name = measurand;
     }
@@ -414,9 +557,11 @@ private:
             is_too_long_ = true;
             return;
         }
-        AuditedRow read = RowReader(sheet_, *heads_, row, tables_.not_read).read();
+        RowUnits units;
+        AuditedRow read = RowReader(sheet_, *heads_, row, tables_.not_read).read(units);
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
+            units_.push_back(std::move(units));
         }
     }
 
@@ -431,7 +576,7 @@ private:
                                     Column::contribution, Column::nu}) {
             const auto position = heads_->columns.find(column);
             const Cell* cell = position == heads_->columns.end() ? nullptr : cell_in(row, position->second);
-            numbers += cell != nullptr && sheet_.number(*cell) ? 1U : 0U;
+            numbers += cell != nullptr && sheet_.number_with_unit(*cell) ? 1U : 0U;
         }
         return numbers > 1;
     }
@@ -455,7 +600,17 @@ private:
                     budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && !budget_.rows.empty()) {
             budget_.name = name_;
-            state_claims(budget_, statements_);
+            settle_statements();
+            if (is_unusable_) {
+                tables_.not_read.push_back(
+                    say("{table}: the table is not looked at; a row has numbers that could not be read, and the others "
+                        "do not "
+                        "make up its result",
+                        budget_.place));
+                tables_.has_unusable = true;
+                clear();
+                return;
+            }
             const std::optional<double> p = budget_.claims.coverage_probability;
             if (p && !(*p > 0.0 && *p < 1.0)) {
                 tables_.not_read.push_back(
@@ -471,11 +626,38 @@ private:
             note_unexplained(budget_);
             tables_.budgets.push_back(std::move(budget_));
         }
+        clear();
+    }
+    void clear() {
         budget_ = {};
+        units_ = {};
         statements_ = {};
         heads_.reset();
         in_rows_ = false;
-        is_too_long_ = false;
+        is_too_long_ = is_unusable_ = false;
+    }
+
+    /// Brings statements and rows to the units that an audit takes, and reads what the words of rows say in them.
+    void settle_statements() {
+        std::string of_contributions = heads_->units[Column::contribution];
+        for (const RowUnits& units : units_) {
+            of_contributions = of_contributions.empty() ? units.contribution : of_contributions;
+        }
+        for (auto& [statement, result] : statements_.numbers) {
+            const auto of_head = heads_->all_units.find(result.column);
+            if (result.unit.empty() && is_of_result(statement) && of_head != heads_->all_units.end()) {
+                result.unit = of_head->second;
+            }
+        }
+        ResultNumbers numbers(statements_, of_contributions, tables_.not_read);
+        state_claims(budget_, statements_, numbers);
+        is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
+        for (AuditedRow& row : budget_.rows) {
+            row.contributor = contributor_of(row.quantity, row.comment, row.source);
+            read_comment(row);
+            complete_row(row);
+            note_row_facts(row);
+        }
     }
 
     const SheetView& sheet_;
@@ -484,7 +666,9 @@ private:
     std::optional<Heads> heads_;
     bool in_rows_ = false;
     bool is_too_long_ = false;
+    bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;
+    std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
 };
 
@@ -501,7 +685,7 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
         TableReader(sheet, name, tables).read();
     }
-    if (tables.budgets.empty()) {
+    if (tables.budgets.empty() && !tables.has_unusable) {
         tables.not_read.push_back(say(
             "{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
             "quantities and one u, what is divided, or the contributions — name the columns so, in English or German",
