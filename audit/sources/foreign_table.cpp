@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "audit/checklists.h"
 #include "audit/claims.h"
@@ -28,16 +29,83 @@ constexpr std::size_t k_most_tables = 10'000, k_most_rows = 2'000;
 
 struct NumberWithUnit {
     StatedNumber number;
-    std::string unit;  ///< "" where none stands there
+    std::string unit;      ///< "" where none stands there
+    bool is_open = false;  ///< nobody can know its decimal sign
 };
+
+/// A number without dimension: of a divisor, k, or E_n.
+StatedNumber without_dimension(NumberWithUnit read) {
+    if (read.unit == "%") {
+        convert(read.number, 0.01);
+    }
+    return std::move(read.number);
+}
+
+/// The decimal sign of a file, where its numbers show one: "1.200" alone may be 1.2 or 1200, and beside "0,5" it is 1200.
+///
+/// The numbers of cells decide, and where they show none, those in its words. In a workbook numbers are no texts, and show
+/// nothing. Between columns that commas separate, a number without quotes has no comma: it has a point, if any sign.
+DecimalSign decimal_sign_of(const workbook::Workbook& workbook) {
+    std::size_t points = 0, commas = 0;
+    bool open = false;
+    const auto count = [&](DecimalSign shown) {
+        points += shown == DecimalSign::point ? 1U : 0U;
+        commas += shown == DecimalSign::comma ? 1U : 0U;
+        open = open || shown == DecimalSign::open;
+    };
+    const auto each_cell = [&workbook](const auto& look) {
+        for (const workbook::Sheet& sheet : workbook.sheets) {
+            for (const Cell& cell : sheet.cells) {
+                const bool is_text = cell.value.kind == CellKind::text ||
+                                     (cell.value.kind == CellKind::number && workbook.csv_separator != '\0');
+                if (is_text && sheet.state == workbook::SheetState::visible) {
+                    look(cell.value.text);
+                }
+            }
+        }
+    };
+    each_cell([&count](const std::string& text) {
+        const std::optional<LeadingNumber> number = read_leading_number(text, "", Percent::unit);
+        const bool is_number = number && (number->rest.empty() || known_unit(unit_in_rest(number->rest)));
+        count(is_number ? number->shows : DecimalSign::each);
+    });
+    if (points + commas == 0) {
+        each_cell([&count](const std::string& text) { count(decimal_sign_in(text)); });
+    }
+    // A slip of the keyboard or two do not make the sign of a table open.
+    constexpr std::size_t k_few = 8;
+    if (!open && points > k_few * commas) {
+        return DecimalSign::point;
+    }
+    if (!open && commas > k_few * points) {
+        return DecimalSign::comma;
+    }
+    return points + commas == 0 && !open && workbook.csv_separator == ',' ? DecimalSign::point : DecimalSign::open;
+}
+
+/// Without the signs that set thousands apart: on a page in another language "2.440" would be another number.
+std::string without_groups(const StatedNumber& number) {
+    const std::size_t decimal = number.half_step > 0.0 ? number.text.find_last_of(".,") : std::string::npos;
+    std::string plain;
+    for (std::size_t i = 0; i < number.text.size(); ++i) {
+        const char c = number.text[i];
+        if ((c != '.' && c != ',' && c != '\'') || i == decimal) {
+            plain += c;
+        }
+    }
+    return plain;
+}
 
 /// The cells of a sheet row by row, with the values that formulas give.
 class SheetView {
 public:
-    SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet)
+    /// \param sign  of the file
+    SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet,
+              DecimalSign sign)
         : workbook_(workbook),
           evaluation_(evaluation),
           sheet_(sheet),
+          sign_(sign),
           name_(workbook::quoted_sheet(workbook.sheets[sheet].name)) {
         for (const Cell& cell : workbook.sheets[sheet].cells) {
             rows_[cell.address.row].push_back(&cell);
@@ -62,32 +130,52 @@ public:
     /// A number of a cell. One that a formula gave is exact; one that was typed has the digits that were typed, of
     /// which a spreadsheet computes as if they were exact.
     [[nodiscard]] std::optional<StatedNumber> number(const Cell& cell) const {
-        const CellValue held = value(cell);
-        if (held.kind == CellKind::number) {
-            if (cell.formula_kind == workbook::FormulaKind::none && !has_formulas()) {
-                if (std::optional<StatedNumber> printed = read_number(held.text, place(cell.address))) {
-                    printed->value = held.number;
-                    return printed;
-                }
-            }
-            return exact_number(held.number, place(cell.address));
-        }
-        if (held.kind == CellKind::text) {
-            return read_number(held.text, place(cell.address));
-        }
-        return std::nullopt;
+        std::optional<NumberWithUnit> read = number_with_unit(cell);
+        return read && !read->is_open && (read->unit.empty() || read->unit == "%")
+                   ? std::optional(std::move(read->number))
+                   : std::nullopt;
     }
     /// The number that a cell begins with, and the unit behind it: "0.36 µm" and "5 %".
     [[nodiscard]] std::optional<NumberWithUnit> number_with_unit(const Cell& cell) const {
         const CellValue held = value(cell);
-        if (held.kind == CellKind::text) {
-            std::optional<LeadingNumber> leading = read_leading_number(held.text, place(cell.address), Percent::unit);
-            return leading ? std::optional(NumberWithUnit{std::move(leading->number), unit_in_rest(leading->rest)})
+        const bool is_csv = workbook_.csv_separator != '\0';
+        if (held.kind == CellKind::text || (held.kind == CellKind::number && is_csv)) {
+            std::optional<LeadingNumber> leading =
+                read_leading_number(held.text, place(cell.address), Percent::unit, sign_);
+            if (leading) {
+                leading->number.text = without_groups(leading->number);
+            }
+            return leading ? std::optional(NumberWithUnit{.number = std::move(leading->number),
+                                                          .unit = unit_in_rest(leading->rest),
+                                                          .is_open = leading->is_open})
                            : std::nullopt;
         }
-        std::optional<StatedNumber> whole = number(cell);
-        return whole ? std::optional(NumberWithUnit{std::move(*whole), ""}) : std::nullopt;
+        if (held.kind != CellKind::number) {
+            return std::nullopt;
+        }
+        NumberWithUnit read{.number = exact_number(held.number, place(cell.address)), .unit = ""};
+        if (cell.formula_kind == workbook::FormulaKind::none && !has_formulas()) {
+            if (std::optional<StatedNumber> printed = read_number(held.text, place(cell.address))) {
+                printed->value = held.number;
+                // A workbook stores a point, whatever sign it shows.
+                if (sign_ == DecimalSign::comma) {
+                    std::replace(printed->text.begin(), printed->text.end(), '.', ',');
+                }
+                read.number = std::move(*printed);
+            }
+        }
+        return read;
     }
+    /// A number that its cell shows in percent, as it is shown: 0.0014 is 0.14 %.
+    [[nodiscard]] NumberWithUnit as_shown(NumberWithUnit read, const Cell& cell) const {
+        const std::vector<std::string>& formats = workbook_.number_formats;
+        const bool in_percent = value(cell).kind == CellKind::number && cell.number_format < formats.size() &&
+                                formats[cell.number_format].ends_with('%');
+        return in_percent
+                   ? NumberWithUnit{.number = exact_number(100.0 * read.number.value, read.number.place), .unit = "%"}
+                   : std::move(read);
+    }
+    [[nodiscard]] DecimalSign decimal_sign() const { return sign_; }
     [[nodiscard]] std::string words(const Cell& cell) const {
         const CellValue held = value(cell);
         if (held.kind == CellKind::text) {
@@ -102,6 +190,7 @@ private:
     const workbook::Workbook& workbook_;
     const workbook::Evaluation& evaluation_;
     std::size_t sheet_;
+    DecimalSign sign_;
     std::string name_;  ///< of the sheet, as formulas write it
     std::map<std::uint32_t, std::vector<const Cell*>> rows_;
 };
@@ -219,6 +308,13 @@ private:
         return position == heads_.columns.end() ? nullptr : cell_in(row_, position->second);
     }
     [[nodiscard]] std::string words(Column column) const {
+Sentence open_sign(const std::string& place, const std::string& held) {
+    return say(
+        "{cell}: {text} may be set apart in thousands or have three decimals, and no other number of the file shows "
+        "which; the number is not used; what is meant?",
+        place, text::in_quotes(held));
+}
+
         const Cell* cell = at(column);
         return cell == nullptr ? "" : sheet_.words(*cell);
     }
@@ -228,6 +324,7 @@ private:
         if (cell == nullptr) {
             return std::nullopt;
         }
+        read.decimal_sign = sheet_.decimal_sign();
         std::optional<NumberWithUnit> read = sheet_.number_with_unit(*cell);
         const std::string held = sheet_.words(*cell);
         const bool says_nothing = held.empty() || held == "-" || held == "–" || held == "—";
@@ -272,6 +369,8 @@ struct Statements {
 
 /// Whether a statement is a number with the dimension of the result.
 bool is_of_result(Statement statement) {
+    /// Whether the row has a number of which nobody can know the decimal sign.
+    [[nodiscard]] bool has_open_number() const { return has_open_; }
     switch (statement) {
         case Statement::value:
         case Statement::u_c:
@@ -291,13 +390,24 @@ bool is_of_result(Statement statement) {
 }
 
 std::optional<Statement> take_statement(const SheetView& sheet, const std::vector<const Cell*>& row,
-                                        Statements& statements) {
+                                        Statements& statements, std::vector<Sentence>& not_read) {
     std::optional<Statement> statement;
     std::size_t named = 0;
     std::string name;
     for (std::size_t i = 0; i < row.size() && !statement; ++i) {
         const CellValue held = sheet.value(*row[i]);
         if (held.kind != CellKind::text) {
+        if (read->is_open) {
+            has_open_ = true;
+            not_read_.push_back(open_sign(sheet_.place(cell->address), held));
+            return std::nullopt;
+        }
+        if (!has_numbers_with_units(column)) {
+            return without_dimension(std::move(*read));
+        }
+        if (column != Column::sensitivity) {
+            read = sheet_.as_shown(std::move(*read), *cell);
+        }
             return std::nullopt;  // a name stands before what it names
         }
         statement = statement_of(held.text);
@@ -305,6 +415,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         name = held.text;
         if (!statement && i > 0) {
             return std::nullopt;
+
         }
     }
     if (!statement) {
@@ -315,6 +426,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         return i + 1 < row.size() && sheet.number(*row[i + 1]).has_value();
     };
     std::string of_quantity, of_cell, words;
+    bool has_open_ = false;
     std::optional<StatedResult> result;
     for (std::size_t i = named + 1; i < row.size(); ++i) {
         const std::string held = sheet.words(*row[i]);
@@ -323,7 +435,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
             continue;
         }
         std::optional<NumberWithUnit> number;
-        if (!result) {
+        if (!result && !is_in_words(*statement)) {
             number = sheet.number_with_unit(*row[i]);
         }
         if (number) {
@@ -331,7 +443,7 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
             result = StatedResult{.number = std::move(number->number), .unit = "", .column = row[i]->address.column};
             continue;
         }
-        if (held.empty() || sheet.number(*row[i])) {
+        if (held.empty() || (sheet.number(*row[i]) && !is_in_words(*statement))) {
             continue;
         }
         // The unit is the first word that is one, or the first word.
@@ -350,6 +462,12 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     }
     return statement;
 }
+/// Whether a statement is made in words: "100 mm gauge block" is a name, and no number.
+bool is_in_words(Statement statement) {
+    return statement == Statement::verdict || statement == Statement::decision_rule || statement == Statement::method ||
+           statement == Statement::measurand || statement == Statement::equation;
+}
+
 
 std::string verdict_in_our_words(const std::string& verdict) {
     const std::string lower = text::in_small_letters(verdict);
@@ -386,6 +504,15 @@ void state_coverage(AuditedBudget& budget) {
 
 std::string words_of(const Statements& statements, Statement statement) {
     const auto found = statements.words.find(statement);
+        if (number && number->is_open) {
+            not_read.push_back(open_sign(sheet.place(row[i]->address), held));
+            continue;
+        }
+        if (number && has_unit) {
+            number = sheet.as_shown(std::move(*number), *row[i]);
+        } else if (number && *statement != Statement::coverage_probability) {
+            number = NumberWithUnit{.number = without_dimension(std::move(*number)), .unit = ""};
+        }
     return found == statements.words.end() ? "" : found->second;
 }
 
@@ -546,7 +673,7 @@ private:
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
-        if (!is_row_of_numbers(row) && take_statement(sheet_, row, statements_)) {
+        if (!is_row_of_numbers(row) && take_statement(sheet_, row, statements_, tables_.not_read)) {
             in_rows_ = false;
             return;
         }
@@ -558,7 +685,9 @@ private:
             return;
         }
         RowUnits units;
-        AuditedRow read = RowReader(sheet_, *heads_, row, tables_.not_read).read(units);
+        RowReader reader(sheet_, *heads_, row, tables_.not_read);
+        AuditedRow read = reader.read(units);
+        is_unusable_ = is_unusable_ || reader.has_open_number();
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
@@ -681,7 +810,7 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         if (workbook.sheets[i].state != workbook::SheetState::visible) {
             continue;
         }
-        const SheetView sheet(workbook, evaluation, i);
+        const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
         TableReader(sheet, name, tables).read();
     }
@@ -695,3 +824,4 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
 }
 
 }  // namespace gumcert::audit
+    const DecimalSign sign = decimal_sign_of(workbook);
