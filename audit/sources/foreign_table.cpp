@@ -201,6 +201,7 @@ struct Heads {
     std::map<Column, std::string> units;             ///< that heads state: "u [µm]"
     std::map<Column, std::uint32_t> unit_columns;    ///< of columns that have one of their own, to their right
     std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
+    std::vector<const Cell*> second;                 ///< heads of columns of numbers whose meaning another one has
 };
 
 bool has_numbers_with_units(Column column) {
@@ -228,6 +229,8 @@ std::optional<Heads> heads_of(const SheetView& sheet, const std::vector<const Ce
         if (heads.columns.emplace(*column, cell->address.column).second) {
             heads.units[*column] = unit_in_head(held.text);
             heads.all_units[cell->address.column] = heads.units[*column];
+        } else if (has_numbers_with_units(*column) || *column == Column::divisor || *column == Column::nu) {
+            heads.second.push_back(cell);
         }
         before = column;
     }
@@ -242,10 +245,74 @@ std::optional<Heads> heads_of(const SheetView& sheet, const std::vector<const Ce
     return has(Column::quantity) && uncertainty && heads.columns.size() >= 3 ? std::optional(heads) : std::nullopt;
 }
 
+using Rows = std::map<std::uint32_t, std::vector<const Cell*>>;
+
+/// Where the tables beside each other begin in a row of heads, which is where its quantities are headed again: the columns of
+/// all but the first. Empty where there is one table, or none.
+std::vector<std::uint32_t> further_tables(const SheetView& sheet, const std::vector<const Cell*>& row) {
+    std::vector<std::uint32_t> columns;
+    auto begin = row.begin();
+    for (auto at = row.begin(); at != row.end(); ++at) {
+        const CellValue held = sheet.value(**at);
+        const bool is_quantity = held.kind == CellKind::text && column_of(held.text) == Column::quantity;
+        // A symbol beside a description are two columns of one table: what stands on each side has to be heads by itself.
+        if (is_quantity && heads_of(sheet, {begin, at}) && heads_of(sheet, {at, row.end()})) {
+            columns.push_back((*at)->address.column);
+            begin = at;
+        }
+    }
+    return columns;
+}
+
+/// The rows of a sheet in parts that are read one after the other: all of them, unless tables stand beside each other. Then
+/// each table has its own columns, from the statements above it to those below.
+std::vector<Rows> parts_of(const SheetView& sheet) {
+    const Rows& rows = sheet.rows();
+    std::vector<std::uint32_t> heads;  // rows
+    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
+    for (const auto& [number, row] : rows) {
+        if (heads_of(sheet, row)) {
+            heads.push_back(number);
+            if (std::vector<std::uint32_t> columns = further_tables(sheet, row); !columns.empty()) {
+                beside.emplace(number, std::move(columns));
+            }
+        }
+    }
+    if (beside.empty()) {
+        return {rows};
+    }
+    std::vector<Rows> parts;
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+        const auto first = i == 0 ? rows.begin() : rows.find(heads[i]);
+        const auto last = i + 1 == heads.size() ? rows.end() : rows.find(heads[i + 1]);
+        const auto columns = beside.find(heads[i]);
+        const std::vector<std::uint32_t> starts =
+            columns == beside.end() ? std::vector<std::uint32_t>() : columns->second;
+        std::vector<Rows> tables(starts.size() + 1);
+        for (auto at = first; at != last; ++at) {
+            for (const Cell* cell : at->second) {
+                const auto start = std::upper_bound(starts.begin(), starts.end(), cell->address.column);
+                tables[static_cast<std::size_t>(start - starts.begin())][at->first].push_back(cell);
+            }
+        }
+        for (Rows& table : tables) {
+            parts.push_back(std::move(table));
+        }
+    }
+    return parts;
+}
+
 const Cell* cell_in(const std::vector<const Cell*>& row, std::uint32_t column) {
     const auto found =
         std::find_if(row.begin(), row.end(), [column](const Cell* cell) { return cell->address.column == column; });
     return found == row.end() ? nullptr : *found;
+}
+
+Sentence open_sign(const std::string& place, const std::string& held) {
+    return say(
+        "{cell}: {text} may be set apart in thousands or have three decimals, and no other number of the file shows "
+        "which; the number is not used; what is meant?",
+        place, text::in_quotes(held));
 }
 
 /// One row of a table being read.
@@ -257,6 +324,7 @@ public:
 
     [[nodiscard]] AuditedRow read(RowUnits& units) {
         AuditedRow read;
+        read.decimal_sign = sheet_.decimal_sign();
         read.quantity = words(Column::quantity);
         read.source = words(Column::source);
         read.comment = words(Column::comment);
@@ -301,6 +369,8 @@ public:
         }
         return read;
     }
+    /// Whether the row has a number of which nobody can know the decimal sign.
+    [[nodiscard]] bool has_open_number() const { return has_open_; }
 
 private:
     [[nodiscard]] const Cell* at(Column column) const {
@@ -308,13 +378,6 @@ private:
         return position == heads_.columns.end() ? nullptr : cell_in(row_, position->second);
     }
     [[nodiscard]] std::string words(Column column) const {
-Sentence open_sign(const std::string& place, const std::string& held) {
-    return say(
-        "{cell}: {text} may be set apart in thousands or have three decimals, and no other number of the file shows "
-        "which; the number is not used; what is meant?",
-        place, text::in_quotes(held));
-}
-
         const Cell* cell = at(column);
         return cell == nullptr ? "" : sheet_.words(*cell);
     }
@@ -324,7 +387,6 @@ Sentence open_sign(const std::string& place, const std::string& held) {
         if (cell == nullptr) {
             return std::nullopt;
         }
-        read.decimal_sign = sheet_.decimal_sign();
         std::optional<NumberWithUnit> read = sheet_.number_with_unit(*cell);
         const std::string held = sheet_.words(*cell);
         const bool says_nothing = held.empty() || held == "-" || held == "–" || held == "—";
@@ -335,6 +397,17 @@ Sentence open_sign(const std::string& place, const std::string& held) {
             }
             return std::nullopt;
         }
+        if (read->is_open) {
+            has_open_ = true;
+            not_read_.push_back(open_sign(sheet_.place(cell->address), held));
+            return std::nullopt;
+        }
+        if (!has_numbers_with_units(column)) {
+            return without_dimension(std::move(*read));
+        }
+        if (column != Column::sensitivity) {
+            read = sheet_.as_shown(std::move(*read), *cell);
+        }
         const std::string of_head = heads_.units.at(column), of_column = unit_of_column(column);
         const std::string& beside = of_head.empty() ? of_column : of_head;
         // Words behind a number that are no unit that we know count where no other place states one.
@@ -342,6 +415,7 @@ Sentence open_sign(const std::string& place, const std::string& held) {
         unit = cell_first ? read->unit : beside;
         return std::move(read->number);
     }
+
     [[nodiscard]] std::string unit_of_column(Column column) const {
         const auto position = heads_.unit_columns.find(column);
         const Cell* cell = position == heads_.unit_columns.end() ? nullptr : cell_in(row_, position->second);
@@ -352,6 +426,7 @@ Sentence open_sign(const std::string& place, const std::string& held) {
     const Heads& heads_;
     const std::vector<const Cell*>& row_;
     std::vector<Sentence>& not_read_;
+    bool has_open_ = false;
 };
 
 /// A number that a statement gives.
@@ -369,8 +444,6 @@ struct Statements {
 
 /// Whether a statement is a number with the dimension of the result.
 bool is_of_result(Statement statement) {
-    /// Whether the row has a number of which nobody can know the decimal sign.
-    [[nodiscard]] bool has_open_number() const { return has_open_; }
     switch (statement) {
         case Statement::value:
         case Statement::u_c:
@@ -389,6 +462,12 @@ bool is_of_result(Statement statement) {
     }
 }
 
+/// Whether a statement is made in words: "100 mm gauge block" is a name, and no number.
+bool is_in_words(Statement statement) {
+    return statement == Statement::verdict || statement == Statement::decision_rule || statement == Statement::method ||
+           statement == Statement::measurand || statement == Statement::equation;
+}
+
 std::optional<Statement> take_statement(const SheetView& sheet, const std::vector<const Cell*>& row,
                                         Statements& statements, std::vector<Sentence>& not_read) {
     std::optional<Statement> statement;
@@ -397,17 +476,6 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     for (std::size_t i = 0; i < row.size() && !statement; ++i) {
         const CellValue held = sheet.value(*row[i]);
         if (held.kind != CellKind::text) {
-        if (read->is_open) {
-            has_open_ = true;
-            not_read_.push_back(open_sign(sheet_.place(cell->address), held));
-            return std::nullopt;
-        }
-        if (!has_numbers_with_units(column)) {
-            return without_dimension(std::move(*read));
-        }
-        if (column != Column::sensitivity) {
-            read = sheet_.as_shown(std::move(*read), *cell);
-        }
             return std::nullopt;  // a name stands before what it names
         }
         statement = statement_of(held.text);
@@ -415,7 +483,6 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         name = held.text;
         if (!statement && i > 0) {
             return std::nullopt;
-
         }
     }
     if (!statement) {
@@ -426,7 +493,6 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         return i + 1 < row.size() && sheet.number(*row[i + 1]).has_value();
     };
     std::string of_quantity, of_cell, words;
-    bool has_open_ = false;
     std::optional<StatedResult> result;
     for (std::size_t i = named + 1; i < row.size(); ++i) {
         const std::string held = sheet.words(*row[i]);
@@ -437,6 +503,15 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
         std::optional<NumberWithUnit> number;
         if (!result && !is_in_words(*statement)) {
             number = sheet.number_with_unit(*row[i]);
+        }
+        if (number && number->is_open) {
+            not_read.push_back(open_sign(sheet.place(row[i]->address), held));
+            continue;
+        }
+        if (number && has_unit) {
+            number = sheet.as_shown(std::move(*number), *row[i]);
+        } else if (number && *statement != Statement::coverage_probability) {
+            number = NumberWithUnit{.number = without_dimension(std::move(*number)), .unit = ""};
         }
         if (number) {
             of_cell = number->unit;
@@ -462,12 +537,6 @@ std::optional<Statement> take_statement(const SheetView& sheet, const std::vecto
     }
     return statement;
 }
-/// Whether a statement is made in words: "100 mm gauge block" is a name, and no number.
-bool is_in_words(Statement statement) {
-    return statement == Statement::verdict || statement == Statement::decision_rule || statement == Statement::method ||
-           statement == Statement::measurand || statement == Statement::equation;
-}
-
 
 std::string verdict_in_our_words(const std::string& verdict) {
     const std::string lower = text::in_small_letters(verdict);
@@ -504,15 +573,6 @@ void state_coverage(AuditedBudget& budget) {
 
 std::string words_of(const Statements& statements, Statement statement) {
     const auto found = statements.words.find(statement);
-        if (number && number->is_open) {
-            not_read.push_back(open_sign(sheet.place(row[i]->address), held));
-            continue;
-        }
-        if (number && has_unit) {
-            number = sheet.as_shown(std::move(*number), *row[i]);
-        } else if (number && *statement != Statement::coverage_probability) {
-            number = NumberWithUnit{.number = without_dimension(std::move(*number)), .unit = ""};
-        }
     return found == statements.words.end() ? "" : found->second;
 }
 
@@ -637,15 +697,15 @@ void state_claims(AuditedBudget& budget, const Statements& statements, ResultNum
     }
 }
 
-/// Reads one sheet from top to bottom.
+/// Reads one sheet, or a part of it, from top to bottom.
 class TableReader {
 public:
     TableReader(const SheetView& sheet, std::string name, ForeignTables& tables)
         : sheet_(sheet), name_(std::move(name)), tables_(tables) {}
 
-    void read() {
+    void read(const Rows& rows) {
         std::uint32_t last = 0;
-        for (const auto& [number, row] : sheet_.rows()) {
+        for (const auto& [number, row] : rows) {
             if (number > last + 2) {
                 in_rows_ = false;
             }
@@ -669,6 +729,12 @@ private:
             finish();
             statements_ = std::move(above);
             heads_ = std::move(heads);
+            for (const Cell* cell : heads_->second) {
+                tables_.not_read.push_back(
+                    say("{cell}: the column {head} is not read, as another one of the table has its "
+                        "meaning",
+                        sheet_.place(cell->address), text::in_quotes(sheet_.words(*cell))));
+            }
             in_rows_ = true;
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
@@ -806,13 +872,16 @@ private:
 ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation,
                          const std::string& file) {
     ForeignTables tables;
+    const DecimalSign sign = decimal_sign_of(workbook);
     for (std::size_t i = 0; i < workbook.sheets.size(); ++i) {
         if (workbook.sheets[i].state != workbook::SheetState::visible) {
             continue;
         }
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
-        TableReader(sheet, name, tables).read();
+        for (const Rows& rows : parts_of(sheet)) {
+            TableReader(sheet, name, tables).read(rows);
+        }
     }
     if (tables.budgets.empty() && !tables.has_unusable) {
         tables.not_read.push_back(say(
@@ -824,4 +893,3 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
 }
 
 }  // namespace gumcert::audit
-    const DecimalSign sign = decimal_sign_of(workbook);

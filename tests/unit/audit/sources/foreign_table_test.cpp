@@ -241,6 +241,42 @@ TEST(BudgetsIn, SettlesTheDecimalSignOfAFileOnce) {
     }
 }
 
+/// Tables beside each other are as many budgets as below each other, whatever stands around them.
+TEST(BudgetsIn, ReadsTablesBesideEachOther) {
+    const std::vector<std::vector<std::string>> table = {{"measurand", "Weight", "", ""},
+                                                         {"quantity", "unit", "u", "sensitivity"},
+                                                         {"a", "mg", "0.3", "1"},
+                                                         {"b", "mg", "0.4", "1"},
+                                                         {"c", "mg", "1.2", "1"},
+                                                         {"u_c", "1.3", "mg", ""},
+                                                         {"k", "2", "", ""},
+                                                         {"U", "2.6", "mg", ""}};
+    for (std::size_t beside = 1; beside <= 4; ++beside) {
+        for (const std::string& gap : {std::string(), std::string(",")}) {
+            std::string csv = "title,of the sheet\n";
+            for (const std::vector<std::string>& line : table) {
+                for (std::size_t i = 0; i < beside; ++i) {
+                    for (const std::string& field : line) {
+                        csv += field + ",";
+                    }
+                    csv += gap;
+                }
+                csv += "\n";
+            }
+            csv += "\n\nquantity,unit,u,sensitivity,comment,source\nd,mg,5,1,a table,alone\ne,mg,12,1,,\nU,26,mg\n";
+            const ForeignTables tables = tables_of(csv);
+            ASSERT_EQ(tables.budgets.size(), beside + 1) << csv;
+            EXPECT_TRUE(tables.not_read.empty()) << csv;
+            for (std::size_t i = 0; i <= beside; ++i) {
+                const AuditedBudget& budget = tables.budgets[i];
+                EXPECT_EQ(budget.rows.size(), i == beside ? 2U : 3U) << csv;
+                EXPECT_EQ(budget.claims.U ? budget.claims.U->value : 0.0, i == beside ? 26.0 : 2.6) << csv;
+                EXPECT_EQ(budget.u_c_over_rows, 1.0) << csv;
+            }
+        }
+    }
+}
+
 TEST(BudgetsIn, TakesANameForWordsThatBeginsWithANumber) {
     const ForeignTables tables =
         tables_of("measurand;1.200 mbar gauge\nquantity;unit;u\na;mbar;5\nb;mbar;12\nU;26;mbar\nequation;2 a + b\n");
@@ -248,6 +284,16 @@ TEST(BudgetsIn, TakesANameForWordsThatBeginsWithANumber) {
     EXPECT_EQ(tables.budgets[0].name, "1.200 mbar gauge");
     EXPECT_EQ(tables.budgets[0].equation, "2 a + b");
     EXPECT_TRUE(tables.not_read.empty());
+}
+
+TEST(BudgetsIn, NamesAColumnThatIsNotRead) {
+    const ForeignTables tables = tables_of(
+        "symbol,description,unit,u,u(xi),sensitivity\na,length,mm,0.1,0.5,1\nb,form,mm,0.2,0.5,1\nU,0.45,mm\n");
+    ASSERT_EQ(tables.budgets.size(), 1U) << "a symbol and a description are of one table";
+    EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].used_u, 0.1);
+    ASSERT_EQ(tables.not_read.size(), 1U);
+    EXPECT_NE(tables.not_read[0].english().find("budget!E1: the column \"u(xi)\""), std::string::npos)
+        << tables.not_read[0].english();
 }
 
 }  // namespace
