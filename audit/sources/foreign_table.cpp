@@ -793,7 +793,7 @@ private:
             tables_.not_read.push_back(
                 say("{table}: the table is not looked at; it has more than the {most:number} rows that an audit takes",
                     budget_.place, std::to_string(k_most_rows)));
-        } else if (heads_ && !budget_.rows.empty()) {
+        } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
             settle_statements();
             if (is_unusable_) {

@@ -241,6 +241,14 @@ TEST(BudgetsIn, SettlesTheDecimalSignOfAFileOnce) {
     }
 }
 
+TEST(BudgetsIn, SaysOfATableOfOpenNumbersThatItIsNotLookedAt) {
+    const ForeignTables tables = tables_of("quantity;unit;u;sensitivity\na;mm;1.200;1\nb;mm;2.500;1\nU;5.000;mm\n");
+    EXPECT_TRUE(tables.budgets.empty());
+    ASSERT_EQ(tables.not_read.size(), 4U) << "three numbers and the table";
+    EXPECT_NE(tables.not_read[3].english().find("budget!A1: the table is not looked at"), std::string::npos)
+        << tables.not_read[3].english();
+}
+
 /// Tables beside each other are as many budgets as below each other, whatever stands around them.
 TEST(BudgetsIn, ReadsTablesBesideEachOther) {
     const std::vector<std::vector<std::string>> table = {{"measurand", "Weight", "", ""},
