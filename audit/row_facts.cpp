@@ -30,7 +30,8 @@ struct NumberInText {
 };
 
 /// The first number at or after a place, no further than `within` bytes away.
-std::optional<NumberInText> next_number(std::string_view text, std::size_t from, std::size_t within) {
+std::optional<NumberInText> next_number(const AuditedRow& row, std::string_view text, std::size_t from,
+                                        std::size_t within) {
     const std::size_t end = std::min(text.size(), from + std::min(within, text.size()));
     for (std::size_t at = from; at < end; ++at) {
         // The digit of "pt100" or "x_1" is part of a name.
@@ -38,8 +39,9 @@ std::optional<NumberInText> next_number(std::string_view text, std::size_t from,
         if (!is_number_start(text, at) || (inside_word && text[at] >= '0' && text[at] <= '9')) {
             continue;
         }
-        const std::optional<LeadingNumber> number = read_leading_number(text.substr(at), "");
-        if (!number || !std::isfinite(number->number.value)) {
+        const std::optional<LeadingNumber> number =
+            read_leading_number(text.substr(at), "", Percent::hundredth, row.decimal_sign);
+        if (!number || number->is_open || !std::isfinite(number->number.value)) {
             continue;
         }
         NumberInText found{.value = number->number.value, .from = at};
@@ -91,7 +93,7 @@ std::string plain(std::string text) {
 
 void read_relative(std::string_view text, AuditedRow& row) {
     for (std::size_t at = 0; at < text.size() && row.relative_to == RelativeTo::not_stated;) {
-        const std::optional<NumberInText> number = next_number(text, at, text.size());
+        const std::optional<NumberInText> number = next_number(row, text, at, text.size());
         if (!number) {
             return;
         }
@@ -117,7 +119,7 @@ void read_full_scale(std::string_view text, AuditedRow& row) {
     if (end == std::string_view::npos || row.full_scale) {
         return;
     }
-    const std::optional<NumberInText> number = next_number(text, end, 4);
+    const std::optional<NumberInText> number = next_number(row, text, end, 4);
     if (number && !number->percent && is_in_unit(number->behind, row.unit)) {
         row.full_scale = number->value;
     }
@@ -129,14 +131,14 @@ void read_certificate_points(std::string_view text, AuditedRow& row) {
     if (end == std::string_view::npos || row.certificate_low) {
         return;
     }
-    const std::optional<NumberInText> first = next_number(text, end, 3);
+    const std::optional<NumberInText> first = next_number(row, text, end, 3);
     if (!first || first->percent) {
         return;
     }
     const std::size_t to = after_word(first->behind.substr(0, 16), {"to ", "bis ", "..", "…"});
     if (to != std::string_view::npos) {
         const std::size_t at = text.size() - first->behind.size() + to;
-        const std::optional<NumberInText> second = next_number(text, at, 4);
+        const std::optional<NumberInText> second = next_number(row, text, at, 4);
         if (second && !second->percent && is_in_unit(second->behind, row.unit)) {
             row.certificate_low = std::min(first->value, second->value);
             row.certificate_high = std::max(first->value, second->value);
@@ -148,13 +150,14 @@ void read_certificate_points(std::string_view text, AuditedRow& row) {
 
 void read_asymmetric_limits(std::string_view text, AuditedRow& row) {
     for (std::size_t at = 0; at < text.size() && !row.lower_limit;) {
-        const std::optional<NumberInText> first = next_number(text, at, text.size());
+        const std::optional<NumberInText> first = next_number(row, text, at, text.size());
         if (!first) {
             return;
         }
         const char sign = text[first->from];
         if ((sign == '+' || sign == '-') && first->behind.starts_with('/')) {
-            const std::optional<NumberInText> second = next_number(text, text.size() - first->behind.size() + 1, 2);
+            const std::optional<NumberInText> second =
+                next_number(row, text, text.size() - first->behind.size() + 1, 2);
             // Only of two signs: "+0.3/+0.5" are two values and no limits about an estimate.
             if (second && first->value * second->value < 0.0 && is_in_unit(second->behind, row.unit)) {
                 row.lower_limit = std::min(first->value, second->value);
@@ -170,9 +173,9 @@ void read_reliability(std::string_view text, AuditedRow& row) {
     if (end == std::string_view::npos || row.reliability) {
         return;
     }
-    std::optional<NumberInText> number = next_number(text, end, k_nearby);
+    std::optional<NumberInText> number = next_number(row, text, end, k_nearby);
     if (!number || !number->percent) {  // "auf 25 % zuverlässig"
-        number = next_number(text, end - std::min<std::size_t>(end, 24), 24);
+        number = next_number(row, text, end - std::min<std::size_t>(end, 24), 24);
     }
     if (number && number->percent && number->value > 0.0 && number->value < 1.0) {
         row.reliability = number->value;
@@ -185,7 +188,7 @@ void read_correction(std::string_view text, AuditedRow& row) {
         !has_word(text, {"not applied", "nicht angebracht", "nicht ber", "not corrected", "nicht korrigiert"})) {
         return;
     }
-    const std::optional<NumberInText> number = next_number(text, end, k_nearby);
+    const std::optional<NumberInText> number = next_number(row, text, end, k_nearby);
     if (number && !number->percent) {
         row.unapplied_correction = number->value;
     }
@@ -200,7 +203,7 @@ void read_averaged(std::string_view text, AuditedRow& row) {
     if (end == std::string_view::npos || row.averaged) {
         return;
     }
-    const std::optional<NumberInText> number = next_number(text, end, 1);
+    const std::optional<NumberInText> number = next_number(row, text, end, 1);
     constexpr double k_most = 1e6;
     if (number && number->value >= 1.0 && number->value <= k_most && number->value == std::floor(number->value)) {
         row.averaged = static_cast<std::size_t>(number->value);
@@ -222,7 +225,7 @@ void read_series(std::string_view text, AuditedRow& row) {
     const std::size_t largest = after_word(
         text, {"largest s of ", "largest of ", "maximum of ", "größte s von ", "größtes s von ", "größte von "});
     if (largest != std::string_view::npos) {
-        row.group_sizes.assign(whole_number(next_number(text, largest, 1)).value_or(0), *row.n);
+        row.group_sizes.assign(whole_number(next_number(row, text, largest, 1)).value_or(0), *row.n);
         return;
     }
     const std::size_t list = after_word(text, {"daily s ", "s of the series ", "s of the days ", "tägliche s ",
@@ -230,10 +233,10 @@ void read_series(std::string_view text, AuditedRow& row) {
     if (list == std::string_view::npos) {
         return;
     }
-    for (std::optional<NumberInText> number = next_number(text, list, 1); number && number->value > 0.0;) {
+    for (std::optional<NumberInText> number = next_number(row, text, list, 1); number && number->value > 0.0;) {
         row.group_deviations.push_back(number->value);
         const std::size_t end = text.size() - number->behind.size();
-        number = number->behind.starts_with(',') ? next_number(text, end + 1, 2) : std::nullopt;
+        number = number->behind.starts_with(',') ? next_number(row, text, end + 1, 2) : std::nullopt;
     }
     row.group_sizes.assign(row.group_deviations.size(), *row.n);
 }
@@ -247,9 +250,10 @@ void read_length_dependent_limit(const std::string& text, AuditedRow& row) {
     }
     const std::size_t separator = text.find_last_of(" :=(", plus == 0 ? 0 : plus - 1);
     const std::size_t begin = separator == std::string::npos ? 0 : separator + 1;
-    const std::optional<StatedNumber> constant = read_number(text.substr(begin, plus - begin), "");
-    const std::optional<LeadingNumber> slope = read_leading_number(text.substr(plus + 3), "");
-    if (!constant || !slope || slope->rest.empty()) {
+    const std::optional<StatedNumber> constant = read_number(text.substr(begin, plus - begin), "", row.decimal_sign);
+    const std::optional<LeadingNumber> slope =
+        read_leading_number(text.substr(plus + 3), "", Percent::hundredth, row.decimal_sign);
+    if (!constant || !slope || slope->is_open || slope->rest.empty()) {
         return;
     }
     std::string_view rest = slope->rest;

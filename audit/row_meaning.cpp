@@ -178,9 +178,9 @@ std::string unit_behind(std::string_view rest) {
 }
 
 /// The number at the beginning of a text, and how many bytes it takes; nothing where there is none.
-std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text) {
-    const std::optional<LeadingNumber> read = read_leading_number(text, "");
-    if (!read || !std::isfinite(read->number.value)) {
+std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text, DecimalSign sign) {
+    const std::optional<LeadingNumber> read = read_leading_number(text, "", Percent::hundredth, sign);
+    if (!read || read->is_open || !std::isfinite(read->number.value)) {
         return std::nullopt;
     }
     // The rest has one character for each of the text, and no spaces at its ends.
@@ -212,7 +212,7 @@ std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text)
     return std::pair(std::move(piece), end);
 }
 
-Pieces pieces_of(std::string_view all) {
+Pieces pieces_of(std::string_view all, DecimalSign sign) {
     Pieces pieces;
     std::string_view text = cut(all, k_longest_text);
     if (!text::is_utf8(text)) {
@@ -221,7 +221,7 @@ Pieces pieces_of(std::string_view all) {
     bool after_word = false;
     while (!text.empty()) {
         if (!after_word && may_begin_number(text)) {
-            if (std::optional<std::pair<Piece, std::size_t>> number = number_piece(text)) {
+            if (std::optional<std::pair<Piece, std::size_t>> number = number_piece(text, sign)) {
                 pieces.push_back(std::move(number->first));
                 text.remove_prefix(number->second);
                 continue;
@@ -868,7 +868,9 @@ Shape shape_of(std::string_view text) {
 }
 
 void read_comment(AuditedRow& row) {
-    const std::array<Pieces, 3> texts{pieces_of(row.comment), pieces_of(row.quantity), pieces_of(row.source)};
+    const std::array<Pieces, 3> texts{pieces_of(row.comment, row.decimal_sign),
+                                      pieces_of(row.quantity, row.decimal_sign),
+                                      pieces_of(row.source, row.decimal_sign)};
     if (row.type_a == true && row.origin == Origin::not_stated) {
         row.origin = Origin::readings;
     }

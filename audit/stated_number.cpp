@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "text/numbers.h"
 #include "text/utf8.h"
 
 namespace gumcert::audit {
@@ -49,6 +50,18 @@ std::u32string characters(std::string_view text) {
         }
     }
     return all;
+}
+
+/// So many characters of a text, without spaces at their end.
+std::string beginning(std::string_view text, std::size_t characters) {
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < characters && bytes < text.size(); ++i) {
+        bytes += text::decode_utf8(text, bytes).bytes;
+    }
+    while (bytes > 0 && (text[bytes - 1] == ' ' || text[bytes - 1] == '\t')) {
+        --bytes;
+    }
+    return std::string(text.substr(0, bytes));
 }
 
 bool is_digit(char32_t code) {
@@ -112,12 +125,27 @@ struct Digits {
     std::string plain;  ///< digits with '.', as std::from_chars reads them
     int decimals = 0;
     bool whole = true;
+    DecimalSign shows = DecimalSign::each;
+    bool is_open = false;
 };
+
+/// Whether a power of ten stands next: "E-3", "· 10^-3".
+bool exponent_follows(const Walk& walk) {
+    std::size_t ahead = 0;
+    while (walk.peek(ahead) == U' ') {
+        ++ahead;
+    }
+    const char32_t next = walk.peek(ahead);
+    const bool letter = ahead == 0 && (next == U'e' || next == U'E');
+    return letter || next == k_times || next == U'*' ||
+           (next == U'x' && (walk.peek(ahead + 1) == U' ' || walk.peek(ahead + 1) == U'1'));
+}
 
 /// The digits of a number. A single separator is the decimal sign, unless three digits follow a comma of which there is
 /// more than one; where both occur, the last one is it.
-std::optional<Digits> take_digits(Walk& walk) {
+std::optional<Digits> take_digits(Walk& walk, DecimalSign sign) {
     std::u32string raw;
+    bool has_groups = false;
     while (true) {
         const char32_t code = walk.peek();
         const bool group = (code == U' ' || code == U'\'') && !raw.empty() && is_digit(raw.back()) &&
@@ -131,6 +159,7 @@ std::optional<Digits> take_digits(Walk& walk) {
             break;  // "0.36, k = 2": a comma of the sentence
         }
         walk.take();
+        has_groups = has_groups || group;
         if (!group) {
             raw += code;
         }
@@ -154,6 +183,23 @@ std::optional<Digits> take_digits(Walk& walk) {
     if (decimal != U'\0' && count(decimal) > 1) {
         return std::nullopt;
     }
+    Digits digits;
+    // "1.200" may be 1200. No thousands stand behind a zero, and none are set apart in two ways or before a power of ten.
+    const std::size_t separator = raw.find_first_of(U".,");
+    constexpr std::size_t k_group = 3;
+    const bool either = decimal != U'\0' && count(U'.') + count(U',') == 1 && separator > 0 && separator <= k_group &&
+                        raw.front() != U'0' && raw.size() == separator + 1 + k_group && !has_groups &&
+                        !exponent_follows(walk);
+    if (either && sign != DecimalSign::each) {
+        digits.is_open = sign == DecimalSign::open;
+        decimal = (decimal == U'.') == (sign == DecimalSign::point) ? decimal : U'\0';
+    } else if (!either && decimal != U'\0') {
+        digits.shows = decimal == U'.' ? DecimalSign::point : DecimalSign::comma;
+    } else if (!either && count(U'.') > 1) {
+        digits.shows = DecimalSign::comma;
+    } else if (!either && count(U',') > 1) {
+        digits.shows = DecimalSign::point;
+    }
     // What is not the decimal sign sets thousands apart: "631.74.2" is a slip of the keyboard, and no number.
     const std::size_t end_of_whole = decimal == U'\0' ? raw.size() : raw.find(decimal);
     std::size_t digits_before = 0;
@@ -172,7 +218,6 @@ std::optional<Digits> take_digits(Walk& walk) {
     if (end_of_whole < raw.size() && raw.find_first_of(U".,", end_of_whole + 1) != std::u32string::npos) {
         return std::nullopt;
     }
-    Digits digits;
     bool any = false;
     for (const char32_t code : raw) {
         if (is_digit(code)) {
@@ -235,7 +280,7 @@ std::optional<double> take_root(Walk& walk) {
     }
     walk.skip_spaces();
     const bool open = walk.take_if(U'(');
-    const std::optional<Digits> digits = take_digits(walk);
+    const std::optional<Digits> digits = take_digits(walk, DecimalSign::each);
     if (!digits) {
         walk.go_to(start);
         return std::nullopt;
@@ -249,7 +294,7 @@ std::optional<double> take_root(Walk& walk) {
     return std::sqrt(value);
 }
 
-std::optional<StatedNumber> take_number(Walk& walk) {
+std::optional<LeadingNumber> take_number(Walk& walk, Percent percent, DecimalSign sign_of_others) {
     walk.skip_spaces();
     double sign = 1.0;
     if (walk.take_if(k_plus_minus)) {
@@ -268,13 +313,13 @@ std::optional<StatedNumber> take_number(Walk& walk) {
     if (walk.take_if(k_infinity) || walk.take_word("infinity") || walk.take_word("infinite") ||
         walk.take_word("unendlich") || walk.take_word("inf")) {
         number.value = sign * std::numeric_limits<double>::infinity();
-        return number;
+        return LeadingNumber{.number = std::move(number), .rest = ""};
     }
     if (const std::optional<double> root = take_root(walk)) {
         number.value = sign * *root;
-        return number;
+        return LeadingNumber{.number = std::move(number), .rest = ""};
     }
-    const std::optional<Digits> digits = take_digits(walk);
+    const std::optional<Digits> digits = take_digits(walk, sign_of_others);
     if (!digits) {
         return std::nullopt;
     }
@@ -289,7 +334,7 @@ std::optional<StatedNumber> take_number(Walk& walk) {
     number.half_step = digits->whole && !exponent ? 0.0 : 0.5 * std::pow(10.0, exponent.value_or(0) - digits->decimals);
     const std::size_t before = walk.position();
     walk.skip_spaces();
-    if (walk.take_if(U'%')) {
+    if (percent == Percent::hundredth && walk.take_if(U'%')) {
         number.value /= 100.0;
         number.half_step /= 100.0;
     } else if (const std::optional<double> root = take_root(walk)) {
@@ -299,13 +344,17 @@ std::optional<StatedNumber> take_number(Walk& walk) {
         walk.go_to(before);
     }
     number.value *= sign;
-    return number;
+    return LeadingNumber{.number = std::move(number), .rest = "", .shows = digits->shows, .is_open = digits->is_open};
 }
 
 }  // namespace
 
 double printed_half_step(const StatedNumber& number) {
-    const std::string& text = number.text;
+    std::string text = number.text;
+    if (number.half_step == 0.0) {  // signs in a whole number set thousands apart
+        text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '.' || c == ',' || c == '\''; }),
+                   text.end());
+    }
     if (number.half_step != 0.0 || number.value == 0.0 || text.empty() ||
         text.find_first_not_of("0123456789") != std::string::npos) {
         return number.half_step;
@@ -316,6 +365,36 @@ double printed_half_step(const StatedNumber& number) {
     return 0.5 * std::pow(10.0, static_cast<double>(zeros));
 }
 
+void convert(StatedNumber& number, double factor) {
+    if (factor == 1.0) {
+        return;
+    }
+    constexpr double k_power = 1e-12, k_most_decimals = 17.0;
+    const double exponent = std::round(std::log10(std::abs(factor)));
+    const bool is_power = factor > 0.0 && std::abs(factor / std::pow(10.0, exponent) - 1.0) < k_power;
+    const bool is_whole = number.half_step == 0.0 && number.value == std::round(number.value);
+    const bool has_digits = !number.text.empty() && (is_whole || number.half_step > 0.0);
+    const double decimals =
+        has_digits ? (is_whole ? 0.0 : std::round(-std::log10(2.0 * number.half_step))) - exponent : 0.0;
+    const std::size_t sign = number.text.find_last_of(".,");
+    const bool has_comma = !is_whole && sign != std::string::npos && number.text[sign] == ',';
+    number.value *= factor;
+    number.half_step *= std::abs(factor);
+    number.scale *= factor;
+    if (!has_digits || !is_power || !std::isfinite(number.value) || !(std::abs(decimals) <= k_most_decimals)) {
+        number.text.clear();
+        return;
+    }
+    number.text =
+        number.value == 0.0 && is_whole ? "0" : text::fixed(number.value, static_cast<int>(std::max(0.0, decimals)));
+    // The digits are those of before: the number is the nearest one to them, as if it had been read in this unit.
+    std::from_chars(number.text.data(), number.text.data() + number.text.size(), number.value);
+    const std::size_t point = number.text.find('.');
+    if (has_comma && point != std::string::npos) {
+        number.text[point] = ',';
+    }
+}
+
 StatedNumber exact_number(double value, std::string place) {
     StatedNumber number;
     number.value = value;
@@ -323,24 +402,43 @@ StatedNumber exact_number(double value, std::string place) {
     return number;
 }
 
-std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place) {
+std::optional<LeadingNumber> read_leading_number(std::string_view text, std::string place, Percent percent,
+                                                 DecimalSign sign) {
     constexpr std::size_t k_longest = 400;
     if (text.size() > k_longest) {
         return std::nullopt;
     }
     Walk walk(characters(text));
-    std::optional<StatedNumber> number = take_number(walk);
-    if (!number) {
+    std::optional<LeadingNumber> leading = take_number(walk, percent, sign);
+    if (!leading) {
         return std::nullopt;
     }
-    number->text = std::string(text);
-    number->place = std::move(place);
-    return LeadingNumber{.number = std::move(*number), .rest = walk.rest()};
+    leading->number.text = beginning(text, walk.position());
+    leading->number.place = std::move(place);
+    leading->rest = walk.rest();
+    return leading;
 }
 
-std::optional<StatedNumber> read_number(std::string_view text, std::string place) {
-    std::optional<LeadingNumber> leading = read_leading_number(text, std::move(place));
-    if (!leading || !leading->rest.empty()) {
+DecimalSign decimal_sign_in(std::string_view text) {
+    DecimalSign all = DecimalSign::each;
+    const auto is_part = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == ',' ||
+               c == '-' || c == '/' || c == '_';
+    };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const bool begins = text[at] >= '0' && text[at] <= '9' && (at == 0 || !is_part(text[at - 1]));
+        const std::optional<LeadingNumber> number = begins ? read_leading_number(text.substr(at), "") : std::nullopt;
+        if (!number || number->shows == DecimalSign::each) {
+            continue;
+        }
+        all = all == DecimalSign::each || all == number->shows ? number->shows : DecimalSign::open;
+    }
+    return all;
+}
+
+std::optional<StatedNumber> read_number(std::string_view text, std::string place, DecimalSign sign) {
+    std::optional<LeadingNumber> leading = read_leading_number(text, std::move(place), Percent::hundredth, sign);
+    if (!leading || leading->is_open || !leading->rest.empty()) {
         return std::nullopt;
     }
     return std::move(leading->number);

@@ -101,6 +101,8 @@ public:
         make_numbers();
     }
 
+    [[nodiscard]] char separator() const { return separator_; }
+
 private:
     [[noreturn]] void refuse_quote(const std::string& what) const {
         throw gum::InputError(
@@ -193,7 +195,9 @@ Workbook read_csv(std::string_view text, const std::string& file, const std::str
     }
     Workbook workbook;
     workbook.sheets.emplace_back().name = sheet;
-    CsvReader(text, where, workbook.sheets.front()).read();
+    CsvReader reader(text, where, workbook.sheets.front());
+    reader.read();
+    workbook.csv_separator = reader.separator();
     return workbook;
 }
 

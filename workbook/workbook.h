@@ -117,6 +117,7 @@ struct Workbook {
     std::vector<ExternalLink> external_links;
     std::vector<std::string> number_formats{"General"};
     WorkbookMetadata metadata;
+    char csv_separator = '\0';  ///< between the columns of the CSV file that it was read from; '\0': of a workbook
 };
 
 /// The cell of an address; nullptr where it is blank.

@@ -72,7 +72,8 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             return;
         }
         // u is added as it stands: no coefficient, or 1.
-        if (at.is.used_sensitivity != 1.0) {
+        const double scale = at.is.sensitivity ? at.is.sensitivity->scale : 1.0;
+        if (!is_about(at.is.used_sensitivity, scale, 1e-9)) {
             return;
         }
         if (!expected.is_one()) {
@@ -90,7 +91,7 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             return;
         }
         const double factor = y->difference_from_si(x->difference_to_si(1.0));
-        if (is_about(factor, 1.0, 1e-9)) {
+        if (is_about(factor, scale, 1e-9)) {
             return;
         }
         AuditFinding finding = finding_at(

@@ -30,15 +30,15 @@ bool is_ascii_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// Significant digits of the number that a text begins with. Zeros at the end of a whole number are none.
-int digits_in(const std::string& text) {
+/// Significant digits of a printed number. Zeros at the end of a whole number are none.
+int digits_in(const StatedNumber& number) {
     std::string digits;
     bool decimal = false;
-    for (const char c : text) {
+    for (const char c : number.text) {
         if (is_ascii_digit(c)) {
             digits += c;
         } else if ((c == '.' || c == ',') && !digits.empty()) {
-            decimal = true;
+            decimal = number.half_step > 0.0;  // else it sets thousands apart
         } else if (!digits.empty() && c != ' ' && c != '\'') {
             break;
         }
@@ -52,7 +52,7 @@ int digits_in(const std::string& text) {
 
 /// Unit of the last digit of a printed number.
 double last_place(const StatedNumber& number) {
-    return number.half_step > 0.0 ? 2.0 * number.half_step : 1.0;
+    return number.half_step > 0.0 ? 2.0 * number.half_step : std::abs(number.scale);
 }
 
 /// A budget may be careless in its print where a certificate may not.
@@ -65,7 +65,7 @@ FindingSeverity milder_in_a_budget(const AuditSubject& subject, FindingSeverity 
 void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const std::optional<StatedNumber>& U = subject.budgets[i].claims.U;
-        if (!is_printed(subject, U) || digits_in(U->text) <= 2) {
+        if (!is_printed(subject, U) || digits_in(*U) <= 2) {
             continue;
         }
         AuditFinding finding =
@@ -156,7 +156,7 @@ void coverage_not_stated(const AuditSubject& subject, FindingCollector& findings
 
 /// "." or "," where a text has one as its decimal sign; none where it has both or neither.
 char decimal_sign_of(const std::optional<StatedNumber>& number) {
-    if (!number || number->half_step == 0.0) {
+    if (!number || number->half_step == 0.0 || number->scale != 1.0) {  // in another unit the digits are ours
         return ' ';
     }
     const bool point = number->text.find('.') != std::string::npos, comma = number->text.find(',') != std::string::npos;

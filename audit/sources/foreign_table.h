@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "audit/audited_budget.h"
+#include "audit/sentence.h"
 #include "workbook/evaluate.h"
 #include "workbook/workbook.h"
 
@@ -12,6 +13,7 @@ namespace gumcert::audit {
 /// What was found in a workbook, or in the one sheet of a CSV file.
 struct ForeignTables {
     std::vector<AuditedBudget> budgets;  ///< one a table, in the order of the sheets
+    bool has_unusable = false;           ///< there was a budget whose numbers could not be read
     std::vector<Sentence> not_read;      ///< cells that belong to a table and could not be understood, as sentences
 };
 

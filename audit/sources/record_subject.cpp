@@ -123,12 +123,12 @@ AuditedRow row_of(const reports::BudgetRow& stated, const std::string& quantity,
         state_origin(row, statement, stated.value.number.value_or(0.0));
     }
     row.contributor = contributor_of(row.quantity, row.comment, row.source);
-    // The job says by its keys what u was made of; where it states u alone, its note may say more.
-    if (statement.is_object() && statement.contains("u") && !row.comment.empty()) {
+    // The job says by its keys what u was made of; where it states u alone, its note or its source may say more.
+    if (statement.is_object() && statement.contains("u") && !(row.comment.empty() && row.source.empty())) {
         read_comment(row);
         note_row_facts(row);
         if (row.origin == Origin::certificate && !row.origin_value) {
-            row.origin = Origin::not_stated;  // a word in a note is no certificate
+            row.origin = Origin::not_stated;  // a word is no certificate
         }
     }
     return row;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "workbook/read_csv.h"
 
@@ -182,6 +183,125 @@ TEST(BudgetsIn, SaysWhereTablesAreTooMany) {
     EXPECT_EQ(tables.budgets.size(), 10'000U);
     ASSERT_EQ(tables.not_read.size(), 1U);
     EXPECT_NE(tables.not_read.front().english().find("what follows is not looked at"), std::string::npos);
+}
+
+TEST(BudgetsIn, TakesAPercentSignForAUnit) {
+    const ForeignTables tables = tables_of(
+        "quantity;u;sensitivity;contribution\na;0,050 %;1;0,050 %\nb;0,035 %;1;0,035 %\nresult;0,23 %\nk;2\nU;0,12 %\n"
+        "coverage probability;95 %\nupper limit;5000 ppm\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const AuditedBudget& budget = tables.budgets[0];
+    EXPECT_EQ(budget.unit, "%");
+    EXPECT_EQ(budget.claims.U->value, 0.12);
+    EXPECT_EQ(budget.claims.U->text, "0,12");
+    EXPECT_EQ(budget.rows[0].used_u, 0.05);
+    EXPECT_EQ(budget.claims.coverage_probability, 0.95);
+    EXPECT_DOUBLE_EQ(budget.limits.upper.value_or(0.0), 0.5);
+    EXPECT_TRUE(tables.not_read.empty());
+}
+
+/// "1,200" is 1200 beside "1,500.00", 1.2 beside "0,5", and nothing is computed with it where no number shows which.
+TEST(BudgetsIn, SettlesTheDecimalSignOfAFileOnce) {
+    const auto table = [](const std::string& number, const std::string& beside, char separator) {
+        std::string csv;
+        for (const char c : "quantity;estimate;unit;u;sensitivity;comment\nnormal;" + beside + ";mPa;" + number +
+                                ";1;U = " + number + " mPa with k = 1\nb;0;mPa;500;1;\nU;" + number + "\n") {
+            csv += c == ';' ? separator : c;
+        }
+        return tables_of(csv);
+    };
+    struct Case {
+        std::string number, beside;
+        char separator;
+        double u;  ///< 0: it is asked
+    };
+    for (const Case& one :
+         {Case{"\"1,200\"", "\"1,500.00\"", ',', 1200.0}, Case{"\"1,200\"", "1.5", ',', 1200.0},
+          Case{"\"1,200\"", "\"1,5\"", ',', 1.2}, Case{"1.200", "1.000.000", ';', 1200.0},
+          Case{"1.200", "2,03", ';', 1200.0}, Case{"1.200", "2.03", ';', 1.2}, Case{"1.200", "7", ',', 1.2},
+          Case{"1,200", "2,03", ';', 1.2}, Case{"1,200", "2.5", '\t', 1200.0}, Case{"1.200", "7", ';', 0.0},
+          Case{"1,200", "7", '\t', 0.0}, Case{"0.120", "7", ';', 0.12}, Case{"1.2000", "7", ';', 1.2},
+          Case{"1.200E0", "7", ';', 1.2}}) {
+        const std::string name = one.number + " beside " + one.beside;
+        const ForeignTables tables = table(one.number, one.beside, one.separator);
+        if (one.u == 0.0) {
+            EXPECT_TRUE(tables.budgets.empty()) << name;
+            ASSERT_GE(tables.not_read.size(), 2U) << name;
+            EXPECT_NE(tables.not_read[0].english().find("thousands"), std::string::npos) << name;
+            continue;
+        }
+        ASSERT_EQ(tables.budgets.size(), 1U) << name;
+        EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].used_u, one.u) << name;
+        EXPECT_DOUBLE_EQ(tables.budgets[0].claims.U->value, one.u) << name;
+        EXPECT_EQ(tables.budgets[0].claims.U->text.find_first_of(",."), one.u > 2.0 ? std::string::npos : 1U) << name;
+        EXPECT_TRUE(tables.not_read.empty()) << name;
+        if (one.separator == ';') {  // the quotes around the number of the others end its words
+            EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].origin_value.value_or(0.0), one.u) << name;
+        }
+    }
+}
+
+TEST(BudgetsIn, SaysOfATableOfOpenNumbersThatItIsNotLookedAt) {
+    const ForeignTables tables = tables_of("quantity;unit;u;sensitivity\na;mm;1.200;1\nb;mm;2.500;1\nU;5.000;mm\n");
+    EXPECT_TRUE(tables.budgets.empty());
+    ASSERT_EQ(tables.not_read.size(), 4U) << "three numbers and the table";
+    EXPECT_NE(tables.not_read[3].english().find("budget!A1: the table is not looked at"), std::string::npos)
+        << tables.not_read[3].english();
+}
+
+/// Tables beside each other are as many budgets as below each other, whatever stands around them.
+TEST(BudgetsIn, ReadsTablesBesideEachOther) {
+    const std::vector<std::vector<std::string>> table = {{"measurand", "Weight", "", ""},
+                                                         {"quantity", "unit", "u", "sensitivity"},
+                                                         {"a", "mg", "0.3", "1"},
+                                                         {"b", "mg", "0.4", "1"},
+                                                         {"c", "mg", "1.2", "1"},
+                                                         {"u_c", "1.3", "mg", ""},
+                                                         {"k", "2", "", ""},
+                                                         {"U", "2.6", "mg", ""}};
+    for (std::size_t beside = 1; beside <= 4; ++beside) {
+        for (const std::string& gap : {std::string(), std::string(",")}) {
+            std::string csv = "title,of the sheet\n";
+            for (const std::vector<std::string>& line : table) {
+                for (std::size_t i = 0; i < beside; ++i) {
+                    for (const std::string& field : line) {
+                        csv += field + ",";
+                    }
+                    csv += gap;
+                }
+                csv += "\n";
+            }
+            csv += "\n\nquantity,unit,u,sensitivity,comment,source\nd,mg,5,1,a table,alone\ne,mg,12,1,,\nU,26,mg\n";
+            const ForeignTables tables = tables_of(csv);
+            ASSERT_EQ(tables.budgets.size(), beside + 1) << csv;
+            EXPECT_TRUE(tables.not_read.empty()) << csv;
+            for (std::size_t i = 0; i <= beside; ++i) {
+                const AuditedBudget& budget = tables.budgets[i];
+                EXPECT_EQ(budget.rows.size(), i == beside ? 2U : 3U) << csv;
+                EXPECT_EQ(budget.claims.U ? budget.claims.U->value : 0.0, i == beside ? 26.0 : 2.6) << csv;
+                EXPECT_EQ(budget.u_c_over_rows, 1.0) << csv;
+            }
+        }
+    }
+}
+
+TEST(BudgetsIn, TakesANameForWordsThatBeginsWithANumber) {
+    const ForeignTables tables =
+        tables_of("measurand;1.200 mbar gauge\nquantity;unit;u\na;mbar;5\nb;mbar;12\nU;26;mbar\nequation;2 a + b\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_EQ(tables.budgets[0].name, "1.200 mbar gauge");
+    EXPECT_EQ(tables.budgets[0].equation, "2 a + b");
+    EXPECT_TRUE(tables.not_read.empty());
+}
+
+TEST(BudgetsIn, NamesAColumnThatIsNotRead) {
+    const ForeignTables tables = tables_of(
+        "symbol,description,unit,u,u(xi),sensitivity\na,length,mm,0.1,0.5,1\nb,form,mm,0.2,0.5,1\nU,0.45,mm\n");
+    ASSERT_EQ(tables.budgets.size(), 1U) << "a symbol and a description are of one table";
+    EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].used_u, 0.1);
+    ASSERT_EQ(tables.not_read.size(), 1U);
+    EXPECT_NE(tables.not_read[0].english().find("budget!E1: the column \"u(xi)\""), std::string::npos)
+        << tables.not_read[0].english();
 }
 
 }  // namespace

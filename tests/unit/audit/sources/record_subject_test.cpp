@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "audit/audit.h"
 #include "audit/budget_outcome.h"
@@ -67,6 +69,40 @@ TEST(SubjectOfRecord, TakesTheStatementsOfInputsFromTheJob) {
     EXPECT_EQ(b.origin_value, 0.69282);
     EXPECT_EQ(b.shape, Shape::rectangular);
     EXPECT_EQ(b.place, "/results/y/budget/1");
+}
+
+/// What a job says in words of a u that it states alone counts the same wherever it stands.
+TEST(SubjectOfRecord, ReadsTheWordsOfSourceAndNote) {
+    for (const std::string words :
+         {"data sheet of the balance, MPE 0.3 um", "U = 0.3 um, k = 2", "resolution 0.3 um", "limits ±0.3 um",
+          "manufacturer's specification 0.3 um", "certificate K-17", "mean of 10 readings", "nothing to read"}) {
+        const auto report = [&words](bool in_source) {
+            reports::EvaluationRecord record = two_rows();
+            record.job_json = R"({"inputs": {"a": {"value": 0, "unit": "um", "u": 0.3, ")" +
+                              std::string(in_source ? "source" : "note") + R"(": ")" + words +
+                              R"("}, "b": {"u": 0.4}}})";
+            record.results[0].budget[0].source = in_source ? words : "";
+            return audit(subject_of(record, "record.json"), all_rules());
+        };
+        const AuditReport note = report(false), source = report(true);
+        const AuditedRow& of_note = note.subject.budgets.at(0).rows.at(0);
+        const AuditedRow& of_source = source.subject.budgets.at(0).rows.at(0);
+        EXPECT_EQ(of_source.origin, of_note.origin) << words;
+        EXPECT_EQ(of_source.origin_value, of_note.origin_value) << words;
+        const auto rules = [](const AuditReport& all) {
+            std::set<std::string> found;
+            for (const AuditFinding& finding : all.findings) {
+                if (finding.rule.starts_with("U")) {
+                    found.insert(finding.rule);
+                }
+            }
+            return found;
+        };
+        EXPECT_EQ(rules(source), rules(note)) << words;
+        if (words.find("MPE") != std::string::npos) {
+            EXPECT_TRUE(rules(source).contains("U10"));
+        }
+    }
 }
 
 TEST(SubjectOfRecord, WhatCorrelationsAddStaysAsItIs) {
