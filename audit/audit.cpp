@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <tuple>
@@ -194,7 +195,19 @@ const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<cons
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
     AuditReport report;
     std::vector<SeverityPolicy> policies;
-    std::vector<const Rule*> concluding;
+    std::vector<const Rule*> concluding, of_rest;
+    const auto take = [&report, &policies](const Rule& rule, FindingCollector& collector) {
+        for (AuditFinding& finding : collector.take()) {
+            report.findings.push_back(std::move(finding));
+            policies.push_back(rule.policy);
+        }
+        for (const Sentence& reason : collector.unchecked()) {
+            report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
+        }
+        for (const Sentence& sentence : collector.notes()) {
+            report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
+        }
+    };
     for (const Rule& rule : rules) {
         FindingCollector collector(rule);
         if (rule.examine_gates != nullptr) {
@@ -210,18 +223,22 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             if (rule.conclude != nullptr) {
                 concluding.push_back(&rule);
             }
+            if (rule.examine_rest != nullptr) {
+                of_rest.push_back(&rule);
+            }
         }
-        for (AuditFinding& finding : collector.take()) {
-            report.findings.push_back(std::move(finding));
-            policies.push_back(rule.policy);
-        }
-        for (const Sentence& reason : collector.unchecked()) {
-            report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
-        }
-        for (const Sentence& sentence : collector.notes()) {
-            report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
-        }
+        take(rule, collector);
     }
+    const std::size_t others = report.findings.size();
+    for (const Rule* rule : of_rest) {
+        FindingCollector collector(*rule);
+        rule->examine_rest(subject, report.findings, collector);
+        take(*rule, collector);
+    }
+    // What is wrong with a row is corrected before what follows from the rows.
+    const auto first = static_cast<std::ptrdiff_t>(others);
+    std::rotate(report.findings.begin(), report.findings.begin() + first, report.findings.end());
+    std::rotate(policies.begin(), policies.begin() + first, policies.end());
     look_again(subject, rules, report.findings, policies);
     const NestedCorrections nested(subject, report.findings);
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {

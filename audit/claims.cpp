@@ -4,9 +4,11 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "audit/budget_outcome.h"
+#include "audit/row_meaning.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -233,8 +235,32 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     return check;
 }
 
+namespace {
+
+/// Where the claimed u_c follows from what the rows divide over their divisors, and not from the u that some of them
+/// print, the sum was made of the former: those u are errors of the page, which the result does not have.
+void use_quotients_that_were_summed(AuditedBudget& budget) {
+    if (budget.evaluated_here || !budget.claims.u_c ||
+        std::none_of(budget.rows.begin(), budget.rows.end(), u_is_not_the_quotient) || !check_u_c(budget).u_c_outside) {
+        return;
+    }
+    AuditedBudget divided = budget;
+    for (AuditedRow& row : divided.rows) {
+        if (u_is_not_the_quotient(row)) {
+            use_quotient_of_columns(row);
+        }
+    }
+    const ClaimCheck check = check_u_c(divided);
+    if (check.allowed && !check.u_c_outside) {
+        budget = std::move(divided);
+    }
+}
+
+}  // namespace
+
 void note_unexplained(AuditedBudget& budget) {
     budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
+    use_quotients_that_were_summed(budget);
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
     if (check.u_c_outside) {
