@@ -252,6 +252,13 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             result.claimed = claimed_outcome(budget, evaluated);
             result.audited = evaluated;
             result.allowed = outcome_intervals(budget);
+            if (!evaluated.undecided.empty()) {
+                subject.not_read.push_back(
+                    say("{result}: verdict or E_n cannot be told; U and the rest stand", budget.name));
+            }
+            for (const gum::Diagnostic& diagnostic : evaluated.undecided) {
+                subject.not_read.push_back(message_in_words(diagnostic));
+            }
         } catch (const gum::DiagnosedError& error) {
             subject.not_read.push_back(message_in_words(error.diagnostics().front()));
             continue;

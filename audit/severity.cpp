@@ -8,7 +8,7 @@ namespace {
 
 FindingSeverity severity_of_step(const BudgetOutcome& before, const BudgetOutcome& after) {
     const bool en_turns = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
-    if (before.verdict != after.verdict || en_turns || after.U >= before.U * (1.0 + k_understated)) {
+    if (verdict_turns(before.verdict, after.verdict) || en_turns || after.U >= before.U * (1.0 + k_understated)) {
         return FindingSeverity::critical;
     }
     return before.printed_U != after.printed_U || before.printed_value != after.printed_value ? FindingSeverity::major

@@ -81,7 +81,7 @@ void verdict_does_not_follow(const AuditSubject& subject, FindingCollector& find
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         const std::optional<BudgetOutcome> printed = outcome_of_claims(budget), unrounded = outcome_or_none(budget);
-        if (!printed || !unrounded || printed->verdict.empty()) {
+        if (!printed || !unrounded || printed->verdict.empty() || printed->verdict == k_no_decision) {
             continue;
         }
         const std::optional<bool> claimed = says_conforming(budget.claims.verdict),

@@ -522,7 +522,7 @@ Change change_of(const BudgetOutcome& before, const BudgetOutcome& after) {
     change.percent = signed_percent(change.relative);
     // direction_in_words() says "U understated"; forms put the word into their own language.
     change.direction = audit::direction_in_words(before, after).substr(2);
-    change.verdict_turns = before.verdict != after.verdict;
+    change.verdict_turns = audit::verdict_turns(before.verdict, after.verdict);
     change.En_crosses_one = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
     return change;
 }
