@@ -154,6 +154,13 @@ struct Claims {
     std::optional<StatedNumber> en;
 };
 
+/// Of a workbook that shows other results than its formulas give: what these give, and what it has beyond the rows.
+struct ComputedClaims {
+    Claims claims;
+    CoverageRule coverage;
+    double u_c_over_rows = 1.0, k_over_rows = 1.0, U_over_k_u_c = 1.0;
+};
+
 /// An uncertainty budget of one result, by whomever it was made: what the rules of the audit look at, and what their
 /// corrections change.
 struct AuditedBudget {
@@ -186,6 +193,7 @@ struct AuditedBudget {
     int digits = 2;  ///< significant digits of a printed U
     gum::RoundingMode rounding = gum::RoundingMode::half_even;
     Claims claims;
+    std::optional<ComputedClaims> computed_claims;  ///< `claims` has what is shown
     std::optional<StatedMonteCarlo> monte_carlo;
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };

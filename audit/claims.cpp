@@ -259,8 +259,12 @@ void use_quotients_that_were_summed(AuditedBudget& budget) {
 }  // namespace
 
 void note_unexplained(AuditedBudget& budget) {
-    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
     use_quotients_that_were_summed(budget);
+    note_claims_beyond_rows(budget);
+}
+
+void note_claims_beyond_rows(AuditedBudget& budget) {
+    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
     if (check.u_c_outside) {
@@ -273,6 +277,19 @@ void note_unexplained(AuditedBudget& budget) {
         const BudgetOutcome outcome = evaluate(budget);
         budget.U_over_k_u_c = budget.claims.U->value / (outcome.k * outcome.u_c);
     }
+}
+
+AuditedBudget with_computed_claims(const AuditedBudget& budget) {
+    AuditedBudget computed = budget;
+    if (const std::optional<ComputedClaims>& given = budget.computed_claims) {
+        computed.claims = given->claims;
+        computed.coverage = given->coverage;
+        computed.u_c_over_rows = given->u_c_over_rows;
+        computed.k_over_rows = given->k_over_rows;
+        computed.U_over_k_u_c = given->U_over_k_u_c;
+        computed.computed_claims.reset();
+    }
+    return computed;
 }
 
 }  // namespace gumcert::audit

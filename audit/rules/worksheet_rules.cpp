@@ -977,6 +977,7 @@ std::vector<Rule> worksheet_rules() {
          .correction = "Protect the cells with formulas, and note version and validation.",
          .question = "How is it made sure that the formulas are those that were validated?",
          .examine = not_protected},
+        stored_value_rule(),
     };
 }
 

@@ -54,6 +54,32 @@ void mark_sums(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held)
                             [&](std::size_t i, const std::vector<CellPlace>& under) { mark_sum(*of[i], held, under); });
 }
 
+/// What the file shows is what it claims, also where its formulas give something else.
+void take_shown_claims(AuditedBudget& budget, const AuditedWorkbook& held) {
+    const ComputedClaims computed{.claims = budget.claims,
+                                  .coverage = budget.coverage,
+                                  .u_c_over_rows = budget.u_c_over_rows,
+                                  .k_over_rows = budget.k_over_rows,
+                                  .U_over_k_u_c = budget.U_over_k_u_c};
+    Claims& claims = budget.claims;
+    bool any = false;
+    for (std::optional<StatedNumber>* claim : {&claims.value, &claims.u_c, &claims.nu_eff, &claims.k, &claims.U}) {
+        const std::optional<CellPlace> cell = *claim ? held.cell_at((*claim)->place) : std::nullopt;
+        if (const std::optional<double> shown = cell ? held.stale_number(*cell) : std::nullopt) {
+            (*claim)->value = *shown;
+            any = true;
+        }
+    }
+    if (any) {
+        budget.computed_claims = computed;
+        if (claims.k) {
+            budget.coverage = {
+                .kind = CoverageRule::Kind::fixed, .k = claims.k->value, .probability = budget.coverage.probability};
+        }
+        note_claims_beyond_rows(budget);
+    }
+}
+
 }  // namespace
 
 AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
@@ -67,6 +93,9 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
     if (!held->evaluation.cells.empty()) {
         subject.kind = AuditSubject::Kind::workbook;
         mark_sums(subject.budgets, *held);
+        for (AuditedBudget& budget : subject.budgets) {
+            take_shown_claims(budget, *held);
+        }
         for (const workbook::NotEvaluated& reason : held->evaluation.reasons) {
             const workbook::Sheet& sheet = held->workbook.sheets[reason.sheet];
             const std::string cell = workbook::sheet_a1(sheet.name, sheet.cells[reason.cell].address);
