@@ -620,12 +620,19 @@ bool is_told(const RowAt& at, double quotient, std::span<const AuditFinding> oth
 }
 
 /// U26 of one row.
-void add_other_quotient(const RowAt& at, FindingCollector& findings) {
+void add_other_quotient(const RowAt& at, std::span<const AuditFinding> others, FindingCollector& findings) {
     const AuditedRow& row = at.is;
     const StatedNumber quotient = *quotient_of_columns(row);
     const double u = std::abs(row.u->value), stated = std::abs(row.stated->value);
     const std::optional<double> by_words = u_by_words(row);
     const bool is_of_words = by_words && !u_differs(row, *by_words);
+    const bool is_told_of_divisor = std::any_of(others.begin(), others.end(), [&row, &at](const AuditFinding& other) {
+        return other.rule == "W02" && other.where.starts_with(row.place + " (") &&
+               std::find(other.budgets.begin(), other.budgets.end(), at.budget) != other.budgets.end();
+    });
+    if (is_of_words && is_told_of_divisor) {
+        return;
+    }
     const bool is_summed = u_differs(row, u, 1e-9) && is_about(row.used_u, quotient.value, 1e-9);
     AuditFinding finding = finding_at(
         at, "u",
@@ -675,7 +682,7 @@ void u_is_no_quotient(const AuditSubject& subject, std::span<const AuditFinding>
         for (const std::size_t r : apart) {
             const RowAt at{.budget = b, .row = r, .of = budget, .is = budget.rows[r]};
             if (!is_told(at, quotient_of_columns(at.is)->value, others)) {
-                add_other_quotient(at, findings);
+                add_other_quotient(at, others, findings);
             }
         }
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "audit/row_facts.h"
+#include "audit/row_meaning.h"
 #include "audit/rules/read_cells.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
@@ -173,8 +174,23 @@ std::optional<double> divisor_of_shape(Shape shape) {
     }
 }
 
+/// Whether a divisor is √n of readings: of a row of Type A, or where words, ν = n − 1 or a formula that counts say n
+/// (JCGM 100:2008, 4.2.3). The distribution that stands beside it is that of their mean.
+bool is_root_of_readings(const AuditedRow& row, const SheetFormula* divisor) {
+    if (row.type_a.value_or(row.origin == Origin::readings)) {
+        return true;
+    }
+    const double n = row.divisor->value * row.divisor->value;
+    const auto is_n = [n](double count) { return is_about(count, n, 0.02); };
+    const bool is_counted = divisor != nullptr && calls(divisor->formula, {"COUNT", "COUNTA", "ROWS"});
+    return is_counted || (row.n && is_n(static_cast<double>(*row.n))) ||
+           (row.averaged && is_n(static_cast<double>(*row.averaged))) ||
+           (std::isfinite(row.used_nu) && is_n(row.used_nu + 1.0));
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
-    for_each_row(subject, [&findings](const RowAt& at) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_row(subject, [&findings, &view](const RowAt& at) {
         if (!at.is.divisor || !(at.is.divisor->value > 0.0)) {
             return;
         }
@@ -191,7 +207,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
                                         : at.is.shape == Shape::normal && !known.empty() &&
                                               (known.english().starts_with("√3") || known.english().starts_with("√6"));
-        if (!disagrees) {
+        if (!disagrees || is_root_of_readings(at.is, view ? view->formula_at(place_of(at.is.divisor)) : nullptr)) {
             return;
         }
         AuditFinding finding = finding_at(
@@ -204,9 +220,19 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         finding.actual = say_number(in_words(divisor));
         finding.evidence = {equals(say("divisor"), text::shortest(divisor)),
                             say("distribution: {distribution}", at.is.shape_text)};
+        // u itself may have been divided by the right number.
+        const bool is_divided_so =
+            expected && at.is.stated && !u_differs(at.is, std::abs(at.is.stated->value) / *expected);
+        if (is_divided_so) {
+            finding.expected = say_number(text::significant(*expected, 6));
+            findings.add(std::move(finding), FindingSeverity::minor);
+            return;
+        }
         if (expected) {
             finding.expected = say_number(text::significant(*expected, 6));
-            finding.correct = scale_u(at.row, divisor / *expected);
+            finding.correct = at.is.stated && u_is_not_the_quotient(at.is)
+                                  ? set_u(at.row, std::abs(at.is.stated->value) / *expected)
+                                  : scale_u(at.row, divisor / *expected);
         } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
             finding.expected = say("k = {k:number} of the certificate", in_words(*at.is.certificate_k));
             finding.correct = scale_u(at.row, divisor / *at.is.certificate_k);
@@ -850,7 +876,9 @@ std::vector<Rule> worksheet_rules() {
          .title = "Divisor and stated distribution disagree",
          .clause = k_bounds_of_inputs,
          .needs = {Need::rows},
-         .detection = "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k",
+         .detection =
+             "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
+             "readings is that of their mean",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",
