@@ -145,6 +145,16 @@ struct StatedMonteCarlo {
     std::optional<double> low, high;        ///< ends of the coverage interval, unit of the result
 };
 
+/// Cells of a workbook in which a number should stand, and an error value does: the file claims none. Their places; "" where
+/// there is none.
+struct BrokenClaims {
+    std::string value, u_c, nu_eff, k, U;
+
+    [[nodiscard]] bool any() const {
+        return !value.empty() || !u_c.empty() || !nu_eff.empty() || !k.empty() || !U.empty();
+    }
+};
+
 /// What a budget says of its own result.
 struct Claims {
     std::optional<StatedNumber> value, u_c, nu_eff, k, U;
@@ -152,6 +162,7 @@ struct Claims {
     std::string coverage_sentence;  ///< what is written beside U: "k = 2, 95 %"
     std::string verdict;            ///< "pass", "fail" …; "" where none is stated
     std::optional<StatedNumber> en;
+    BrokenClaims broken;
 };
 
 /// Of a workbook that shows other results than its formulas give: what these give, and what it has beyond the rows.

@@ -734,6 +734,9 @@ Sentence error_in_words(bool hidden, bool under_results) {
 
 void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    // Where an error reaches a result, nothing is claimed.
+    const bool any_broken = std::any_of(subject.budgets.begin(), subject.budgets.end(),
+                                        [](const AuditedBudget& budget) { return budget.claims.broken.any(); });
     for (std::size_t s = 0; s < view->workbook().sheets.size(); ++s) {
         const workbook::Sheet& sheet = view->workbook().sheets[s];
         const bool hidden = sheet.state != workbook::SheetState::visible;
@@ -749,9 +752,11 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
             if (!broken) {
                 continue;
             }
-            AuditFinding finding = finding_in(view->place(at), error_in_words(hidden, view->stands_under_results(at)));
+            const bool under_results = view->stands_under_results(at);
+            AuditFinding finding = finding_in(view->place(at), error_in_words(hidden, under_results));
             finding.kind = finding.what.english();
-            findings.add(std::move(finding));
+            findings.add(std::move(finding),
+                         any_broken && under_results ? FindingSeverity::critical : FindingSeverity::minor);
         }
         const bool used = std::any_of(sheet.cells.begin(), sheet.cells.end(), [&](const workbook::Cell& cell) {
             return view->stands_under_results({.sheet = s, .address = cell.address});
@@ -973,7 +978,9 @@ std::vector<Rule> worksheet_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::minor,
          .needs = {Need::workbook},
-         .detection = "#REF!, #VALUE! and their like, on any sheet; a hidden sheet under a result",
+         .detection =
+             "#REF!, #VALUE! and their like, on any sheet, critical where a result is one; a hidden sheet under a "
+             "result",
          .correction = "Repair or remove the cell; show what a result rests on.",
          .question = "What did the cell hold, and what still reads it?",
          .examine = error_in_chain},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <string_view>
 #include <tuple>
@@ -105,6 +106,21 @@ PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims
         take(claims->k, all.k);
         take(claims->U, all.U);
         take(claims->en, all.En);
+        // What is an error in the file is no number of it, also where the rows give one.
+        const auto leave = [](const std::string& broken, std::string& text, double& number) {
+            if (!broken.empty()) {
+                text = "–";
+                number = std::numeric_limits<double>::quiet_NaN();
+            }
+        };
+        leave(claims->broken.u_c, all.u_c, all.number.u_c);
+        leave(claims->broken.nu_eff, all.nu_eff, all.number.nu_eff);
+        leave(claims->broken.k, all.k, all.number.k);
+        leave(claims->broken.U, all.U, all.number.U);
+        if (!claims->broken.value.empty()) {
+            all.value.clear();
+            all.number.value.reset();
+        }
     }
     return all;
 }
@@ -288,6 +304,10 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.claim_k = claim_of(budget.claims.k, result.allowed.k);
     view.claim_U = claim_of(budget.claims.U, result.allowed.U);
     view.change = change_of(result.claimed, result.audited);
+    if (!budget.claims.broken.U.empty()) {
+        view.change.percent = "–";
+        view.change.direction = "not_stated";
+    }
     view.sampled_shares = result.sampled_shares;
     view.is_nested = result.is_nested;
     view.budget_U_number = result.recomputed.k * result.recomputed.u_c;
