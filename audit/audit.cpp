@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "audit/claims.h"
 #include "audit/correction_effect.h"
 #include "audit/nested_budgets.h"
 #include "audit/severity.h"
@@ -37,10 +38,11 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     take(claims.U, outcome.U);
     if (claims.value) {
         outcome.value = claims.value->value;
-        outcome.printed_value = claims.value->text.empty() ? outcome.printed_value : claims.value->text;
+        outcome.printed_value = claims.value->text.empty() ? outcome.printed_value : text_of_claim(*claims.value);
     }
     if (claims.U && !claims.U->text.empty()) {
-        outcome.printed_U = claims.U->text;
+        outcome.printed_U = text_of_claim(*claims.U);
+        outcome.stated_step = 2.0 * (claims.U->half_step > 0.0 ? claims.U->half_step : printed_half_step(*claims.U));
     } else if (claims.U && claims.U->value > 0.0) {
         outcome.printed_U =
             gum::round_to_uncertainty(outcome.value.value_or(0.0), claims.U->value, budget.digits, budget.rounding).U;

@@ -24,7 +24,9 @@ struct BudgetOutcome {
     double U = 0.0;              ///< k u_c, raised to the capability where the budget does so
     bool at_capability = false;  ///< U is the capability, because k u_c is smaller
     std::string printed_value, printed_U;
-    std::string verdict;       ///< "" without limits, rule or value
+    double stated_step =
+        0.0;              ///< of a U that somebody stated: one unit of its last printed digit; 0 of one computed here
+    std::string verdict;  ///< "" without limits, rule or value
     std::optional<double> en;  ///< the largest by its amount; none without value or reference
     /// Why there is no decision, or no E_n although there is a reference. u_c, ν_eff, k and U do not rest on either.
     std::vector<gum::Diagnostic> undecided;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -137,6 +138,19 @@ Interval linear_sum_of(const AuditedBudget& budget) {
 Interval printed_interval(const StatedNumber& number) {
     const double half = printed_half_step(number) + k_arithmetic * std::abs(number.value);
     return {number.value - half, number.value + half};
+}
+
+std::string text_of_claim(const StatedNumber& number) {
+    std::string text = number.text;
+    const std::size_t comma = text.rfind(','), point = text.rfind('.');
+    if (comma == std::string::npos) {
+        return text;
+    }
+    // The last of two signs is the decimal one; a comma alone is, where digits are open behind it.
+    const bool is_decimal = point == std::string::npos ? number.half_step > 0.0 : comma > point;
+    std::erase(text, is_decimal ? '.' : ',');
+    std::replace(text.begin(), text.end(), ',', '.');
+    return text;
 }
 
 ClaimCheck check_u_c(const AuditedBudget& budget) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "audit/audited_budget.h"
 #include "audit/budget_outcome.h"
@@ -11,6 +12,10 @@ namespace gumcert::audit {
 /// What a claimed number may have been before it was printed: its rounding, and for a whole number "120" the half unit of
 /// its last digit that is not 0. A number without text is known to all digits, but for a relative 1e-6 of arithmetic.
 [[nodiscard]] Interval printed_interval(const StatedNumber& number);
+
+/// A number of somebody's table in the form that documents have: its digits, with the decimal point and without signs that
+/// group them. "" where it has no text.
+[[nodiscard]] std::string text_of_claim(const StatedNumber& number);
 
 /// The claimed u_c, ν_eff and U against the rows.
 struct ClaimCheck {

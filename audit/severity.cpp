@@ -22,7 +22,10 @@ FindingSeverity severity_of(const Effect& effect) {
 }
 
 std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected) {
-    if (claimed.printed_U == corrected.printed_U) {
+    // Two texts may differ in digits and signs alone: 0.06, 0,06 and 0.060.
+    constexpr double k_half = 0.5 * (1.0 + 1e-9);
+    if (claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
+                                  : claimed.printed_U == corrected.printed_U) {
         return "U unchanged";
     }
     return corrected.U > claimed.U ? "U understated" : "U overstated";

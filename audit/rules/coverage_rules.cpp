@@ -48,7 +48,8 @@ Sentence range_in_words(const Interval& interval, const std::string& unit) {
 }
 
 std::string claimed_in_words(const StatedNumber& number, const std::string& unit) {
-    return number.text.empty() ? in_words(number.value, unit) : number.text + (unit.empty() ? "" : " " + unit);
+    return number.text.empty() ? in_words(number.value, unit)
+                               : text_of_claim(number) + (unit.empty() ? "" : " " + unit);
 }
 
 const Correction k_trust_rows = [](AuditedBudget& budget) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "audit/checklists.h"
+#include "audit/claims.h"
 #include "audit/severity.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
@@ -76,13 +77,13 @@ std::string stated_text(const std::optional<audit::StatedNumber>& number) {
     constexpr int k_most = 10;
     return !number                ? ""
            : number->text.empty() ? typed_or_rounded(number->value, k_most, k_most)
-                                  : printable(number->text);
+                                  : printable(audit::text_of_claim(*number));
 }
 
 /// The same of an uncertainty or a sensitivity.
 std::string stated_part(const std::optional<audit::StatedNumber>& number, double used) {
     constexpr int k_most = 6;
-    return number && !number->text.empty() ? printable(number->text)
+    return number && !number->text.empty() ? printable(audit::text_of_claim(*number))
                                            : typed_or_rounded(number ? number->value : used, k_most, k_digits);
 }
 
@@ -98,7 +99,7 @@ PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims
     if (claims != nullptr) {
         // A number without a text was computed here: it is rounded like the others beside it.
         const auto take = [](const std::optional<audit::StatedNumber>& claim, std::string& text) {
-            text = claim && !claim->text.empty() ? printable(claim->text) : text;
+            text = claim && !claim->text.empty() ? printable(audit::text_of_claim(*claim)) : text;
         };
         take(claims->value, all.value);
         take(claims->u_c, all.u_c);
@@ -195,7 +196,7 @@ AuditedRowView row_view(const AuditedRow& row, double sum_of_squares) {
                         .sensitivity = stated_part(row.sensitivity, row.used_sensitivity),
                         .nu = !row.nu                ? ""
                               : row.nu->text.empty() ? printed_nu(row.nu->value)
-                                                     : printable(row.nu->text),
+                                                     : printable(audit::text_of_claim(*row.nu)),
                         .source = printable(row.source),
                         .comment = printable(row.comment),
                         .place = printable(row.place),
