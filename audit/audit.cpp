@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "audit/claims.h"
 #include "audit/correction_effect.h"
 #include "audit/nested_budgets.h"
 #include "audit/severity.h"
@@ -36,10 +38,11 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     take(claims.U, outcome.U);
     if (claims.value) {
         outcome.value = claims.value->value;
-        outcome.printed_value = claims.value->text.empty() ? outcome.printed_value : claims.value->text;
+        outcome.printed_value = claims.value->text.empty() ? outcome.printed_value : text_of_claim(*claims.value);
     }
     if (claims.U && !claims.U->text.empty()) {
-        outcome.printed_U = claims.U->text;
+        outcome.printed_U = text_of_claim(*claims.U);
+        outcome.stated_step = 2.0 * (claims.U->half_step > 0.0 ? claims.U->half_step : printed_half_step(*claims.U));
     } else if (claims.U && claims.U->value > 0.0) {
         outcome.printed_U =
             gum::round_to_uncertainty(outcome.value.value_or(0.0), claims.U->value, budget.digits, budget.rounding).U;
@@ -194,7 +197,19 @@ const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<cons
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
     AuditReport report;
     std::vector<SeverityPolicy> policies;
-    std::vector<const Rule*> concluding;
+    std::vector<const Rule*> concluding, of_rest;
+    const auto take = [&report, &policies](const Rule& rule, FindingCollector& collector) {
+        for (AuditFinding& finding : collector.take()) {
+            report.findings.push_back(std::move(finding));
+            policies.push_back(rule.policy);
+        }
+        for (const Sentence& reason : collector.unchecked()) {
+            report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
+        }
+        for (const Sentence& sentence : collector.notes()) {
+            report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
+        }
+    };
     for (const Rule& rule : rules) {
         FindingCollector collector(rule);
         if (rule.examine_gates != nullptr) {
@@ -210,18 +225,22 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             if (rule.conclude != nullptr) {
                 concluding.push_back(&rule);
             }
+            if (rule.examine_rest != nullptr) {
+                of_rest.push_back(&rule);
+            }
         }
-        for (AuditFinding& finding : collector.take()) {
-            report.findings.push_back(std::move(finding));
-            policies.push_back(rule.policy);
-        }
-        for (const Sentence& reason : collector.unchecked()) {
-            report.not_checked.push_back({.rule = std::string(rule.id), .because = reason});
-        }
-        for (const Sentence& sentence : collector.notes()) {
-            report.notes.push_back({.rule = std::string(rule.id), .what = sentence});
-        }
+        take(rule, collector);
     }
+    const std::size_t others = report.findings.size();
+    for (const Rule* rule : of_rest) {
+        FindingCollector collector(*rule);
+        rule->examine_rest(subject, report.findings, collector);
+        take(*rule, collector);
+    }
+    // What is wrong with a row is corrected before what follows from the rows.
+    const auto first = static_cast<std::ptrdiff_t>(others);
+    std::rotate(report.findings.begin(), report.findings.begin() + first, report.findings.end());
+    std::rotate(policies.begin(), policies.begin() + first, policies.end());
     look_again(subject, rules, report.findings, policies);
     const NestedCorrections nested(subject, report.findings);
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
@@ -237,6 +256,13 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             result.claimed = claimed_outcome(budget, evaluated);
             result.audited = evaluated;
             result.allowed = outcome_intervals(budget);
+            if (!evaluated.undecided.empty()) {
+                subject.not_read.push_back(
+                    say("{result}: verdict or E_n cannot be told; U and the rest stand", budget.name));
+            }
+            for (const gum::Diagnostic& diagnostic : evaluated.undecided) {
+                subject.not_read.push_back(message_in_words(diagnostic));
+            }
         } catch (const gum::DiagnosedError& error) {
             subject.not_read.push_back(message_in_words(error.diagnostics().front()));
             continue;

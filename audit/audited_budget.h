@@ -146,6 +146,16 @@ struct StatedMonteCarlo {
     std::optional<double> low, high;        ///< ends of the coverage interval, unit of the result
 };
 
+/// Cells of a workbook in which a number should stand, and an error value does: the file claims none. Their places; "" where
+/// there is none.
+struct BrokenClaims {
+    std::string value, u_c, nu_eff, k, U;
+
+    [[nodiscard]] bool any() const {
+        return !value.empty() || !u_c.empty() || !nu_eff.empty() || !k.empty() || !U.empty();
+    }
+};
+
 /// What a budget says of its own result.
 struct Claims {
     std::optional<StatedNumber> value, u_c, nu_eff, k, U;
@@ -153,6 +163,14 @@ struct Claims {
     std::string coverage_sentence;  ///< what is written beside U: "k = 2, 95 %"
     std::string verdict;            ///< "pass", "fail" …; "" where none is stated
     std::optional<StatedNumber> en;
+    BrokenClaims broken;
+};
+
+/// Of a workbook that shows other results than its formulas give: what these give, and what it has beyond the rows.
+struct ComputedClaims {
+    Claims claims;
+    CoverageRule coverage;
+    double u_c_over_rows = 1.0, k_over_rows = 1.0, U_over_k_u_c = 1.0;
 };
 
 /// An uncertainty budget of one result, by whomever it was made: what the rules of the audit look at, and what their
@@ -187,6 +205,7 @@ struct AuditedBudget {
     int digits = 2;  ///< significant digits of a printed U
     gum::RoundingMode rounding = gum::RoundingMode::half_even;
     Claims claims;
+    std::optional<ComputedClaims> computed_claims;  ///< `claims` has what is shown
     std::optional<StatedMonteCarlo> monte_carlo;
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };

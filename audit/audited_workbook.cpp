@@ -1,6 +1,7 @@
 #include "audit/audited_workbook.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -50,6 +51,38 @@ const SheetFormula* AuditedWorkbook::formula_at(const workbook::CellPlace& cell)
         std::lower_bound(formulas.begin(), formulas.end(), cell,
                          [](const SheetFormula& one, const workbook::CellPlace& wanted) { return one.cell < wanted; });
     return found != formulas.end() && found->cell == cell ? &*found : nullptr;
+}
+
+double AuditedWorkbook::number_in(const workbook::CellPlace& cell) const {
+    const workbook::EvaluatedCell* computed = workbook::find_evaluated(evaluation, workbook, cell.sheet, cell.address);
+    const workbook::Cell* stored = find_cell(workbook.sheets[cell.sheet], cell.address);
+    const bool is_computed = computed != nullptr && computed->state == workbook::EvaluationState::evaluated;
+    const workbook::CellValue value = is_computed         ? computed->value
+                                      : stored != nullptr ? stored->value
+                                                          : workbook::CellValue{};
+    return value.kind == workbook::CellKind::number ? value.number : 0.0;
+}
+
+std::optional<double> AuditedWorkbook::stale_number(const workbook::CellPlace& cell) const {
+    constexpr double k_other_number = 1e-6, k_cancelled = 1e-12;
+    constexpr std::size_t k_most_read = 1000;
+    using workbook::CellKind;
+    const workbook::EvaluatedCell* computed = workbook::find_evaluated(evaluation, workbook, cell.sheet, cell.address);
+    const workbook::Cell* stored = find_cell(workbook.sheets[cell.sheet], cell.address);
+    if (computed == nullptr || stored == nullptr || computed->state != workbook::EvaluationState::evaluated ||
+        computed->agreement != workbook::Agreement::differs || stored->value.kind != CellKind::number) {
+        return std::nullopt;
+    }
+    if (computed->value.kind != CellKind::number) {
+        return std::nullopt;
+    }
+    const double shown = stored->value.number, given = computed->value.number;
+    double open = k_other_number * std::max(std::abs(shown), std::abs(given));
+    // What is left of a difference of large numbers is their last bits.
+    for (const workbook::CellPlace& read : graph.precedents(cell, k_most_read)) {
+        open = std::max(open, k_cancelled * std::abs(number_in(read)));
+    }
+    return std::abs(shown - given) > open ? std::optional(shown) : std::nullopt;
 }
 
 }  // namespace gumcert::audit

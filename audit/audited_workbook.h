@@ -38,8 +38,15 @@ struct AuditedWorkbook {
     [[nodiscard]] std::optional<workbook::CellPlace> cell_at(const std::string& place) const;
     /// The formula of a cell; nullptr where it has none that is understood.
     [[nodiscard]] const SheetFormula* formula_at(const workbook::CellPlace& cell) const;
+    /// The number that the file shows in a cell, where its formula gives another one (to 1e-6, and beyond what the digits of
+    /// the numbers that it reads leave of their difference). Nothing for functions that are volatile or not evaluated, where
+    /// nothing is stored, and where the formula gives an error.
+    [[nodiscard]] std::optional<double> stale_number(const workbook::CellPlace& cell) const;
 
 private:
+    /// The number of a cell: computed, or as stored.
+    [[nodiscard]] double number_in(const workbook::CellPlace& cell) const;
+
     std::map<std::string, std::size_t, std::less<>> sheets_;  ///< by their names as formulas write them
 };
 

@@ -132,15 +132,21 @@ bool has_limits(const gum::ToleranceLimits& limits) {
     return limits.lower.has_value() || limits.upper.has_value();
 }
 
-std::string verdict_of(const AuditedBudget& budget, const BudgetOutcome& outcome) {
+void decide(const AuditedBudget& budget, BudgetOutcome& outcome) {
     if (!budget.rule || !has_limits(budget.limits) || !outcome.value || !(outcome.U > 0.0)) {
-        return "";
+        return;
     }
     const gum::MeasuredValue y{.value = *outcome.value,
                                .standard_uncertainty = outcome.u_c,
                                .expanded_uncertainty = outcome.U,
                                .degrees_of_freedom = outcome.nu_eff};
-    return gum::verdict_name(gum::decide_conformity(*budget.rule, budget.rule_parameters, budget.limits, y).verdict);
+    try {
+        outcome.verdict =
+            gum::verdict_name(gum::decide_conformity(*budget.rule, budget.rule_parameters, budget.limits, y).verdict);
+    } catch (const gum::DiagnosedError& error) {
+        outcome.verdict = k_no_decision;
+        outcome.undecided = error.diagnostics();
+    }
 }
 
 /// E_n of a value that the reference is compared with.
@@ -152,7 +158,26 @@ double score_of(const ComparedReference& reference, double value, double U_diffe
                                          : gum::settled_score(value, reference.value, U_difference);
 }
 
+void compare(const AuditedBudget& budget, BudgetOutcome& outcome) {
+    if (!outcome.value || !budget.reference) {
+        return;
+    }
+    try {
+        const double U_difference = gum::uncertainty_of_difference(outcome.U, budget.reference->expanded_uncertainty,
+                                                                   budget.reference->correlation);
+        if (U_difference > 0.0) {
+            outcome.en = score_of(*budget.reference, *outcome.value, U_difference);
+        }
+    } catch (const gum::DiagnosedError& error) {
+        outcome.undecided.insert(outcome.undecided.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+}
+
 }  // namespace
+
+bool verdict_turns(std::string_view before, std::string_view after) {
+    return before != after && before != k_no_decision && after != k_no_decision;
+}
 
 double contribution_of(const AuditedRow& row) {
     return row.in_sum ? std::abs(row.used_sensitivity) * row.used_u : 0.0;
@@ -187,14 +212,8 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         gum::round_to_uncertainty(outcome.value.value_or(0.0), outcome.U, budget.digits, budget.rounding);
     outcome.printed_value = outcome.value ? printed.value : "";
     outcome.printed_U = printed.U;
-    outcome.verdict = verdict_of(budget, outcome);
-    if (outcome.value && budget.reference) {
-        const double U_difference = gum::uncertainty_of_difference(outcome.U, budget.reference->expanded_uncertainty,
-                                                                   budget.reference->correlation);
-        if (U_difference > 0.0) {
-            outcome.en = score_of(*budget.reference, *outcome.value, U_difference);
-        }
-    }
+    decide(budget, outcome);
+    compare(budget, outcome);
     return outcome;
 }
 

@@ -2,11 +2,18 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "audit/audited_budget.h"
 #include "audit/stated_number.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::audit {
+
+/// The verdict where a rule and limits are stated, and nothing can be decided: a parameter of the rule is not stated, or the
+/// limits are impossible. It turns into no other verdict, and none turns into it.
+inline constexpr std::string_view k_no_decision = "cannot_be_decided";
 
 /// Everything that follows from the rows of a budget: nothing is scaled, all is evaluated again.
 struct BudgetOutcome {
@@ -17,9 +24,16 @@ struct BudgetOutcome {
     double U = 0.0;              ///< k u_c, raised to the capability where the budget does so
     bool at_capability = false;  ///< U is the capability, because k u_c is smaller
     std::string printed_value, printed_U;
-    std::string verdict;       ///< "" without limits, rule or value
+    double stated_step =
+        0.0;              ///< of a U that somebody stated: one unit of its last printed digit; 0 of one computed here
+    std::string verdict;  ///< "" without limits, rule or value
     std::optional<double> en;  ///< the largest by its amount; none without value or reference
+    /// Why there is no decision, or no E_n although there is a reference. u_c, ν_eff, k and U do not rest on either.
+    std::vector<gum::Diagnostic> undecided;
 };
+
+/// Whether two verdicts contradict each other: nothing contradicts what cannot be decided.
+[[nodiscard]] bool verdict_turns(std::string_view before, std::string_view after);
 
 /// |c| u of a row, in the unit of the result; 0 of one that is not in the sum.
 [[nodiscard]] double contribution_of(const AuditedRow& row);
@@ -29,6 +43,7 @@ struct BudgetOutcome {
 /// u_c² = Σ (c_i u_i)² + 2 Σ c_i c_j u_i u_j r_ij                               (JCGM 100:2008, eqs. 10 and 16)
 /// ν_eff by Welch–Satterthwaite (eq. G.2b), k by the rule of coverage of the budget, U = max(k u_c, capability);
 /// verdict by gum/conformity, E_n by gum/comparison, printed digits by gum/rounding.
+/// Where verdict or E_n cannot be told, the outcome says why, and the rest of it stands.
 /// \throws NoResultError  GC-AUDIT-0001 where rows and correlations give no positive u_c
 [[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget);
 /// The same with another rule of coverage.

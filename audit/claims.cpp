@@ -4,9 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "audit/budget_outcome.h"
+#include "audit/row_meaning.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -138,6 +141,19 @@ Interval printed_interval(const StatedNumber& number) {
     return {number.value - half, number.value + half};
 }
 
+std::string text_of_claim(const StatedNumber& number) {
+    std::string text = number.text;
+    const std::size_t comma = text.rfind(','), point = text.rfind('.');
+    if (comma == std::string::npos) {
+        return text;
+    }
+    // The last of two signs is the decimal one; a comma alone is, where digits are open behind it.
+    const bool is_decimal = point == std::string::npos ? number.half_step > 0.0 : comma > point;
+    std::erase(text, is_decimal ? '.' : ',');
+    std::replace(text.begin(), text.end(), ',', '.');
+    return text;
+}
+
 ClaimCheck check_u_c(const AuditedBudget& budget) {
     ClaimCheck check;
     check.coverage = budget.coverage;
@@ -238,7 +254,35 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     return check;
 }
 
+namespace {
+
+/// Where the claimed u_c follows from what the rows divide over their divisors, and not from the u that some of them
+/// print, the sum was made of the former: those u are errors of the page, which the result does not have.
+void use_quotients_that_were_summed(AuditedBudget& budget) {
+    if (budget.evaluated_here || !budget.claims.u_c ||
+        std::none_of(budget.rows.begin(), budget.rows.end(), u_is_not_the_quotient) || !check_u_c(budget).u_c_outside) {
+        return;
+    }
+    AuditedBudget divided = budget;
+    for (AuditedRow& row : divided.rows) {
+        if (u_is_not_the_quotient(row)) {
+            use_quotient_of_columns(row);
+        }
+    }
+    const ClaimCheck check = check_u_c(divided);
+    if (check.allowed && !check.u_c_outside) {
+        budget = std::move(divided);
+    }
+}
+
+}  // namespace
+
 void note_unexplained(AuditedBudget& budget) {
+    use_quotients_that_were_summed(budget);
+    note_claims_beyond_rows(budget);
+}
+
+void note_claims_beyond_rows(AuditedBudget& budget) {
     budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
@@ -254,6 +298,19 @@ void note_unexplained(AuditedBudget& budget) {
         const BudgetOutcome outcome = evaluate(budget);
         budget.U_over_k_u_c = budget.claims.U->value / (outcome.k * outcome.u_c);
     }
+}
+
+AuditedBudget with_computed_claims(const AuditedBudget& budget) {
+    AuditedBudget computed = budget;
+    if (const std::optional<ComputedClaims>& given = budget.computed_claims) {
+        computed.claims = given->claims;
+        computed.coverage = given->coverage;
+        computed.u_c_over_rows = given->u_c_over_rows;
+        computed.k_over_rows = given->k_over_rows;
+        computed.U_over_k_u_c = given->U_over_k_u_c;
+        computed.computed_claims.reset();
+    }
+    return computed;
 }
 
 }  // namespace gumcert::audit

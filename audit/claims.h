@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "audit/audited_budget.h"
 #include "audit/budget_outcome.h"
@@ -11,6 +12,10 @@ namespace gumcert::audit {
 /// What a claimed number may have been before it was printed: its rounding, and for a whole number "120" the half unit of
 /// its last digit that is not 0. A number without text is known to all digits, but for a relative 1e-6 of arithmetic.
 [[nodiscard]] Interval printed_interval(const StatedNumber& number);
+
+/// A number of somebody's table in the form that documents have: its digits, with the decimal point and without signs that
+/// group them. "" where it has no text.
+[[nodiscard]] std::string text_of_claim(const StatedNumber& number);
 
 /// The claimed u_c, ν_eff and U against the rows.
 struct ClaimCheck {
@@ -36,7 +41,14 @@ struct ClaimCheck {
 /// sets what they have beyond the rows, so that the budget evaluates to what it claims: u_c_over_rows where the
 /// claimed u_c lies outside of what the rows allow, k_over_rows where k follows a ν_eff that the rows do not give,
 /// U_over_k_u_c where the claimed U is not k u_c. They are 1 where rows and claims agree within their rounding, and where
-/// the budget gives no outcome.
+/// the budget gives no outcome. Rows whose printed u is not what they divide, and was not summed, are evaluated with the
+/// quotient (use_quotient_of_columns()).
 void note_unexplained(AuditedBudget& budget);
+
+/// The same of claims alone: rows stay what they are, as those that formulas compute with.
+void note_claims_beyond_rows(AuditedBudget& budget);
+
+/// The budget with what its formulas give of its claims, where the file shows other numbers; else the budget itself.
+[[nodiscard]] AuditedBudget with_computed_claims(const AuditedBudget& budget);
 
 }  // namespace gumcert::audit

@@ -97,7 +97,7 @@ bool is_seen(const BudgetOutcome& before, const BudgetOutcome& after) {
 }
 bool changes_decision(const BudgetOutcome& before, const BudgetOutcome& after) {
     const bool en = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
-    return en || before.verdict != after.verdict;
+    return en || verdict_turns(before.verdict, after.verdict);
 }
 
 }  // namespace
@@ -231,6 +231,7 @@ std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
     MissingTerm term;
     term.u_for_digit = smallest(is_seen).value_or(0.0);
     term.u_for_verdict = smallest(changes_decision);
+    term.is_decided = without.undecided.empty();
     return term;
 }
 

@@ -38,6 +38,7 @@ struct Effect {
 struct MissingTerm {
     double u_for_digit = 0.0;  ///< standard uncertainty, in the unit of the result, that changes the printed U
     std::optional<double> u_for_verdict;  ///< … that changes the verdict or moves |E_n| across 1; none: nothing does
+    bool is_decided = true;  ///< false: a verdict or E_n cannot be told, so that nobody knows what changes it
 };
 
 /// Something that an assessor would remark on a budget.

@@ -968,6 +968,46 @@ void complete_row(AuditedRow& row) {
     row.used_nu = finite ? row.nu->value : std::numeric_limits<double>::infinity();
 }
 
+std::optional<StatedNumber> quotient_of_columns(const AuditedRow& row) {
+    if (!is_usable(row.stated) || !is_divisor(row.divisor) || row.stated->value == 0.0 || row.relative_uncertainty ||
+        row.lower_limit || row.upper_limit) {
+        return std::nullopt;
+    }
+    const auto is_percent = [](const std::optional<StatedNumber>& number) {
+        return number && number->text.find('%') != std::string::npos;
+    };
+    if (is_percent(row.stated) != is_percent(row.u)) {
+        return std::nullopt;  // a part of a base that no column names
+    }
+    StatedNumber of = quotient(*row.stated, *row.divisor);
+    of.value = std::abs(of.value);
+    return std::isfinite(of.value) && std::isfinite(of.half_step) && of.value > 0.0 ? std::optional(of) : std::nullopt;
+}
+
+bool u_is_not_the_quotient(const AuditedRow& row) {
+    constexpr double k_beyond_digits = 0.01;
+    const std::optional<StatedNumber> of = is_usable(row.u) ? quotient_of_columns(row) : std::nullopt;
+    return of && std::abs(std::abs(row.u->value) - of->value) >
+                     row.u->half_step + of->half_step + k_beyond_digits * of->value;
+}
+
+void use_quotient_of_columns(AuditedRow& row) {
+    const std::optional<StatedNumber> of = quotient_of_columns(row);
+    if (!of) {
+        return;
+    }
+    row.used_u = of->value;
+    row.u_half_step = of->half_step;
+    if (is_usable(row.sensitivity)) {
+        row.used_sensitivity = row.sensitivity->value;
+        row.sensitivity_half_step = row.sensitivity->half_step;
+    }
+    if (is_usable(row.contribution) &&
+        !agree(product(exact_number(row.used_sensitivity, ""), *of), *row.contribution)) {
+        row.contribution.reset();
+    }
+}
+
 void settle_contributions(AuditedBudget& budget) {
     constexpr double k_beyond_digits = 0.01;
     std::vector<AuditedRow*> other;
@@ -979,7 +1019,13 @@ void settle_contributions(AuditedBudget& budget) {
         ++columns;
         StatedNumber own = product(*row.sensitivity, *row.u);
         own.half_step += k_beyond_digits * std::abs(own.value);
-        if (!agree(own, *row.contribution)) {
+        if (agree(own, *row.contribution)) {
+            continue;
+        }
+        if (u_is_not_the_quotient(row) &&
+            agree(product(*row.sensitivity, *quotient_of_columns(row)), *row.contribution)) {
+            use_quotient_of_columns(row);
+        } else {
             other.push_back(&row);
         }
     }

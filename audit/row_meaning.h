@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "audit/audited_budget.h"
@@ -34,9 +35,17 @@ void read_comment(AuditedRow& row);
 /// certificate, or by that of its shape. Degrees of freedom that no column states are infinite.
 void complete_row(AuditedRow& row);
 
+/// What a row divides over its divisor, with what the digits of both leave open; nothing where a column is missing or
+/// impossible, where the row is a relative number of something else, or has two limits.
+[[nodiscard]] std::optional<StatedNumber> quotient_of_columns(const AuditedRow& row);
+/// Whether the u that a row prints is another number than its quotient of columns, beyond the digits of both and 1 %.
+[[nodiscard]] bool u_is_not_the_quotient(const AuditedRow& row);
+/// Evaluates a row with its quotient of columns and its own sensitivity, in place of the u that it prints.
+void use_quotient_of_columns(AuditedRow& row);
+
 /// Settles, once all rows are read, what a column of contributions is where it is not |c| u of the row's own columns. In
 /// a few rows it is an error that the sum was made of: such a row is evaluated with the sensitivity that its contribution
-/// has. In most rows it is a column of something else (shares, variances), and is taken away.
+/// has, or with its quotient of columns, where the contribution is |c| times that: the printed u is the error then. In most rows it is a column of something else (shares, variances), and is taken away.
 void settle_contributions(AuditedBudget& budget);
 
 }  // namespace gumcert::audit

@@ -62,6 +62,9 @@ struct Rule {
     /// Where it finds nothing, it looks again at the budgets with all corrections in place: one error may hide another,
     /// as a row that is far too large hides that k = 2 is fixed for few degrees of freedom.
     bool looks_again = false;
+    /// After all others have examined, before effects are known: what none of their corrections explains.
+    void (*examine_rest)(const AuditSubject& subject, std::span<const AuditFinding> others,
+                         FindingCollector& findings) = nullptr;
     /// What others have found already: taken whether or not the subject has what the rule itself needs.
     void (*examine_gates)(const AuditSubject& subject, FindingCollector& findings) = nullptr;
     /// After all rules have been examined and their effects are known: what follows from the findings of the others.

@@ -8,7 +8,7 @@ namespace {
 
 FindingSeverity severity_of_step(const BudgetOutcome& before, const BudgetOutcome& after) {
     const bool en_turns = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
-    if (before.verdict != after.verdict || en_turns || after.U >= before.U * (1.0 + k_understated)) {
+    if (verdict_turns(before.verdict, after.verdict) || en_turns || after.U >= before.U * (1.0 + k_understated)) {
         return FindingSeverity::critical;
     }
     return before.printed_U != after.printed_U || before.printed_value != after.printed_value ? FindingSeverity::major
@@ -22,7 +22,10 @@ FindingSeverity severity_of(const Effect& effect) {
 }
 
 std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected) {
-    if (claimed.printed_U == corrected.printed_U) {
+    // Two texts may differ in digits and signs alone: 0.06, 0,06 and 0.060.
+    constexpr double k_half = 0.5 * (1.0 + 1e-9);
+    if (claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
+                                  : claimed.printed_U == corrected.printed_U) {
         return "U unchanged";
     }
     return corrected.U > claimed.U ? "U understated" : "U overstated";

@@ -12,7 +12,7 @@ inline constexpr double k_understated = 0.10;
 /// counts.
 [[nodiscard]] FindingSeverity severity_of(const Effect& effect);
 
-/// "U understated", "U overstated", or "U unchanged" as printed.
+/// "U understated", "U overstated", or "U unchanged" as printed: at the last digit of a U that somebody stated.
 [[nodiscard]] std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected);
 
 }  // namespace gumcert::audit

@@ -83,7 +83,7 @@ void verdict_does_not_follow(const AuditSubject& subject, FindingCollector& find
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         const std::optional<BudgetOutcome> printed = outcome_of_claims(budget), unrounded = outcome_or_none(budget);
-        if (!printed || !unrounded || printed->verdict.empty()) {
+        if (!printed || !unrounded || printed->verdict.empty() || printed->verdict == k_no_decision) {
             continue;
         }
         const std::optional<bool> claimed = says_conforming(budget.claims.verdict),
@@ -160,23 +160,33 @@ void verdict_on_open_findings(const AuditSubject& subject, std::span<const Audit
         if (budget.claims.verdict.empty() && !(budget.rule && has_limits_stated(budget))) {
             continue;
         }
-        std::vector<std::string> open;
+        std::vector<std::string> open, critical;
         for (const AuditFinding& other : others) {
             const bool touches = std::find(other.budgets.begin(), other.budgets.end(), i) != other.budgets.end();
             // Findings on documents and persons leave the uncertainty, and with it the verdict, as they are.
             const bool of_uncertainty = other.correct || other.contribution_missing;
             if (touches && of_uncertainty && other.severity >= FindingSeverity::major &&
-                std::find(open.begin(), open.end(), other.rule) == open.end()) {
-                open.push_back(other.rule);
+                std::find(open.begin(), open.end(), other.rule) == open.end() &&
+                std::find(critical.begin(), critical.end(), other.rule) == critical.end()) {
+                (other.severity == FindingSeverity::critical ? critical : open).push_back(other.rule);
             }
         }
-        if (open.empty()) {
+        if (open.empty() && critical.empty()) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, i,
-                       say("conformity is decided with an uncertainty on which major findings are open: {open}",
-                           all_of(sentences_of(open))));
+        const Sentence grave = all_of(sentences_of(critical)), other = all_of(sentences_of(open));
+        AuditFinding finding = finding_of(
+            subject, i,
+            open.empty()
+                ? say("conformity is decided with an uncertainty on which critical findings are open: {critical}",
+                      grave)
+            : critical.empty()
+                ? say("conformity is decided with an uncertainty on which major findings are open: {open}", other)
+                : say("conformity is decided with an uncertainty on which critical findings are open: {critical}, and "
+                      "major "
+                      "ones: {open}",
+                      grave, other));
+        open.insert(open.begin(), critical.begin(), critical.end());
         finding.evidence = sentences_of(open);
         findings.add(std::move(finding));
     }

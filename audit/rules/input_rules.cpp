@@ -4,12 +4,14 @@
 #include <iterator>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "audit/row_facts.h"
+#include "audit/row_meaning.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
@@ -583,6 +585,121 @@ void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector&
     });
 }
 
+/// The standard uncertainty that the words of a row give, or its column by them: a/√3 of a rectangular distribution,
+/// d/√12 of a step, U/k of a certificate, s/√n of readings.
+std::optional<double> u_by_words(const AuditedRow& row) {
+    const double number = number_divided(row);
+    if (!(number > 0.0)) {
+        return std::nullopt;
+    }
+    if (row.origin == Origin::resolution) {
+        return number / std::sqrt(12.0);
+    }
+    if (row.origin == Origin::readings) {
+        return row.n && *row.n > 0 ? std::optional(number / std::sqrt(static_cast<double>(*row.n))) : std::nullopt;
+    }
+    if (row.origin == Origin::certificate) {
+        return row.certificate_k && *row.certificate_k > 0.0 ? std::optional(number / *row.certificate_k)
+                                                             : std::nullopt;
+    }
+    switch (row.shape) {
+        case Shape::rectangular:
+            return number / k_root_3;
+        case Shape::triangular:
+            return number / std::sqrt(6.0);
+        case Shape::arcsine:
+            return number / std::numbers::sqrt2;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// Whether the correction of another finding gives the row another u, or what the row contributes with its quotient: what
+/// is wrong with it is told then.
+bool is_told(const RowAt& at, double quotient, std::span<const AuditFinding> others) {
+    return std::any_of(others.begin(), others.end(), [&at, quotient](const AuditFinding& other) {
+        const Correction* correction = correction_of(other, at.budget);
+        if (correction == nullptr) {
+            return false;
+        }
+        AuditedBudget corrected = at.of;
+        (*correction)(corrected);
+        const AuditedRow& row = corrected.rows[at.row];
+        return row.used_u != at.is.used_u ||
+               (row.used_sensitivity != at.is.used_sensitivity &&
+                is_about(row.used_sensitivity * row.used_u, at.is.used_sensitivity * quotient));
+    });
+}
+
+/// U26 of one row.
+void add_other_quotient(const RowAt& at, std::span<const AuditFinding> others, FindingCollector& findings) {
+    const AuditedRow& row = at.is;
+    const StatedNumber quotient = *quotient_of_columns(row);
+    const double u = std::abs(row.u->value), stated = std::abs(row.stated->value);
+    const std::optional<double> by_words = u_by_words(row);
+    const bool is_of_words = by_words && !u_differs(row, *by_words);
+    const bool is_told_of_divisor = std::any_of(others.begin(), others.end(), [&row, &at](const AuditFinding& other) {
+        return other.rule == "W02" && other.where.starts_with(row.place + " (") &&
+               std::find(other.budgets.begin(), other.budgets.end(), at.budget) != other.budgets.end();
+    });
+    if (is_of_words && is_told_of_divisor) {
+        return;
+    }
+    const bool is_summed = u_differs(row, u, 1e-9) && is_about(row.used_u, quotient.value, 1e-9);
+    AuditFinding finding = finding_at(
+        at, "u",
+        is_of_words && !is_summed
+            ? say("u = {u:number} is what the words of the row give, and not what is divided over the divisor, "
+                  "{stated:number}/{divisor:number}",
+                  in_words(u, row.unit), in_words(stated), in_words(row.divisor->value))
+        : is_summed
+            ? say("u = {u:number} is not what is divided over the divisor, {stated:number}/{divisor:number}; the "
+                  "sum was made of the latter",
+                  in_words(u, row.unit), in_words(stated), in_words(row.divisor->value))
+            : say("u = {u:number} is not what is divided over the divisor, {stated:number}/{divisor:number}",
+                  in_words(u, row.unit), in_words(stated), in_words(row.divisor->value)));
+    finding.evidence = {equals("u", in_words(u, row.unit)),
+                        say("{stated:number}/{divisor:number} = {quotient:number}", in_words(stated),
+                            in_words(row.divisor->value), in_words(quotient.value, row.unit))};
+    finding.expected = say_number(in_words(quotient.value, row.unit));
+    finding.actual = say_number(in_words(u, row.unit));
+    if (is_of_words || is_summed) {
+        findings.add(std::move(finding), FindingSeverity::minor);  // the result has the right u
+        return;
+    }
+    finding.correct = set_u(at.row, quotient.value);
+    findings.add(std::move(finding));
+}
+
+/// U26: the arithmetic of a row, whatever its words say.
+void u_is_no_quotient(const AuditSubject& subject, std::span<const AuditFinding> others, FindingCollector& findings) {
+    for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
+        const AuditedBudget& budget = subject.budgets[b];
+        std::vector<std::size_t> apart;
+        std::size_t columns = 0;
+        for (std::size_t r = 0; r < budget.rows.size() && !budget.evaluated_here; ++r) {
+            columns += budget.rows[r].u && quotient_of_columns(budget.rows[r]) ? 1U : 0U;
+            if (u_is_not_the_quotient(budget.rows[r])) {
+                apart.push_back(r);
+            }
+        }
+        // Columns that agree in hardly any row are not what their heads say, such as those of another unit.
+        if (apart.size() > 1 && 2 * apart.size() > columns) {
+            findings.leave_unchecked(
+                say("{table}: in most rows u is not what is divided over the divisor; columns of "
+                    "another unit or meaning are not held against each other",
+                    budget.place));
+            continue;
+        }
+        for (const std::size_t r : apart) {
+            const RowAt at{.budget = b, .row = r, .of = budget, .is = budget.rows[r]};
+            if (!is_told(at, quotient_of_columns(at.is)->value, others)) {
+                add_other_quotient(at, others, findings);
+            }
+        }
+    }
+}
+
 std::vector<Rule> type_b_rules() {
     using enum SeverityPolicy;
     using enum FindingSeverity;
@@ -735,6 +852,17 @@ std::vector<Rule> type_b_rules() {
          .correction = "Divide the maximum permissible error by √3, or record the k that belongs to it.",
          .question = "A limit has no coverage factor. Where does the 2 come from?",
          .examine = half_of_permissible_error},
+        {.id = "U26",
+         .title = "u is not what is divided over its divisor",
+         .clause = {.text = "ISO/IEC 17025:2017, 7.11.6", .verified = false},
+         .severity = major,
+         .needs = {Need::rows},
+         .detection =
+             "what is divided, divisor and u of a row, with u other than their quotient beyond the printed "
+             "digits and 1 %, whatever the words of the row say; not where another finding has the row already",
+         .correction = "Compute u again from what is divided and its divisor, or correct these two.",
+         .question = "Which of the three numbers was typed: what is divided, the divisor, or u?",
+         .examine_rest = u_is_no_quotient},
     };
 }
 

@@ -24,6 +24,7 @@ namespace gumcert::audit {
 [[nodiscard]] std::vector<Rule> comparison_rules();    ///< N: comparisons
 [[nodiscard]] std::vector<Rule> record_rules();        ///< P: records, people, software
 [[nodiscard]] std::vector<Rule> worksheet_rules();     ///< W: worksheets
+[[nodiscard]] Rule stored_value_rule();                ///< W17, the last of worksheet_rules()
 
 /// A rule of the catalogue that the program does not apply, and why.
 struct RuleLeftOut {

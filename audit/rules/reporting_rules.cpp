@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/claims.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
@@ -68,9 +69,9 @@ void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
         if (!is_printed(subject, U) || digits_in(*U) <= 2) {
             continue;
         }
-        AuditFinding finding =
-            finding_of(subject, i, say("U is stated as {U:number}, with more than two significant digits", U->text));
-        finding.actual = say_number(U->text);
+        AuditFinding finding = finding_of(
+            subject, i, say("U is stated as {U:number}, with more than two significant digits", text_of_claim(*U)));
+        finding.actual = say_number(text_of_claim(*U));
         findings.add(std::move(finding), milder_in_a_budget(subject, FindingSeverity::major));
     }
 }
@@ -85,8 +86,8 @@ void places_differ(const AuditSubject& subject, FindingCollector& findings) {
         }
         AuditFinding finding = finding_of(subject, i,
                                           say("value {value:number} and U {U:number} end at different decimal places",
-                                              claims.value->text, claims.U->text));
-        finding.actual = say("{value:number} ± {U:number}", claims.value->text, claims.U->text);
+                                              text_of_claim(*claims.value), text_of_claim(*claims.U)));
+        finding.actual = say("{value:number} ± {U:number}", text_of_claim(*claims.value), text_of_claim(*claims.U));
         findings.add(std::move(finding), milder_in_a_budget(subject, FindingSeverity::major));
     }
 }

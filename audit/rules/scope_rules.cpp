@@ -86,7 +86,9 @@ void floor_hides_budget(const AuditSubject& subject, FindingCollector& findings)
         if (!budget.capability || !computed) {
             continue;
         }
-        if (*computed >= *budget.capability) {
+        // A stated U below the capability is not hidden by it (X01).
+        const std::optional<double> stated = stated_U(budget);
+        if (*computed >= *budget.capability || !stated || *stated < (1.0 - k_noise) * *budget.capability) {
             return;
         }
         points.push_back(i);

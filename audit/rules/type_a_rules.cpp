@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
 #include "gum/analysis_of_variance.h"
+#include "gum/quantity/diagnostic.h"
 
 #include "text/numbers.h"
 
@@ -64,6 +66,23 @@ void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findin
     });
 }
 
+/// t_p(ν_eff) of a budget with a fixed k that is more than 1 % smaller; nothing where its k accounts for ν_eff.
+std::optional<double> k_of_few(const AuditedBudget& budget) {
+    constexpr double k_smaller = 0.01;
+    if (budget.coverage.kind != CoverageRule::Kind::fixed) {
+        return std::nullopt;
+    }
+    CoverageRule student = budget.coverage;
+    student.kind = CoverageRule::Kind::student_t;
+    student.probability = budget.claims.coverage_probability.value_or(student.probability);
+    try {
+        const double k = evaluate(budget, student).k;
+        return budget.coverage.k * budget.k_over_rows < (1.0 - k_smaller) * k ? std::optional(k) : std::nullopt;
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
 /// U02
 void few_readings(const AuditSubject& subject, FindingCollector& findings) {
     constexpr std::size_t k_enough = 10;
@@ -72,7 +91,9 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
         if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1) {
             return;
         }
-        if (*n >= 2 && at.of.coverage.kind != CoverageRule::Kind::fixed && std::isfinite(at.is.used_nu)) {
+        const bool has_nu = *n >= 2 && std::isfinite(at.is.used_nu);
+        const std::optional<double> missing_k = has_nu ? k_of_few(at.of) : std::nullopt;
+        if (has_nu && !missing_k) {
             // ν and k follow from the few readings: all that is left is to know of them.
             AuditFinding finding =
                 finding_at(at, "",
@@ -85,8 +106,12 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
         AuditFinding finding = finding_at(
             at, "",
             *n < 2 ? say("one reading has no scatter: s cannot come from it")
-                   : say("the scatter comes of {count:number} readings, and neither ν nor k accounts for so few",
-                         std::to_string(*n)));
+            : missing_k
+                ? say("the scatter comes of {count:number} readings; ν accounts for it, and k does not: t_p(ν_eff) is "
+                      "{k:number}",
+                      std::to_string(*n), in_words(*missing_k))
+                : say("the scatter comes of {count:number} readings, and neither ν nor k accounts for so few",
+                      std::to_string(*n)));
         finding.evidence = {equals("n", std::to_string(*n)), equals("ν", nu_in_words(at.is.used_nu))};
         if (*n >= 2 && at.is.nu && !std::isfinite(at.is.used_nu)) {
             finding.expected = equals("ν", std::to_string(*n - 1));

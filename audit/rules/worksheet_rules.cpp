@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "audit/row_facts.h"
+#include "audit/row_meaning.h"
 #include "audit/rules/read_cells.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
@@ -173,8 +174,23 @@ std::optional<double> divisor_of_shape(Shape shape) {
     }
 }
 
+/// Whether a divisor is √n of readings: of a row of Type A, or where words, ν = n − 1 or a formula that counts say n
+/// (JCGM 100:2008, 4.2.3). The distribution that stands beside it is that of their mean.
+bool is_root_of_readings(const AuditedRow& row, const SheetFormula* divisor) {
+    if (row.type_a.value_or(row.origin == Origin::readings)) {
+        return true;
+    }
+    const double n = row.divisor->value * row.divisor->value;
+    const auto is_n = [n](double count) { return is_about(count, n, 0.02); };
+    const bool is_counted = divisor != nullptr && calls(divisor->formula, {"COUNT", "COUNTA", "ROWS"});
+    return is_counted || (row.n && is_n(static_cast<double>(*row.n))) ||
+           (row.averaged && is_n(static_cast<double>(*row.averaged))) ||
+           (std::isfinite(row.used_nu) && is_n(row.used_nu + 1.0));
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
-    for_each_row(subject, [&findings](const RowAt& at) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_row(subject, [&findings, &view](const RowAt& at) {
         if (!at.is.divisor || !(at.is.divisor->value > 0.0)) {
             return;
         }
@@ -193,7 +209,7 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
                                         : at.is.shape == Shape::normal && !known.empty() &&
                                               (known.english().starts_with("√3") || known.english().starts_with("√6"));
-        if (!disagrees) {
+        if (!disagrees || is_root_of_readings(at.is, view ? view->formula_at(place_of(at.is.divisor)) : nullptr)) {
             return;
         }
         AuditFinding finding = finding_at(
@@ -206,9 +222,19 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         finding.actual = say_number(in_words(divisor));
         finding.evidence = {equals(say("divisor"), text::shortest(divisor)),
                             say("distribution: {distribution}", at.is.shape_text)};
+        // u itself may have been divided by the right number.
+        const bool is_divided_so =
+            expected && at.is.stated && !u_differs(at.is, std::abs(at.is.stated->value) / *expected);
+        if (is_divided_so) {
+            finding.expected = say_number(text::significant(*expected, 6));
+            findings.add(std::move(finding), FindingSeverity::minor);
+            return;
+        }
         if (expected) {
             finding.expected = say_number(text::significant(*expected, 6));
-            finding.correct = scale_u(at.row, divisor / *expected);
+            finding.correct = at.is.stated && u_is_not_the_quotient(at.is)
+                                  ? set_u(at.row, std::abs(at.is.stated->value) / *expected)
+                                  : scale_u(at.row, divisor / *expected);
         } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
             finding.expected = say("k = {k:number} of the certificate", in_words(*at.is.certificate_k));
             finding.correct = scale_u(at.row, divisor / *at.is.certificate_k);
@@ -398,9 +424,88 @@ const SheetFormula* formula_of_row(const WorksheetView& view, const AuditedRow& 
     return view.formula_at(place_of(row.stated ? row.stated : row.u));
 }
 
+/// The row of a budget whose number stands in a cell: what it divides, or its u.
+using OwnersOfCells = std::map<CellPlace, std::size_t>;
+OwnersOfCells owners_of(const WorksheetView& view, const AuditedBudget& budget) {
+    OwnersOfCells owners;
+    for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+        for (const std::optional<StatedNumber>* number : {&budget.rows[r].stated, &budget.rows[r].u}) {
+            const std::optional<CellPlace> cell = view.cell_at(place_of(*number));
+            if (cell) {
+                owners.emplace(*cell, r);
+            }
+        }
+    }
+    return owners;
+}
+
+/// The first cell of another row among those that a formula names one by one; nothing where it names one of its own row.
+std::optional<CellPlace> number_of_other_row(const WorksheetView& view, const SheetFormula& formula,
+                                             const OwnersOfCells& owners, std::size_t row) {
+    std::optional<CellPlace> other;
+    for (const FormulaNode& node : formula.formula.nodes) {
+        const std::optional<CellPlace> cell = cell_of(view, formula, node);
+        const auto owner = cell ? owners.find(*cell) : owners.end();
+        if (owner == owners.end()) {
+            continue;
+        }
+        if (owner->second == row) {
+            return std::nullopt;
+        }
+        other = other ? other : cell;
+    }
+    return other;
+}
+
+/// W05 of a row that computes u from what another row divides, in place of its own, or passes on the number of another row by
+/// an absolute address as its own. One that computes with it, as a drift that is a tenth of U, is another number.
+void number_of_another_row(const WorksheetView& view, const AuditSubject& subject, FindingCollector& findings) {
+    for_each_row(subject, [&view, &findings, owners = OwnersOfCells(),
+                           of = std::optional<std::size_t>()](const RowAt& at) mutable {
+        if (of != at.budget) {
+            of = at.budget;
+            owners = owners_of(view, at.of);
+        }
+        const AuditedRow& row = at.is;
+        const SheetFormula* of_u = row.stated ? view.formula_at(place_of(row.u)) : nullptr;
+        const SheetFormula* of_stated = view.formula_at(place_of(row.stated ? row.stated : row.u));
+        const bool copies =
+            of_stated != nullptr && of_stated->formula.nodes.size() == 1 && has_absolute_reference(of_stated->formula);
+        std::optional<CellPlace> read =
+            of_u != nullptr ? number_of_other_row(view, *of_u, owners, at.row) : std::nullopt;
+        const SheetFormula* formula = read ? of_u : of_stated;
+        const bool in_u = read.has_value();
+        if (!read && copies) {
+            read = number_of_other_row(view, *of_stated, owners, at.row);
+        }
+        if (!read) {
+            return;
+        }
+        const AuditedRow& other = at.of.rows[owners.at(*read)];
+        AuditFinding finding = finding_at(
+            at, view.place(formula->cell),
+            in_u ? say("u is computed from {cell}, the number of the row \"{quantity}\", and its own is not read",
+                       view.place(*read), other.quantity)
+                 : say("passes on {cell}, the number of the row \"{quantity}\", by an absolute address: it counts "
+                       "twice, or another cell was meant",
+                       view.place(*read), other.quantity));
+        finding.evidence = {text_of(view, *formula), equals(view.place(*read), in_words(view.value(*read).number))};
+        const std::optional<StatedNumber> quotient = quotient_of_columns(row);
+        if (in_u && quotient) {
+            finding.expected = equals("u", in_words(quotient->value, row.unit));
+            finding.actual = equals("u", in_words(row.used_u, row.unit));
+            finding.correct = set_u(at.row, quotient->value);
+        } else if (!in_u) {
+            finding.correct = leave_out(at.row);
+        }
+        findings.add(std::move(finding));
+    });
+}
+
 void stray_address(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     ReadCells cells(*view);
+    number_of_another_row(*view, subject, findings);
     for (std::size_t b = 0; b < subject.budgets.size(); ++b) {
         const AuditedBudget& budget = subject.budgets[b];
         FirstReaders all, by_absolute_address;
@@ -715,6 +820,9 @@ Sentence error_in_words(bool hidden, bool under_results) {
 
 void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    // Where an error reaches a result, nothing is claimed.
+    const bool any_broken = std::any_of(subject.budgets.begin(), subject.budgets.end(),
+                                        [](const AuditedBudget& budget) { return budget.claims.broken.any(); });
     for (std::size_t s = 0; s < view->workbook().sheets.size(); ++s) {
         const workbook::Sheet& sheet = view->workbook().sheets[s];
         const bool hidden = sheet.state != workbook::SheetState::visible;
@@ -730,9 +838,11 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
             if (!broken) {
                 continue;
             }
-            AuditFinding finding = finding_in(view->place(at), error_in_words(hidden, view->stands_under_results(at)));
+            const bool under_results = view->stands_under_results(at);
+            AuditFinding finding = finding_in(view->place(at), error_in_words(hidden, under_results));
             finding.kind = finding.what.english();
-            findings.add(std::move(finding));
+            findings.add(std::move(finding),
+                         any_broken && under_results ? FindingSeverity::critical : FindingSeverity::minor);
         }
         const bool used = std::any_of(sheet.cells.begin(), sheet.cells.end(), [&](const workbook::Cell& cell) {
             return view->stands_under_results({.sheet = s, .address = cell.address});
@@ -746,7 +856,32 @@ void error_in_chain(const AuditSubject& subject, FindingCollector& findings) {
 // W13 -----------------------------------------------------------------------------------------------------------------
 
 bool is_rate_per_year(const std::string& label) {
-    return says(label, {"per year", "/yr", "/year", "p.a.", "pro jahr", "/a", "/jahr", "annual"});
+    return says(label, {"per year", "je jahr", "/yr", "/year", "p.a.", "pro jahr", "/a", "/jahr", "annual"});
+}
+
+/// Whether a formula has days: a function of dates, or the difference of two cells that hold days of the last or this
+/// century as spreadsheets count them.
+bool counts_days(const WorksheetView& view, const SheetFormula& formula) {
+    constexpr double k_first_day = 18'000.0, k_last_day = 80'000.0;  // 1949 to 2119
+    if (calls(formula.formula, {"NOW", "TODAY", "DATEVALUE", "DATE", "DAYS"})) {
+        return true;
+    }
+    const auto is_day = [&](const FormulaNode& node) {
+        const std::optional<CellPlace> cell = cell_of(view, formula, node);
+        const CellValue value = cell ? view.value(*cell) : CellValue{};
+        return value.kind == CellKind::number && value.number >= k_first_day && value.number <= k_last_day;
+    };
+    return std::any_of(formula.formula.nodes.begin(), formula.formula.nodes.end(), [&](const FormulaNode& node) {
+        if (node.kind != FormulaNodeKind::subtract || node.children != 2) {
+            return false;
+        }
+        const auto operands = formula.formula.children_of(node);
+        return is_day(formula.formula.nodes[operands[0]]) && is_day(formula.formula.nodes[operands[1]]);
+    });
+}
+
+bool is_of_year(double days) {
+    return days >= 360.0 && days <= 366.0;
 }
 
 /// Whether one of the cells that a formula reads holds a rate per year.
@@ -776,28 +911,38 @@ void time_units(const AuditSubject& subject, FindingCollector& findings) {
         }
     });
     for (const SheetFormula& formula : view->formulas()) {
-        if (!calls(formula.formula, {"NOW", "TODAY", "DATEVALUE", "DATE", "DAYS"})) {
+        if (!counts_days(*view, formula)) {
             continue;
         }
-        for (const workbook::FormulaLiteral& literal : workbook::literal_numbers(formula.formula)) {
-            const bool divides =
-                formula.formula.nodes[literal.parent].kind == FormulaNodeKind::divide && literal.argument == 1;
-            const bool days_in_year = literal.number >= 360.0 && literal.number <= 366.0;
-            if (!divides || days_in_year || !reads_rate_per_year(*view, cells, formula, labels_left)) {
+        const std::string place = view->place(formula.cell);
+        const auto of_row = row_of_place.find(place);
+        const auto says_rate = [&] {  // of the row itself, where the rate stands in the formula
+            return of_row != row_of_place.end() &&
+                   is_rate_per_year(text_of_row(subject.budgets[of_row->second.first].rows[of_row->second.second]));
+        };
+        const std::vector<workbook::FormulaLiteral> literals = workbook::literal_numbers(formula.formula);
+        const auto divides = [&formula](const workbook::FormulaLiteral& literal) {
+            return formula.formula.nodes[literal.parent].kind == FormulaNodeKind::divide && literal.argument == 1;
+        };
+        const bool closes = std::any_of(literals.begin(), literals.end(),
+                                        [](const auto& literal) { return is_of_year(literal.number); });
+        for (const workbook::FormulaLiteral& literal : literals) {
+            if (closes || !divides(literal) ||
+                !(says_rate() || reads_rate_per_year(*view, cells, formula, labels_left))) {
                 continue;
             }
-            const std::string place = view->place(formula.cell);
             AuditFinding finding = finding_in(
                 place,
                 say("a rate per year times days divided by {divisor}: the units of time do not close", literal.text));
             finding.expected = say("days/365");
             finding.actual = say("days/{divisor}", literal.text);
             finding.evidence = {text_of(*view, formula)};
-            if (const auto row = row_of_place.find(place); row != row_of_place.end()) {
-                finding.budgets = {row->second.first};
-                finding.correct = scale_u(row->second.second, literal.number / 365.0);
+            if (of_row != row_of_place.end()) {
+                finding.budgets = {of_row->second.first};
+                finding.correct = scale_u(of_row->second.second, literal.number / 365.0);
             }
             findings.add(std::move(finding));
+            break;  // what else divides belongs to something else
         }
     }
     if (labels_left == 0) {
@@ -859,7 +1004,9 @@ std::vector<Rule> worksheet_rules() {
          .title = "Divisor and stated distribution disagree",
          .clause = k_bounds_of_inputs,
          .needs = {Need::rows},
-         .detection = "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k",
+         .detection =
+             "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
+             "readings is that of their mean",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",
@@ -886,7 +1033,9 @@ std::vector<Rule> worksheet_rules() {
          .title = "One cell feeds two rows by an absolute address",
          .clause = {.text = "JCGM 100:2008, 4.3.10", .verified = true},
          .needs = {Need::workbook},
-         .detection = "two rows of a budget read the same number, one of them by an absolute address",
+         .detection =
+             "two rows of a budget read the same number, one of them by an absolute address; u of a row computed "
+             "from what another row divides; the number of another row passed on by an absolute address",
          .correction = "Let each row read its own cell, or leave the second row out.",
          .question = "Which cell was the second row meant to read?",
          .examine = stray_address},
@@ -954,7 +1103,9 @@ std::vector<Rule> worksheet_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::minor,
          .needs = {Need::workbook},
-         .detection = "#REF!, #VALUE! and their like, on any sheet; a hidden sheet under a result",
+         .detection =
+             "#REF!, #VALUE! and their like, on any sheet, critical where a result is one; a hidden sheet under a "
+             "result",
          .correction = "Repair or remove the cell; show what a result rests on.",
          .question = "What did the cell hold, and what still reads it?",
          .examine = error_in_chain},
@@ -962,7 +1113,9 @@ std::vector<Rule> worksheet_rules() {
          .title = "Units of time do not close",
          .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = false},
          .needs = {Need::workbook},
-         .detection = "a rate per year times a difference of days, divided by something else than 365",
+         .detection =
+             "a rate per year times days (of a function of dates, or a difference of two cells with dates), divided "
+             "by something else than 365",
          .correction = "Divide days by 365.",
          .question = "Is the age of the calibration meant in days, months or years?",
          .examine = time_units},
@@ -986,6 +1139,7 @@ std::vector<Rule> worksheet_rules() {
          .correction = "Protect the cells with formulas, and note version and validation.",
          .question = "How is it made sure that the formulas are those that were validated?",
          .examine = not_protected},
+        stored_value_rule(),
     };
 }
 

@@ -17,6 +17,12 @@ std::set<std::string> places_of_claims(const AuditSubject& subject) {
                 places.insert((*claim)->place);
             }
         }
+        const BrokenClaims& broken = budget.claims.broken;
+        for (const std::string* place : {&broken.u_c, &broken.nu_eff, &broken.k, &broken.U, &broken.value}) {
+            if (!place->empty()) {
+                places.insert(*place);
+            }
+        }
     }
     return places;
 }

@@ -38,6 +38,10 @@ public:
     [[nodiscard]] std::vector<workbook::CellPlace> unread_cells() const { return held_.graph.unread_cells(); }
     [[nodiscard]] const std::vector<workbook::SheetIndex>& indexes() const { return held_.graph.indexes(); }
     [[nodiscard]] std::string place(const workbook::CellPlace& cell) const { return held_.place(cell); }
+    /// The cell of such a place as "Budget!D5", where it holds anything.
+    [[nodiscard]] std::optional<workbook::CellPlace> cell_at(const std::string& place) const {
+        return held_.cell_at(place);
+    }
     [[nodiscard]] bool stands_under_results(const workbook::CellPlace& cell) const;
     /// Words that say what a cell is: the texts to its left in the row, and the next text above it, as far as they stand
     /// within 200 columns and rows.

@@ -1,13 +1,18 @@
 #include "audit/sources/workbook_subject.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "audit/audited_workbook.h"
 #include "audit/claims.h"
+#include "audit/sources/budget_words.h"
 #include "audit/sources/foreign_table.h"
 
 namespace gumcert::audit {
@@ -54,6 +59,89 @@ void mark_sums(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held)
                             [&](std::size_t i, const std::vector<CellPlace>& under) { mark_sum(*of[i], held, under); });
 }
 
+/// What the file shows is what it claims, also where its formulas give something else.
+void take_shown_claims(AuditedBudget& budget, const AuditedWorkbook& held) {
+    const ComputedClaims computed{.claims = budget.claims,
+                                  .coverage = budget.coverage,
+                                  .u_c_over_rows = budget.u_c_over_rows,
+                                  .k_over_rows = budget.k_over_rows,
+                                  .U_over_k_u_c = budget.U_over_k_u_c};
+    Claims& claims = budget.claims;
+    bool any = false;
+    for (std::optional<StatedNumber>* claim : {&claims.value, &claims.u_c, &claims.nu_eff, &claims.k, &claims.U}) {
+        const std::optional<CellPlace> cell = *claim ? held.cell_at((*claim)->place) : std::nullopt;
+        if (const std::optional<double> shown = cell ? held.stale_number(*cell) : std::nullopt) {
+            (*claim)->value = *shown;
+            any = true;
+        }
+    }
+    if (any) {
+        budget.computed_claims = computed;
+        if (claims.k) {
+            budget.coverage = {
+                .kind = CoverageRule::Kind::fixed, .k = claims.k->value, .probability = budget.coverage.probability};
+        }
+        note_claims_beyond_rows(budget);
+    }
+}
+
+/// What a cell shows is an error: by its formula, or as it is stored.
+bool is_error(const AuditedWorkbook& held, std::size_t sheet, const workbook::Cell& cell) {
+    const workbook::EvaluatedCell* computed =
+        workbook::find_evaluated(held.evaluation, held.workbook, sheet, cell.address);
+    const bool is_computed = computed != nullptr && computed->state != workbook::EvaluationState::not_evaluated;
+    return (is_computed ? computed->value : cell.value).kind == workbook::CellKind::error;
+}
+
+/// Notes an error value where a row of a sheet names a result.
+void take_broken_claim(AuditedBudget& budget, Statement statement, const std::string& place) {
+    Claims& claims = budget.claims;
+    const auto take = [&place](const std::optional<StatedNumber>& claim, std::string& broken) {
+        if (!claim && broken.empty()) {
+            broken = place;
+        }
+    };
+    switch (statement) {
+        case Statement::value:
+            return take(claims.value, claims.broken.value);
+        case Statement::u_c:
+            return take(claims.u_c, claims.broken.u_c);
+        case Statement::nu_eff:
+            return take(claims.nu_eff, claims.broken.nu_eff);
+        case Statement::k:
+            return take(claims.k, claims.broken.k);
+        case Statement::U:
+        case Statement::reported_U:
+            return take(claims.U, claims.broken.U);
+        default:
+            return;
+    }
+}
+
+/// Rows that name a result and hold an error value belong to the table above them, else to the first of their sheet.
+void take_broken_claims(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held) {
+    std::map<std::size_t, std::map<std::uint32_t, AuditedBudget*>> tables;  // by sheet and row of the heads
+    for (AuditedBudget& budget : budgets) {
+        if (const std::optional<CellPlace> heads = held.cell_at(budget.place)) {
+            tables[heads->sheet].emplace(heads->address.row, &budget);
+        }
+    }
+    for (const auto& [sheet, of_sheet] : tables) {
+        const workbook::Cell* first = nullptr;  // of its row
+        for (const workbook::Cell& cell : held.workbook.sheets[sheet].cells) {
+            first = first != nullptr && first->address.row == cell.address.row ? first : &cell;
+            if (first == &cell || first->value.kind != workbook::CellKind::text || !is_error(held, sheet, cell)) {
+                continue;
+            }
+            if (const std::optional<Statement> statement = statement_of(first->value.text)) {
+                const auto below = of_sheet.upper_bound(cell.address.row);
+                AuditedBudget& budget = *(below == of_sheet.begin() ? below : std::prev(below))->second;
+                take_broken_claim(budget, *statement, held.place({.sheet = sheet, .address = cell.address}));
+            }
+        }
+    }
+}
+
 }  // namespace
 
 AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
@@ -67,6 +155,10 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
     if (!held->evaluation.cells.empty()) {
         subject.kind = AuditSubject::Kind::workbook;
         mark_sums(subject.budgets, *held);
+        for (AuditedBudget& budget : subject.budgets) {
+            take_shown_claims(budget, *held);
+        }
+        take_broken_claims(subject.budgets, *held);
         for (const workbook::NotEvaluated& reason : held->evaluation.reasons) {
             const workbook::Sheet& sheet = held->workbook.sheets[reason.sheet];
             const std::string cell = workbook::sheet_a1(sheet.name, sheet.cells[reason.cell].address);

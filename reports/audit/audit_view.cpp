@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <string_view>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include <utility>
 
 #include "audit/checklists.h"
+#include "audit/claims.h"
 #include "audit/severity.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
@@ -75,13 +77,13 @@ std::string stated_text(const std::optional<audit::StatedNumber>& number) {
     constexpr int k_most = 10;
     return !number                ? ""
            : number->text.empty() ? typed_or_rounded(number->value, k_most, k_most)
-                                  : printable(number->text);
+                                  : printable(audit::text_of_claim(*number));
 }
 
 /// The same of an uncertainty or a sensitivity.
 std::string stated_part(const std::optional<audit::StatedNumber>& number, double used) {
     constexpr int k_most = 6;
-    return number && !number->text.empty() ? printable(number->text)
+    return number && !number->text.empty() ? printable(audit::text_of_claim(*number))
                                            : typed_or_rounded(number ? number->value : used, k_most, k_digits);
 }
 
@@ -97,7 +99,7 @@ PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims
     if (claims != nullptr) {
         // A number without a text was computed here: it is rounded like the others beside it.
         const auto take = [](const std::optional<audit::StatedNumber>& claim, std::string& text) {
-            text = claim && !claim->text.empty() ? printable(claim->text) : text;
+            text = claim && !claim->text.empty() ? printable(audit::text_of_claim(*claim)) : text;
         };
         take(claims->value, all.value);
         take(claims->u_c, all.u_c);
@@ -105,6 +107,21 @@ PrintedOutcome printed(const BudgetOutcome& outcome, const audit::Claims* claims
         take(claims->k, all.k);
         take(claims->U, all.U);
         take(claims->en, all.En);
+        // What is an error in the file is no number of it, also where the rows give one.
+        const auto leave = [](const std::string& broken, std::string& text, double& number) {
+            if (!broken.empty()) {
+                text = "–";
+                number = std::numeric_limits<double>::quiet_NaN();
+            }
+        };
+        leave(claims->broken.u_c, all.u_c, all.number.u_c);
+        leave(claims->broken.nu_eff, all.nu_eff, all.number.nu_eff);
+        leave(claims->broken.k, all.k, all.number.k);
+        leave(claims->broken.U, all.U, all.number.U);
+        if (!claims->broken.value.empty()) {
+            all.value.clear();
+            all.number.value.reset();
+        }
     }
     return all;
 }
@@ -179,7 +196,7 @@ AuditedRowView row_view(const AuditedRow& row, double sum_of_squares) {
                         .sensitivity = stated_part(row.sensitivity, row.used_sensitivity),
                         .nu = !row.nu                ? ""
                               : row.nu->text.empty() ? printed_nu(row.nu->value)
-                                                     : printable(row.nu->text),
+                                                     : printable(audit::text_of_claim(*row.nu)),
                         .source = printable(row.source),
                         .comment = printable(row.comment),
                         .place = printable(row.place),
@@ -288,6 +305,10 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.claim_k = claim_of(budget.claims.k, result.allowed.k);
     view.claim_U = claim_of(budget.claims.U, result.allowed.U);
     view.change = change_of(result.claimed, result.audited);
+    if (!budget.claims.broken.U.empty()) {
+        view.change.percent = "–";
+        view.change.direction = "not_stated";
+    }
     view.sampled_shares = result.sampled_shares;
     view.is_nested = result.is_nested;
     view.budget_U_number = result.recomputed.k * result.recomputed.u_c;
@@ -522,7 +543,7 @@ Change change_of(const BudgetOutcome& before, const BudgetOutcome& after) {
     change.percent = signed_percent(change.relative);
     // direction_in_words() says "U understated"; forms put the word into their own language.
     change.direction = audit::direction_in_words(before, after).substr(2);
-    change.verdict_turns = before.verdict != after.verdict;
+    change.verdict_turns = audit::verdict_turns(before.verdict, after.verdict);
     change.En_crosses_one = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);
     return change;
 }

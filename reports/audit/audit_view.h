@@ -57,9 +57,10 @@ struct PrintedInterval {
 
 /// What correcting a finding does to U.
 struct Change {
-    double relative = 0.0;        ///< of U
-    std::string percent;          ///< "+21.4", "0.0"
-    std::string direction;        ///< "understated", "overstated", "unchanged": how U stands before the correction
+    double relative = 0.0;  ///< of U
+    std::string percent;    ///< "+21.4", "0.0"
+    std::string
+        direction;  ///< "understated", "overstated", "unchanged", "not_stated": how U stands before the correction
     bool verdict_turns = false;   ///< another verdict
     bool En_crosses_one = false;  ///< |E_n| moves across 1
     [[nodiscard]] bool decision_turns() const { return verdict_turns || En_crosses_one; }

@@ -117,6 +117,9 @@ std::string AuditWords::effect_on_score(const EffectView& effect, const AuditedF
 
 std::string AuditWords::missing_term(const MissingTermView& term) const {
     std::string text = filled("bound_of_digit", {{"u", with_unit(term.u_for_digit, term.unit)}});
+    if (term.u_for_verdict.empty() && !term.number.is_decided) {
+        return text;
+    }
     text += " " + (term.u_for_verdict.empty()
                        ? (*this)("bound_of_no_verdict")
                        : filled("bound_of_verdict", {{"u", with_unit(term.u_for_verdict, term.unit)}}));

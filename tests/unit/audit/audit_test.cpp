@@ -117,5 +117,25 @@ TEST(Audit, KnowsWhatSomebodyAccepts) {
     EXPECT_TRUE(audit(subject, rules).has_critical());
 }
 
+TEST(Audit, AuditsWhatNoDecisionRestsOn) {
+    AuditedBudget budget = budget_of({row("a", 0.3), row("b", 0.4)});
+    budget.value = 9.0;
+    budget.limits = {.lower = 0.0, .upper = 10.0};
+    budget.rule = gum::DecisionRule::simple_acceptance_with_ratio;  // its least ratio is not stated
+    budget.claims.verdict = "pass";
+    const AuditReport report = audit(subject_of(budget), std::vector<Rule>{k_half, k_missing});
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.results[0].claimed.verdict, "pass");
+    EXPECT_EQ(report.results[0].audited.verdict, k_no_decision);
+    EXPECT_GT(report.results[0].audited.U, 1.1 * report.results[0].claimed.U);
+    EXPECT_TRUE(report.has_critical());
+    ASSERT_EQ(report.subject.not_read.size(), 2U);
+    EXPECT_NE(report.subject.not_read[0].english().find("cannot be told"), std::string::npos);
+    EXPECT_NE(report.subject.not_read[1].english().find("test_uncertainty_ratio"), std::string::npos);
+    ASSERT_TRUE(report.findings.back().missing_term);
+    EXPECT_FALSE(report.findings.back().missing_term->u_for_verdict);
+    EXPECT_FALSE(report.findings.back().missing_term->is_decided);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

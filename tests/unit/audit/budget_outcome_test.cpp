@@ -112,6 +112,35 @@ TEST(BudgetOutcome, ScoresThePointThatIsWorse) {
     EXPECT_NEAR(evaluate(budget).en.value_or(0.0), -0.7, 1e-12);
 }
 
+TEST(BudgetOutcome, LeavesOutOnlyWhatCannotBeDecided) {
+    // Every rule without its parameters, impossible limits, an impossible correlation: u_c, k and U stay what they are.
+    AuditedBudget plain = budget_of({row("a", 0.3, 1.0, 12.0), row("b", 0.4)});
+    plain.value = 9.9;
+    const BudgetOutcome known = evaluate(plain);
+    std::size_t undecided = 0;
+    for (const std::string_view id : gum::decision_rule_ids()) {
+        for (const double lower : {0.0, 20.0}) {
+            AuditedBudget budget = plain;
+            budget.rule = gum::decision_rule_from_id(std::string(id));
+            budget.limits = {.lower = lower, .upper = 10.0};
+            budget.reference =
+                ComparedReference{.value = 9.0, .expanded_uncertainty = 1.0, .correlation = 2.0 * lower, .name = ""};
+            const BudgetOutcome outcome = evaluate(budget);
+            EXPECT_EQ(outcome.u_c, known.u_c);
+            EXPECT_EQ(outcome.k, known.k);
+            EXPECT_EQ(outcome.printed_U, known.printed_U);
+            EXPECT_FALSE(outcome.verdict.empty());
+            EXPECT_EQ(outcome.en.has_value(), lower == 0.0);
+            EXPECT_EQ(outcome.undecided.empty(), outcome.verdict != k_no_decision && outcome.en);
+            undecided += outcome.verdict == k_no_decision ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(undecided, gum::decision_rule_ids().size()) << "impossible limits, and rules that need more than limits";
+    EXPECT_FALSE(verdict_turns("pass", k_no_decision));
+    EXPECT_FALSE(verdict_turns(k_no_decision, "fail"));
+    EXPECT_TRUE(verdict_turns("pass", "fail"));
+}
+
 TEST(BudgetOutcome, TakesKFromTheConvolution) {
     AuditedBudget budget = budget_of({row("limit", 1.0)});
     budget.rows[0].shape = Shape::rectangular;

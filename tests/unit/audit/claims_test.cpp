@@ -178,5 +178,19 @@ TEST(Claims, BelieveANuThatWasCut) {
     EXPECT_TRUE(check_claims(budget).coverage.truncate);
 }
 
+TEST(TextOfClaim, KeepsTheDigitsAndHasTheFormOfDocuments) {
+    const auto text = [](const std::string& printed, double half_step) {
+        return text_of_claim({.value = 0.0, .half_step = half_step, .text = printed, .place = ""});
+    };
+    EXPECT_EQ(text("0,066", 0.0005), "0.066");
+    EXPECT_EQ(text("0.060", 0.0005), "0.060");
+    EXPECT_EQ(text("1,20E-3", 5e-6), "1.20E-3");
+    EXPECT_EQ(text("10.000,00", 0.005), "10000.00");
+    EXPECT_EQ(text("10,000.00", 0.005), "10000.00");
+    EXPECT_EQ(text("10,000", 0.0), "10000");
+    EXPECT_EQ(text("12", 0.0), "12");
+    EXPECT_EQ(text("", 0.0), "");
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -57,5 +57,22 @@ TEST(Severity, SaysTheDirectionInWords) {
     EXPECT_EQ(direction_in_words(with_U(1.0, "1.0"), with_U(1.01, "1.0")), "U unchanged");
 }
 
+TEST(Severity, ComparesAClaimAtItsLastDigit) {
+    // However a claim is written, the direction is that of the numbers.
+    for (const char* const text : {"0.066", "0,066", "6.6E-2", "6,6E-2"}) {
+        BudgetOutcome claimed = with_U(0.066, text);
+        claimed.stated_step = 0.001;
+        EXPECT_EQ(direction_in_words(claimed, with_U(0.0658, "0.066")), "U unchanged") << text;
+        EXPECT_EQ(direction_in_words(claimed, with_U(0.0664, "0.066")), "U unchanged") << text;
+        EXPECT_EQ(direction_in_words(claimed, with_U(0.0671, "0.067")), "U understated") << text;
+        EXPECT_EQ(direction_in_words(claimed, with_U(0.0649, "0.065")), "U overstated") << text;
+    }
+    BudgetOutcome one_digit = with_U(0.06, "0.06");
+    one_digit.stated_step = 0.01;
+    EXPECT_EQ(direction_in_words(one_digit, with_U(0.0598, "0.060")), "U unchanged");
+    EXPECT_EQ(direction_in_words(one_digit, with_U(0.0640, "0.064")), "U unchanged");
+    EXPECT_EQ(direction_in_words(one_digit, with_U(0.0690, "0.069")), "U understated");
+}
+
 }  // namespace
 }  // namespace gumcert::audit

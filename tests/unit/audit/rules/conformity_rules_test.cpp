@@ -80,7 +80,7 @@ TEST(ConformityRules, D06_asks_for_the_results_before_adjustment) {
 }
 
 TEST(ConformityRules, D08_follows_from_findings_on_the_same_budget) {
-    const auto reports_row_0 = [](const AuditSubject& subject, FindingCollector& findings) {
+    static const auto reports_row_0 = [](const AuditSubject& subject, FindingCollector& findings) {
         AuditFinding finding = finding_of(subject, 0, "u is too small");
         finding.correct = scale_u(0, 2.0);
         findings.add(std::move(finding));
@@ -98,6 +98,27 @@ TEST(ConformityRules, D08_follows_from_findings_on_the_same_budget) {
     };
     EXPECT_THAT(d08(subject_with({decided_budget("pass")})), testing::ElementsAre(HasSubstr("findings are open: U08")));
     EXPECT_THAT(d08(subject_with({test::sound_budget(), decided_budget("pass")})), testing::IsEmpty());
+    // The word is that of the gravity.
+    const auto planted = [](FindingSeverity severity, std::string_view id) {
+        return Rule{.id = id,
+                    .title = "planted",
+                    .policy = SeverityPolicy::fixed,
+                    .severity = severity,
+                    .examine = reports_row_0};
+    };
+    const auto said = [&](std::vector<Rule> of_uncertainty) {
+        rules = conformity_rules();
+        rules.insert(rules.end(), of_uncertainty.begin(), of_uncertainty.end());
+        const std::vector<std::string> found = d08(subject_with({decided_budget("pass")}));
+        return found.size() == 1 ? found.front() : "";
+    };
+    using enum FindingSeverity;
+    EXPECT_THAT(said({planted(critical, "U08"), planted(critical, "U09")}),
+                HasSubstr("critical findings are open: U08 and U09"));
+    EXPECT_THAT(said({planted(major, "U08")}), HasSubstr("major findings are open: U08"));
+    EXPECT_THAT(said({planted(major, "U08"), planted(critical, "U09")}),
+                HasSubstr("critical findings are open: U09, and major ones: U08"));
+    EXPECT_EQ(said({planted(minor, "U08")}), "");
 }
 
 }  // namespace

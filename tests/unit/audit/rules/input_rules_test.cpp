@@ -1,6 +1,7 @@
 // For each rule of Type B inputs: a budget that fires, and one that must not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -80,6 +81,89 @@ TEST(InputRules, U08AndU13BelieveColumnsBeforeWords) {
     standard.stated = test::printed("0.36");
     standard.divisor = test::printed("2");
     EXPECT_FALSE(fires("U13", standard));
+}
+
+/// A row as a table prints it: half-width 0.080, divisor √3, and some u, among others that agree.
+AuditedBudget printed_columns(Origin origin, Shape shape, const std::string& u) {
+    AuditedRow one = row_from("drift", origin, 0.080, 0.0, shape);
+    one.stated = test::printed("0.080");
+    one.divisor = test::printed("\u221A3");
+    one.u = test::printed(u);
+    one.used_u = one.u->value;
+    one.u_half_step = one.u->half_step;
+    return budget_of({std::move(one), row("standard", 0.025)});
+}
+
+TEST(InputRules, WhateverTheWordsSayARowDividesWhatItSays) {
+    // The law: of any words and shape, a u that is not stated/divisor is told, once, and corrected to a u that the words or
+    // the columns give; one that is the quotient within its digits is no U26.
+    const Origin origins[] = {Origin::not_stated, Origin::certificate, Origin::specification, Origin::limits,
+                              Origin::resolution};
+    const Shape shapes[] = {Shape::not_stated, Shape::normal, Shape::rectangular, Shape::triangular, Shape::arcsine};
+    for (const Origin origin : origins) {
+        for (const Shape shape : shapes) {
+            const auto of_row = [&](const std::string& u) {
+                std::vector<AuditFinding> all =
+                    audit(subject_of(printed_columns(origin, shape, u)), test::rules_of_families("U")).findings;
+                std::erase_if(all, [](const AuditFinding& finding) { return !finding.correct; });
+                return all;
+            };
+            for (const char* const right : {"0.0462", "0.046", "0.05"}) {
+                for (const AuditFinding& finding : of_row(right)) {
+                    EXPECT_NE(finding.rule, "U26") << right;
+                }
+            }
+            for (const char* const wrong :
+                 {"0.00462", "0.0264", "0.0412", "0.0500", "0.0782", "0.139", "0.462", "4.62"}) {
+                const std::vector<AuditFinding> findings = of_row(wrong);
+                EXPECT_FALSE(findings.empty()) << wrong << " of shape " << static_cast<int>(shape);
+                EXPECT_LE(std::count_if(findings.begin(), findings.end(),
+                                        [](const AuditFinding& finding) { return finding.where.ends_with(", u"); }),
+                          1)
+                    << wrong << " of shape " << static_cast<int>(shape);
+            }
+        }
+    }
+}
+
+TEST(InputRules, U26HoldsARowAgainstItsOwnColumns) {
+    for (const char* const wrong : {"0.00462", "0.139", "0.0642"}) {
+        const std::vector<AuditFinding> findings =
+            findings_of("U26", subject_of(printed_columns(Origin::limits, Shape::rectangular, wrong)));
+        ASSERT_EQ(findings.size(), 1U) << wrong;
+        ASSERT_TRUE(findings[0].effect) << wrong;
+        EXPECT_NEAR(findings[0].effect->alone.u_c, std::hypot(0.080 / k_root_of_3, 0.025), 1e-12) << wrong;
+    }
+    // What the words give is right, whatever the columns beside it.
+    AuditedBudget of_words = printed_columns(Origin::limits, Shape::rectangular, "0.0462");
+    of_words.rows[0].stated = test::printed("0.80");
+    std::vector<AuditFinding> findings = findings_of("U26", subject_of(of_words));
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_FALSE(findings[0].correct);
+    EXPECT_EQ(findings[0].severity, FindingSeverity::minor);
+    // A percentage of something is no half-width in the unit of u; nor are columns that agree nowhere.
+    AuditedBudget percent = printed_columns(Origin::limits, Shape::rectangular, "0.139");
+    percent.rows[0].stated = test::printed("8 %");
+    EXPECT_TRUE(findings_of("U26", subject_of(percent)).empty());
+    AuditedBudget other_unit = printed_columns(Origin::limits, Shape::rectangular, "46.2");
+    other_unit.rows.push_back(other_unit.rows[0]);
+    const AuditReport report = test::report_of({"U26"}, subject_of(other_unit));
+    EXPECT_TRUE(report.findings.empty());
+    EXPECT_EQ(report.not_checked.size(), 1U);
+    AuditedBudget ours = printed_columns(Origin::limits, Shape::rectangular, "0.139");
+    ours.evaluated_here = true;
+    EXPECT_TRUE(findings_of("U26", subject_of(ours)).empty());
+}
+
+TEST(InputRules, U26IsCorrectedBeforeWhatFollowsFromTheRows) {
+    // Ten times too large, the row is nearly all of u_c, and k is that of its distribution (K04): of the error alone.
+    AuditedBudget budget = printed_columns(Origin::limits, Shape::rectangular, "0.462");
+    budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0};
+    const AuditReport report = audit(subject_of(budget), test::rules_of_families("UK"));
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_NEAR(report.results[0].audited.U, 2.0 * std::hypot(0.080 / k_root_of_3, 0.025), 1e-12);
+    EXPECT_TRUE(std::any_of(report.findings.begin(), report.findings.end(),
+                            [](const AuditFinding& finding) { return finding.rule == "K04"; }));
 }
 
 TEST(InputRules, U09AllowsADifferenceOfTwoReadings) {

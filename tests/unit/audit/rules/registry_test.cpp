@@ -37,7 +37,7 @@ TEST(Registry, KnowsAllOfTheCatalogue) {
             EXPECT_TRUE(known.contains(id)) << id;
         }
     };
-    expect_family('U', 25);
+    expect_family('U', 26);
     expect_family('S', 19);
     expect_family('K', 13);
     expect_family('B', 8);
@@ -57,7 +57,7 @@ TEST(Registry, SaysEverythingOfARule) {
         EXPECT_FALSE(rule.detection.empty()) << rule.id;
         EXPECT_FALSE(rule.correction.empty()) << rule.id;
         EXPECT_NE(rule.question.find('?'), std::string_view::npos) << rule.id;
-        EXPECT_TRUE(rule.examine != nullptr || rule.conclude != nullptr) << rule.id;
+        EXPECT_TRUE(rule.examine != nullptr || rule.examine_rest != nullptr || rule.conclude != nullptr) << rule.id;
     }
 }
 

@@ -54,6 +54,13 @@ TEST(ScopeRules, X03_and_X07_tell_a_copied_capability_from_a_floor) {
     EXPECT_EQ(findings[0].severity, FindingSeverity::information);
     EXPECT_THAT(findings[0].evidence[0].english(), HasSubstr("k·u_c/CMC = 0.997"));
     EXPECT_EQ(found_by(scope_rules(), "X03", subject_with({copied})), "");  // one point shows nothing
+    // A U that is stated below the capability is not hidden by it: X01 and X07 never stand together.
+    for (const char* const U : {"0.25", "0.30", "0.31", "0.32"}) {
+        AuditedBudget stated = floor;
+        stated.claims.U = read_number(U, "");
+        const bool below = !found_by(scope_rules(), "X01", subject_with({stated})).empty();
+        EXPECT_NE(below, !found_by(scope_rules(), "X07", subject_with({stated})).empty()) << U;
+    }
 }
 
 TEST(ScopeRules, X08_asks_where_a_bare_capability_comes_from) {

@@ -54,6 +54,23 @@ TEST(TypeARules, U02IsMinorWhereNuAndKAccountForFewReadings) {
     EXPECT_TRUE(findings_of("U02", subject_of(ten)).empty());
 }
 
+TEST(TypeARules, U02AsksWhetherTheFixedKIsThatOfNu) {
+    // k = 2 beside rows of any size: it accounts for ν_eff where t_p(ν_eff) is no more than 1 % larger.
+    for (const double beside : {0.001, 0.01, 0.05, 0.2, 1.0, 5.0}) {
+        const AuditedRow one = row_of_readings("repeatability", k_five, k_s_of_five / std::sqrt(5.0));
+        AuditedBudget budget = budget_of({one, row("standard", beside)});
+        budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = 2.0, .probability = 0.9545};
+        CoverageRule student = budget.coverage;
+        student.kind = CoverageRule::Kind::student_t;
+        const double k = evaluate(budget, student).k;
+        const std::vector<AuditFinding> findings = findings_of("U02", subject_of(budget));
+        ASSERT_EQ(findings.size(), 1U);
+        const std::string said = findings[0].what.english();
+        EXPECT_NE(said.find(2.0 < 0.99 * k ? "and k does not" : "ν and k account for it"), std::string::npos)
+            << beside << ": " << said;
+    }
+}
+
 TEST(TypeARules, U03WantsTheReadingsOfTheMean) {
     AuditedRow one = row_of_readings("repeatability", k_five, k_s_of_five / std::sqrt(10.0));
     std::vector<AuditFinding> findings = findings_of("U03", subject_of(one));

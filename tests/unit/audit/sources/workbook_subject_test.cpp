@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
+#include "tests/support/workbook_of.h"
+#include "workbook/evaluate.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
 
@@ -67,6 +71,75 @@ TEST(SubjectOfWorkbook, RowsThatTheSumDoesNotReachAreNotInIt) {
     for (const AuditedRow& row : subject.budgets.front().rows) {
         EXPECT_EQ(row.in_sum, row.quantity != "repeatability") << row.quantity;
     }
+}
+
+/// A small budget with formulas, all of whose computed values are stored.
+workbook::Workbook stored_budget() {
+    workbook::Workbook made = test::workbook_of({{"A1", "quantity"},    {"B1", "U or a"},
+                                                 {"C1", "divisor"},     {"D1", "distribution"},
+                                                 {"E1", "u"},           {"A2", "standard"},
+                                                 {"B2", "0.05"},        {"C2", "2"},
+                                                 {"D2", "normal"},      {"E2", "=B2/C2"},
+                                                 {"A3", "limit"},       {"B3", "0.04"},
+                                                 {"C3", "=SQRT(3)"},    {"D3", "rectangular"},
+                                                 {"E3", "=B3/C3"},      {"A4", "nothing"},
+                                                 {"B4", "0"},           {"C4", "=SQRT(3)"},
+                                                 {"D4", "rectangular"}, {"E4", "=(1000.1-1000-0.1)/C4"},
+                                                 {"A6", "u_c"},         {"B6", "=SQRT(SUMSQ(E2:E4))"},
+                                                 {"A7", "k"},           {"B7", "2"},
+                                                 {"A8", "U"},           {"B8", "=B7*B6"}});
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(made);
+    for (const workbook::EvaluatedCell& cell : evaluation.cells) {
+        made.sheets[cell.sheet].cells[cell.cell].value = cell.value;
+    }
+    return made;
+}
+workbook::Cell& cell_at(workbook::Workbook& made, const std::string& address) {
+    return *std::find_if(made.sheets[0].cells.begin(), made.sheets[0].cells.end(),
+                         [&](const workbook::Cell& cell) { return cell.address == *workbook::read_a1(address); });
+}
+std::vector<AuditFinding> stale_of(const AuditReport& report) {
+    std::vector<AuditFinding> all = report.findings;
+    std::erase_if(all, [](const AuditFinding& finding) { return finding.rule != "W17" && finding.rule != "K01"; });
+    return all;
+}
+
+/// The law: every stored number of a cell under the result counts, within what computing may leave; what the file shows is
+/// what it claims, and its correction leads to what its formulas give.
+TEST(SubjectOfWorkbook, WhatTheFileShowsIsWhatItClaims) {
+    const AuditReport sound = audit(subject_of(stored_budget(), "b.xlsx"), all_rules());
+    ASSERT_EQ(sound.results.size(), 1U);
+    EXPECT_TRUE(stale_of(sound).empty());
+    const double U = sound.results[0].claimed.U;
+    for (const char* const address : {"E2", "E3", "C3", "B6", "B8"}) {
+        const bool is_result = address[0] == 'B';
+        for (const double factor : {0.7, 1.0 + 1e-4, 1.4}) {
+            workbook::Workbook stale = stored_budget();
+            cell_at(stale, address).value.number *= factor;
+            const AuditReport report = audit(subject_of(stale, "b.xlsx"), all_rules());
+            const std::vector<AuditFinding> found = stale_of(report);
+            ASSERT_EQ(found.size(), 1U) << address << " times " << factor;
+            EXPECT_EQ(found[0].rule, "W17");
+            EXPECT_EQ(found[0].effect.has_value(), is_result) << address;
+            ASSERT_EQ(report.results.size(), 1U);
+            EXPECT_NEAR(report.results[0].claimed.U, address == std::string("B8") ? factor * U : U, 1e-12);
+            EXPECT_NEAR(report.results[0].audited.U, U, 1e-12);
+        }
+        for (const bool is_blank : {true, false}) {
+            workbook::Workbook same = stored_budget();
+            workbook::CellValue& value = cell_at(same, address).value;
+            value.number *= 1.0 + 1e-9;
+            value = is_blank ? workbook::CellValue{} : value;
+            EXPECT_TRUE(stale_of(audit(subject_of(same, "b.xlsx"), all_rules())).empty()) << address;
+        }
+    }
+    workbook::Workbook bits = stored_budget();
+    cell_at(bits, "E4").value.number = 1e-17;
+    EXPECT_TRUE(stale_of(audit(subject_of(bits, "b.xlsx"), all_rules())).empty());
+    workbook::Workbook of_the_day = stored_budget();
+    cell_at(of_the_day, "E3").formula = "B3/C3*(1+0*TODAY())";
+    cell_at(of_the_day, "B8").value.number *= 1.1;
+    EXPECT_TRUE(stale_of(audit(subject_of(of_the_day, "b.xlsx"), all_rules())).empty()) << "another day, another U";
 }
 
 }  // namespace

@@ -1,0 +1,147 @@
+// For rules of worksheets: sheets with formulas that fire, and what must not.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/workbook_subject.h"
+#include "tests/support/workbook_of.h"
+
+namespace gumcert::audit {
+namespace {
+
+/// A budget of two rows with formulas; contents of some cells are replaced.
+AuditReport audited_sheet(const test::Contents& replaced) {
+    test::Contents contents = {{"A1", "quantity"},
+                               {"B1", "U or a"},
+                               {"C1", "divisor"},
+                               {"D1", "distribution"},
+                               {"E1", "u"},
+                               {"A2", "standard"},
+                               {"B2", "0.05"},
+                               {"C2", "2"},
+                               {"D2", "normal"},
+                               {"E2", "=B2/C2"},
+                               {"A3", "drift of the standard"},
+                               {"B3", "0.04"},
+                               {"C3", "=SQRT(3)"},
+                               {"D3", "rectangular"},
+                               {"E3", "=B3/C3"},
+                               {"A4", "buoyancy"},
+                               {"B4", "0.03"},
+                               {"C4", "=SQRT(3)"},
+                               {"D4", "rectangular"},
+                               {"E4", "=B4/C4"},
+                               {"A6", "u_c"},
+                               {"B6", "=SQRT(SUMSQ(E2:E4))"},
+                               {"A7", "k"},
+                               {"B7", "2"},
+                               {"A8", "U"},
+                               {"B8", "=B7*B6"}};
+    for (const auto& [address, content] : replaced) {
+        for (auto& [at, held] : contents) {
+            held = at == address ? content : held;
+        }
+    }
+    return audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules());
+}
+std::vector<AuditFinding> of_rule(const AuditReport& report, std::string_view rule) {
+    std::vector<AuditFinding> found = report.findings;
+    std::erase_if(found, [rule](const AuditFinding& finding) { return finding.rule != rule; });
+    return found;
+}
+
+TEST(WorksheetFindings, W12IsCriticalWhereAResultIsAnError) {
+    EXPECT_TRUE(of_rule(audited_sheet({}), "W12").empty());
+    // Wherever the error begins, it reaches U, which the file then does not claim.
+    for (const char* const address : {"B2", "E3", "B6", "B7", "B8"}) {
+        for (const char* const error : {"#REF!", "=#REF!*2", "=1/0"}) {
+            const AuditReport report = audited_sheet({{address, error}});
+            const std::vector<AuditFinding> errors = of_rule(report, "W12");
+            ASSERT_EQ(errors.size(), 1U) << address << " " << error;
+            EXPECT_EQ(errors[0].severity, FindingSeverity::critical) << address << " " << error;
+            for (const AuditFinding& unused : of_rule(report, "W14")) {  // of what the error reads no longer
+                EXPECT_FALSE(unused.where == "Sheet1!B6" || unused.where == "Sheet1!B8") << address << " " << error;
+            }
+            const Claims& claims = report.subject.budgets.at(0).claims;
+            EXPECT_FALSE(claims.U) << address;
+            EXPECT_EQ(claims.broken.U, "Sheet1!B8") << address << " " << error;
+            EXPECT_EQ(claims.broken.k.empty(), address != std::string("B7")) << address;
+        }
+    }
+    const std::vector<AuditFinding> elsewhere = of_rule(audited_sheet({{"A4", "=1/0"}}), "W12");
+    ASSERT_EQ(elsewhere.size(), 1U);
+    EXPECT_EQ(elsewhere[0].severity, FindingSeverity::minor);
+}
+
+TEST(WorksheetFindings, W05SeesTheNumberOfAnotherRow) {
+    const AuditReport sound = audited_sheet({});
+    EXPECT_TRUE(of_rule(sound, "W05").empty());
+    const double U = sound.results.at(0).claimed.U;
+    // u of one row from what another one divides, however it is addressed: corrected by its own number.
+    for (const auto& [address, formula] :
+         test::Contents{{"E3", "=$B$2/C3"}, {"E3", "=B2/C3"}, {"E4", "=$B$2/C4"}, {"E4", "=E3"}, {"E2", "=B$3/C2"}}) {
+        const AuditReport report = audited_sheet({{address, formula}});
+        const std::vector<AuditFinding> found = of_rule(report, "W05");
+        ASSERT_EQ(found.size(), 1U) << address << formula;
+        EXPECT_TRUE(of_rule(report, "U26").empty()) << "told already";
+        ASSERT_TRUE(found[0].effect);
+        EXPECT_NEAR(found[0].effect->alone.U, U, 1e-12) << address << formula;
+    }
+    // A number of another row that is passed on counts twice; one that is computed with is another number.
+    EXPECT_EQ(of_rule(audited_sheet({{"B3", "=$B$2"}}), "W05").size(), 1U);
+    for (const auto& [address, formula] :
+         test::Contents{{"B3", "=0.1*$B$2"}, {"B3", "=B2"}, {"E3", "=(B3+0*$B$2)/C3"}, {"E3", "=B3/C$4"}}) {
+        EXPECT_TRUE(of_rule(audited_sheet({{address, formula}}), "W05").empty()) << address << formula;
+    }
+}
+
+TEST(WorksheetFindings, W13SeesDaysHoweverTheyAreCounted) {
+    const auto found = [](const std::string& formula, const std::string& label) {
+        test::Contents contents = {{"A1", "quantity"},
+                                   {"B1", "U or a"},
+                                   {"C1", "divisor"},
+                                   {"D1", "distribution"},
+                                   {"E1", "u"},
+                                   {"A2", "standard"},
+                                   {"B2", "0.05"},
+                                   {"C2", "2"},
+                                   {"D2", "normal"},
+                                   {"E2", "=B2/C2"},
+                                   {"A3", "drift"},
+                                   {"B3", formula},
+                                   {"C3", "=SQRT(3)"},
+                                   {"D3", "rectangular"},
+                                   {"E3", "=B3/C3"},
+                                   {"A6", "u_c"},
+                                   {"B6", "=SQRT(SUMSQ(E2:E3))"}};
+        workbook::Workbook made = test::workbook_of(contents);
+        made.sheets.push_back(test::sheet_of("Drift", {{"A1", label},
+                                                       {"B1", "0.02"},
+                                                       {"A2", "calibrated"},
+                                                       {"B2", "45000"},
+                                                       {"A3", "used"},
+                                                       {"B3", "45200"},
+                                                       {"A4", "length"},
+                                                       {"B4", "300"},
+                                                       {"A5", "part"},
+                                                       {"B5", "100"}}));
+        return of_rule(audit(subject_of(std::move(made), "b.xlsx"), all_rules()), "W13").size();
+    };
+    for (const char* const days : {"(Drift!B3-Drift!B2)", "DAYS(Drift!B3,Drift!B2)", "(Drift!B3-DATE(2023,3,15))"}) {
+        const std::string rate = std::string("=Drift!B1*") + days;
+        EXPECT_EQ(found(rate + "/12", "rate in mg per year"), 1U) << days;
+        EXPECT_EQ(found(rate + "/12/2", "rate in mg per year"), 1U) << days;
+        EXPECT_EQ(found(rate + "/365", "rate in mg per year"), 0U) << days;
+        EXPECT_EQ(found(rate + "/365.25/2", "rate in mg per year"), 0U) << days;
+        EXPECT_EQ(found(rate + "/12", "rate in mg per month"), 0U) << days;
+    }
+    EXPECT_EQ(found("=Drift!B1*(Drift!B4-Drift!B5)/12", "rate in mg per year"), 0U) << "no days";
+}
+
+}  // namespace
+}  // namespace gumcert::audit
