@@ -66,6 +66,11 @@ std::vector<std::string> texts_of(const std::vector<Decided>& decided, Take take
     return texts;
 }
 
+/// "DR-03: guarded acceptance, w = U"
+Text rule_by_name(const std::string& id, const Wording& words) {
+    return id + ": " + words("rule_name", id);
+}
+
 Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
     Text text;
     const auto parameter = [&](const std::string& name, const std::optional<double>& v, const std::string& unit) {
@@ -139,8 +144,9 @@ void specification_rows(CertificateBuilder& builder, const Wording& words, const
                         const std::vector<Decided>& decided) {
     Facts rows = {{words("certificate", "specification"), document_of(s)}};
     add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
-    rows.emplace_back(words("certificate", "decision_rule"), s.rule.id + ": " + words("rule_name", s.rule.id));
-    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    rows.emplace_back(words("certificate", "decision_rule"), rule_by_name(s.rule.id, words));
+    const Facts conditions = conditions_of_rule(s, words);
+    rows.insert(rows.end(), conditions.begin(), conditions.end());
     add_fact(rows, words("certificate", "agreed_wording"), words.localised(s.rule.text));
     add_fact(rows, words("certificate", "prescribed_by"), s.rule.prescribed_by);
     std::vector<std::string> agreed;
@@ -267,6 +273,15 @@ void verdict_meanings(CertificateBuilder& builder, const Wording& words, const s
 }
 
 }  // namespace
+
+Facts conditions_of_rule(const AgreedSpecification& s, const Wording& words) {
+    Facts rows;
+    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    if (!s.rule.alternative.empty()) {
+        rows.emplace_back(words("certificate", "rule_alternative"), rule_by_name(s.rule.alternative, words));
+    }
+    return rows;
+}
 
 std::string document_of(const AgreedSpecification& s) {
     std::string text = s.document.empty() ? s.id : s.document;

@@ -1,0 +1,179 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/audit_evaluation.h"
+#include "app/evaluate_job.h"
+#include "audit/audit.h"
+#include "audit/budget_outcome.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/record_subject.h"
+#include "gum/conformity/decision_rule.h"
+#include "reports/forms/render.h"
+#include "tests/support/file_content.h"
+#include "tests/unit/reports/document_text.h"
+
+// The gates look at a certificate, the audit at its record. What one of them lets pass the other does not block.
+
+namespace gumcert::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::filesystem::path k_tree = GUMCERT_SOURCE_DIR;
+
+/// A length of 10 mm at points of an offset, normal, u = 0.1 µm, under the certificate of the example.
+class GateAndAudit : public testing::Test {
+protected:
+    GateAndAudit() {
+        const std::filesystem::path example = k_tree / "examples" / "certificate";
+        symbol_ = test::file_content(example / "symbol.png");
+        data_ = json::parse(test::file_content(example / "end_gauge_certificate.json"));
+        data_["specifications"][0]["lower"] = 9.999;
+        data_["specifications"][0]["upper"] = 10.001;
+        data_["accreditation"]["scope"][0]["ranges"][0]["argument"]["of"] = "n";
+        data_["accreditation"]["scope"][0]["capability"] = {{"form", "value"}, {"unit", "nm"}, {"U", 50}};
+    }
+    [[nodiscard]] Evaluation evaluated(const json& data, double u = 0.1) const {
+        json points = json::array();
+        for (const double d : {-1.5, -1.05, -0.95, -0.5, 0.0, 0.5, 0.85, 0.95, 1.05, 1.5}) {
+            points.push_back({{"d", d}});
+        }
+        const json job = {
+            {"schema", "gumcert/job/1"},
+            {"kind", "budget"},
+            {"title", "Length"},
+            {"coverage_probability", 0.9545},
+            {"model", {"l = n + d"}},
+            {"inputs", {{"n", {{"value", 10}, {"unit", "mm"}, {"constant", true}}}, {"d", {{"unit", "um"}, {"u", u}}}}},
+            {"outputs", {{"l", {{"unit", "um"}}}}},
+            {"points", points},
+            {"certificate", data}};
+        const jobs::MemoryFileSource files({{"job.json", job.dump()}, {"symbol.png", symbol_}});
+        return evaluate_job(files, "job.json", CovarianceFile::none, 1, k_tree / "templates");
+    }
+    std::string symbol_;
+    json data_;
+};
+
+std::string text_of(const reports::EvaluationRecord& record) {
+    return reports::squeezed(reports::render_text(record, reports::assets()));
+}
+
+/// Findings of the audit alone that block, of some rules ("audit-D").
+std::string blocking(const Evaluation& evaluation, const std::string& of) {
+    std::string all;
+    for (const certificate::Finding& finding : evaluation.record.certificate->findings) {
+        if (finding.id.starts_with(of)) {
+            all += finding.id + " " + finding.where + ": " + finding.what + "\n";
+        }
+    }
+    return all;
+}
+
+/// Each rule as a job states it, with the first parameters that it can be applied with.
+/// \param alternative  none: the rule by itself
+std::optional<json> rule_of_a_job(gum::DecisionRule rule, std::optional<gum::DecisionRule> alternative, double ratio) {
+    for (unsigned chosen = 0; chosen < 64U; ++chosen) {
+        gum::DecisionRuleParameters p;
+        json stated = {{"id", gum::decision_rule_id(rule)}};
+        p.alternative = alternative;
+        if (alternative) {
+            stated["alternative"] = gum::decision_rule_id(*alternative);
+        }
+        const auto take = [&](unsigned bit, std::optional<double>& to, const char* key, double value) {
+            if ((chosen & bit) != 0) {
+                to = value;
+                stated[key] = value;
+            }
+        };
+        take(1U, p.test_uncertainty_ratio, "test_uncertainty_ratio", ratio);
+        take(2U, p.guard_factor, "guard_factor", 0.5);
+        take(4U, p.probability, "probability", 0.02);
+        take(8U, p.population_reliability, "population_reliability", 0.9);
+        take(16U, p.guard_band, "guard_band", 1e-4);
+        if ((chosen & 32U) != 0) {
+            stated["method"] = p.method = "6";
+        }
+        if (rule == gum::DecisionRule::prescribed || alternative == gum::DecisionRule::prescribed) {
+            stated["prescribed_by"] = "Regulation 12";
+        }
+        if (gum::check_decision_rule(rule, p, {.lower = 9.999, .upper = 10.001}).empty()) {
+            return stated;
+        }
+    }
+    return std::nullopt;
+}
+
+TEST_F(GateAndAudit, DecideAlikeByEveryRuleWithEveryAlternative) {
+    std::vector<std::optional<gum::DecisionRule>> others = {std::nullopt};
+    for (const std::string_view id : gum::decision_rule_ids()) {
+        others.push_back(gum::decision_rule_from_id(std::string(id)));
+    }
+    std::size_t with_alternative = 0, by_alternative = 0;
+    for (const std::string_view id : gum::decision_rule_ids()) {
+        const gum::DecisionRule rule = *gum::decision_rule_from_id(std::string(id));
+        for (const auto& other : others) {
+            for (const double ratio : {2.0, 1000.0}) {
+                const std::optional<json> stated = rule_of_a_job(rule, other, ratio);
+                if (!stated) {
+                    ASSERT_TRUE(other) << id << " is not applied at all";
+                    continue;
+                }
+                SCOPED_TRACE(stated->dump());
+                json data = data_;
+                data["specifications"][0]["rule"] = *stated;
+                data["annexes"] = "none";
+                const Evaluation evaluation = evaluated(data);
+                EXPECT_EQ(blocking(evaluation, "audit-"), "");
+                const audit::AuditSubject subject = audit::subject_of(evaluation.record, "job.json");
+                const auto& values = evaluation.record.certificate->tables.at(0).columns.at(0).values;
+                ASSERT_EQ(values.size(), subject.budgets.size());
+                for (std::size_t i = 0; i < values.size(); ++i) {
+                    const certificate::Verdict& verdict = values[i].verdict.value();
+                    const std::string decided = audit::evaluate(subject.budgets[i]).verdict;
+                    EXPECT_TRUE(verdict.verdict == "not_applicable" || verdict.verdict == decided)
+                        << values[i].printed_value << ": " << verdict.verdict << ", the audit: " << decided;
+                    by_alternative += verdict.rule != id ? 1U : 0U;
+                }
+                if (other) {
+                    ++with_alternative;
+                    const std::string page = text_of(evaluation.record);
+                    EXPECT_THAT(page, HasSubstr("Where a condition of the rule is not kept " +
+                                                gum::decision_rule_id(*other) + ": "));
+                    EXPECT_THAT(
+                        page, HasSubstr("where a condition of it is not kept " + gum::decision_rule_id(*other) + ", "));
+                }
+                if (!stated->contains("test_uncertainty_ratio")) {
+                    break;  // a second ratio is the same rule
+                }
+            }
+        }
+    }
+    EXPECT_GE(with_alternative, 60U);
+    EXPECT_GE(by_alternative, 250U);
+}
+
+TEST_F(GateAndAudit, TheLargestUOfARuleIsInTheUnitOfItsSpecification) {
+    for (const double largest_U : {1e-4, 3e-4}) {  // in mm; U is 0.2 µm
+        json data = data_;
+        data["specifications"][0]["rule"] = {{"id", "DR-02"}, {"largest_U", largest_U}, {"alternative", "DR-03"}};
+        const Evaluation evaluation = evaluated(data);
+        EXPECT_EQ(blocking(evaluation, "audit-"), "");
+        const auto& values = evaluation.record.certificate->tables.at(0).columns.at(0).values;
+        EXPECT_EQ(values.at(7).printed_value, "10000.95");
+        EXPECT_EQ(values.at(7).verdict->rule, largest_U > 2e-4 ? "DR-02" : "DR-03");
+        EXPECT_EQ(values.at(7).verdict->verdict, largest_U > 2e-4 ? "pass" : "fail");
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::app
