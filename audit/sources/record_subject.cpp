@@ -17,6 +17,7 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/job_statements.h"
 #include "certificate/agreed_rule.h"
+#include "certificate/statement_of_uncertainty.h"
 #include "certificate/waiver.h"
 #include "gum/coverage.h"
 #include "reports/record/record_sections.h"
@@ -250,11 +251,14 @@ void state_conformity(AuditedBudget& budget, const CertifiedAt& certified) {
     if (certified.value == nullptr) {
         return;
     }
-    budget.capability = certified.value->capability;
-    budget.claims.U =
-        certified.value->U ? std::optional(exact_number(*certified.value->U, budget.place)) : budget.claims.U;
-    if (certified.value->raised && certified.value->capability) {
-        budget.claims.U = exact_number(*certified.value->capability, budget.place);
+    const certificate::CertifiedValue& value = *certified.value;
+    if (!value.scope_entry.empty()) {
+        budget.capability = value.capability;  // it holds for what is accredited; a smaller U is stated outside of it
+    }
+    if (value.U) {
+        // Where the printed U stands for the capability, also by rounding alone, that is what is claimed.
+        const bool at_capability = certificate::states_capability(*value.U, value.printed_U, budget.capability);
+        budget.claims.U = exact_number(at_capability ? *budget.capability : *value.U, budget.place);
     }
     if (!certified.value->verdict) {
         return;

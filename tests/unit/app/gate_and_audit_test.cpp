@@ -42,7 +42,7 @@ protected:
         data_["accreditation"]["scope"][0]["ranges"][0]["argument"]["of"] = "n";
         data_["accreditation"]["scope"][0]["capability"] = {{"form", "value"}, {"unit", "nm"}, {"U", 50}};
     }
-    [[nodiscard]] Evaluation evaluated(const json& data, double u = 0.1) const {
+    [[nodiscard]] Evaluation evaluated(const json& data, double u = 0.1, const std::string& profile = "{}") const {
         json points = json::array();
         for (const double d : {-1.5, -1.05, -0.95, -0.5, 0.0, 0.5, 0.85, 0.95, 1.05, 1.5}) {
             points.push_back({{"d", d}});
@@ -57,7 +57,7 @@ protected:
             {"outputs", {{"l", {{"unit", "um"}}}}},
             {"points", points},
             {"certificate", data}};
-        const jobs::MemoryFileSource files({{"job.json", job.dump()}, {"symbol.png", symbol_}});
+        const jobs::MemoryFileSource files({{"job.json", job.dump()}, {"symbol.png", symbol_}, {"own.json", profile}});
         return evaluate_job(files, "job.json", CovarianceFile::none, 1, k_tree / "templates");
     }
     std::string symbol_;
@@ -173,6 +173,48 @@ TEST_F(GateAndAudit, TheLargestUOfARuleIsInTheUnitOfItsSpecification) {
         EXPECT_EQ(values.at(7).verdict->rule, largest_U > 2e-4 ? "DR-02" : "DR-03");
         EXPECT_EQ(values.at(7).verdict->verdict, largest_U > 2e-4 ? "pass" : "fail");
     }
+}
+
+TEST_F(GateAndAudit, HoldUAgainstTheCapabilityAlikeByEveryProfile) {
+    std::size_t outside = 0, refused = 0, raised = 0, profiles = 0;
+    for (const auto& file : std::filesystem::directory_iterator(k_tree / "templates" / "profiles")) {
+        json profile = json::parse(test::file_content(file.path()));
+        profile["id"] = "own";
+        profile["required_languages"] = json::array();
+        ++profiles;
+        for (const char* below : {"raise", "outside", "refuse"}) {
+            for (const int digits : {1, 2}) {
+                for (const double U : {0.1049, 0.1949, 0.1778, 0.1951, 0.2, 0.2049, 0.26}) {
+                    profile["below_capability"] = below;
+                    profile["digits"] = digits;
+                    SCOPED_TRACE(profile.dump() + " " + std::to_string(U));
+                    json data = data_;
+                    data["profile"] = "own.json";
+                    data["annexes"] = "none";
+                    data["accreditation"]["scope"][0]["capability"] = {{"form", "value"}, {"unit", "um"}, {"U", 0.2}};
+                    const Evaluation evaluation = evaluated(data, 0.5 * U, profile.dump());
+                    const bool gate = !blocking(evaluation, "X01").empty();
+                    const audit::AuditReport report =
+                        audit::audit(audit::subject_of(evaluation.record, "job.json"), audit::all_rules());
+                    const bool audited = std::ranges::any_of(report.findings, [](const audit::AuditFinding& finding) {
+                        return finding.rule == "X01" && !finding.of_gate;
+                    });
+                    EXPECT_EQ(gate, audited);
+                    EXPECT_TRUE(gate || blocking(evaluation, "audit-").empty()) << blocking(evaluation, "audit-");
+                    const certificate::CertifiedValue& value =
+                        evaluation.record.certificate->tables.at(0).columns.at(0).values.at(0);
+                    EXPECT_EQ(gate, value.printed_U < std::string("0.2") && !value.scope_entry.empty());
+                    refused += gate ? 1U : 0U;
+                    outside += value.scope_entry.empty() ? 1U : 0U;
+                    raised += value.raised ? 1U : 0U;
+                }
+            }
+        }
+    }
+    EXPECT_GE(profiles, 8U);
+    EXPECT_GE(refused, 2 * profiles);
+    EXPECT_GE(outside, 2 * profiles);
+    EXPECT_GE(raised, 2 * profiles);
 }
 
 }  // namespace

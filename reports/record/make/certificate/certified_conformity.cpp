@@ -21,8 +21,6 @@ using certificate::CertifiedValue;
 using certificate::Verdict;
 using gum::ConformityDecision;
 
-constexpr double k_noise = 1e-12;  // of a capability that a unit was converted of
-
 /// The numbers of a value that its decision rests on.
 struct DecisionNumbers {
     gum::MeasuredValue unrounded, printed;
@@ -69,8 +67,7 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
     }
     DecisionNumbers out;
     // Also where rounding alone has lifted U to the capability.
-    out.raised =
-        !by_interval && from.capability && *U < *from.capability && *U_printed >= *from.capability * (1.0 - k_noise);
+    out.raised = !by_interval && certificate::states_capability(*U, from.printed_U, from.capability);
     out.unrounded.value = from.value;
     out.unrounded.expanded_uncertainty = out.raised ? *from.capability : *U;
     out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / k;
