@@ -212,17 +212,24 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const Wording& words = w.words();
     std::vector<std::string> verdicts;
     std::vector<std::string> exact;
-    const Verdict* first = nullptr;
+    std::vector<const Verdict*> formulas;  // several where an alternative of the rule decided some of the values
     for (const CertifiedValue& v : c.column.values) {
         const Verdict* const verdict = verdict_for(v, specification);
-        first = first == nullptr ? verdict : first;
+        const auto same = [&](const Verdict* one) { return one->formula == verdict->formula; };
+        if (verdict != nullptr && !verdict->formula.empty() && std::none_of(formulas.begin(), formulas.end(), same)) {
+            formulas.push_back(verdict);
+        }
         verdicts.push_back(verdict == nullptr ? "noPass" : conformity_word(verdict->verdict));
         exact.push_back(verdict == nullptr ? "none" : verdict->verdict);
     }
     const Text name = words.filled("dcc", "verdicts", {{"name", c.column.result}});
     w.xml.open("dcc:metaData",
                {{"refId", w.specification_id(specification)}, {"refType", w.ref_types()("conformity")}});
-    Text declaration = decision_formula(first->formula, words);
+    Text declaration;
+    for (const Verdict* const one : formulas) {
+        const Text formula = decision_formula(one->formula, words);
+        append_line(declaration, formulas.size() > 1 ? one->rule + ": " + formula : formula);
+    }
     if (std::find(verdicts.begin(), verdicts.end(), "noPass") != verdicts.end()) {
         append_line(declaration, words.filled("dcc", "conformity_words", {{"name", name}}));
     }
