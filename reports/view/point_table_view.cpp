@@ -173,7 +173,7 @@ private:
         }
     }
 
-    /// Intervals in place of U, k that is not the same for all, and marks.
+    /// Intervals in place of U, k that is not the same for all with the ν_eff that it is taken for, and marks.
     void add_what_U_needs(const ShownColumn& of_result) {
         const CertifiedColumn* const of = result(of_result.of);
         if (of == nullptr) {
@@ -200,6 +200,12 @@ private:
         };
         if (overview_.k_column() && !has("k") && any(*of, [](const auto& v) { return !v.printed_k.empty(); })) {
             add_too("k");
+        }
+        const auto has_degrees = [](const CertifiedValue& v) {
+            return coverage_of(v) == Coverage::student_t && !v.printed_nu_eff.empty();
+        };
+        if (overview_.nu_beside_k() && !has("nu_eff") && any(*of, has_degrees)) {
+            add_too("nu_eff");
         }
         if (any(*of, [&](const auto& v) { return !overview_.note(v).empty(); })) {
             put(c, words_("certificate", "note"), "", false, *of, [this](const CertifiedValue& v) {

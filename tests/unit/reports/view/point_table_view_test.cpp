@@ -19,8 +19,10 @@ using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 using certificate::ShownColumn;
 using nlohmann::json;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ShownColumn shown(const std::string& show, const std::string& of, const std::string& role = "",
                   const std::string& stage = "") {
@@ -187,6 +189,24 @@ TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     ASSERT_EQ(plot->panels[0].series.size(), 3U) << "the error and both limits, which differ from point to point";
     EXPECT_EQ(plot->panels[0].series[0].points[2].x, 10.0);
     EXPECT_TRUE(plot->panels[0].series[1].dashed);
+}
+
+TEST(PointTableView, AddsNuBesideKWhereTheSentenceSpeaksOfIt) {
+    certificate::Certificate certificate = table_of_points();
+    for (CertifiedValue& v : certificate.tables[0].columns[0].values) {
+        v.coverage = "student_t";
+        v.nu_eff = 9.4;
+        v.printed_nu_eff = "9.4";
+    }
+    EXPECT_THAT(heads(table_in(certificate)), Not(Contains("ν_eff"))) << "one k: the sentence states ν_eff itself";
+    certificate.tables[0].columns[0].values[2].printed_k = "2.31";
+    EXPECT_THAT(heads(table_in(certificate)),
+                ElementsAre("Nominal value / V", "Error / mV", "U / mV", "k", "ν_eff", "Limits ± / mV", "Verdict"));
+    EXPECT_EQ(row(table_in(certificate), 2).at(4), "9.4");
+    std::vector<ShownColumn>& layout = certificate.tables[0].layout->shown;
+    layout = {shown("column", "nominal", "nominal"), shown("value", "E", "error"), shown("U", "E"),
+              shown("nu_eff", "E"), shown("k", "E")};
+    EXPECT_EQ(heads(table_in(certificate)).size(), 5U) << "what the layout has is not added";
 }
 
 }  // namespace
