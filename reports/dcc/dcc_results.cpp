@@ -7,6 +7,7 @@
 #include "reports/dcc/dcc_joint_results.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/point_headings.h"
 #include "reports/result_names.h"
 #include "reports/view/decision_formula.h"
 #include "reports/view/point_table_view.h"

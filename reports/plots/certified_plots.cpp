@@ -1,5 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
+#include "reports/point_headings.h"
 #include "reports/printable_text.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& co
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
                 const std::string stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ";
-                return stage + words("point_table", shown.role).first();
+                return stage + heading_of_shown(table, shown, words).first();
             }
         }
     }

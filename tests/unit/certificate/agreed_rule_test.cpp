@@ -8,7 +8,7 @@ namespace {
 
 using testing::HasSubstr;
 
-AgreedSpecification length() {
+AgreedSpecification agreed_length() {
     AgreedSpecification s;
     s.id = "length";
     s.lower = 9.999;
@@ -22,7 +22,7 @@ AgreedSpecification length() {
 }
 
 TEST(AgreedRule, IsTheRuleThatWasAgreedOnWithItsAlternativeInTheUnitOfTheResults) {
-    const AgreedRule rule = agreed_rule(length(), "um");
+    const AgreedRule rule = agreed_rule(agreed_length(), "um");
     EXPECT_EQ(rule.problem, "");
     EXPECT_EQ(rule.rule, gum::DecisionRule::simple_acceptance_with_ratio);
     EXPECT_EQ(rule.parameters.alternative, gum::DecisionRule::guard_band_factor);
@@ -33,7 +33,7 @@ TEST(AgreedRule, IsTheRuleThatWasAgreedOnWithItsAlternativeInTheUnitOfTheResults
 }
 
 TEST(AgreedRule, DifferencesOfCelsiusTemperaturesHaveNoZero) {
-    AgreedSpecification s = length();
+    AgreedSpecification s = agreed_length();
     s.unit = "degC";
     s.rule = {};
     s.rule.id = "DR-13";
@@ -47,7 +47,7 @@ TEST(AgreedRule, DifferencesOfCelsiusTemperaturesHaveNoZero) {
 }
 
 TEST(AgreedRule, TakesTheLimitsOfOneValue) {
-    AgreedSpecification s = length();
+    AgreedSpecification s = agreed_length();
     s.lower = s.upper = std::nullopt;
     EXPECT_NE(agreed_rule(s, "um").problem, "");
     const AgreedRule rule = agreed_rule(s, "um", {.lower = {}, .upper = 3.0});
@@ -56,7 +56,7 @@ TEST(AgreedRule, TakesTheLimitsOfOneValue) {
 }
 
 TEST(AgreedRule, SaysWhyItCannotBeApplied) {
-    AgreedSpecification s = length();
+    AgreedSpecification s = agreed_length();
     s.rule.guard_factor.reset();
     EXPECT_NE(agreed_rule(s, "um").problem, "");
     EXPECT_THAT(agreed_rule(s, "N").problem, HasSubstr("the result \"N\""));

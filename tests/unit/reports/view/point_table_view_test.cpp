@@ -164,20 +164,6 @@ TEST(PointTableView, KnowsWhichTablesShowVerdicts) {
     EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
 }
 
-TEST(PointTableView, NamesColumnsByHeadingRoleOrName) {
-    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
-    const Wording words(texts);
-    certificate::PointColumn column;
-    column.name = "serial";
-    EXPECT_EQ(heading_of(column, words).first(), "serial");
-    column.name = "range";
-    EXPECT_EQ(heading_of(column, words).first(), "Range");
-    column.role = "reference";
-    EXPECT_EQ(heading_of(column, words).first(), "Reference value");
-    column.heading = "Applied";
-    EXPECT_EQ(heading_of(column, words).first(), "Applied");
-}
-
 TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
     const Wording words(texts);
@@ -207,6 +193,79 @@ TEST(PointTableView, AddsNuBesideKWhereTheSentenceSpeaksOfIt) {
     layout = {shown("column", "nominal", "nominal"), shown("value", "E", "error"), shown("U", "E"),
               shown("nu_eff", "E"), shown("k", "E")};
     EXPECT_EQ(heads(table_in(certificate)).size(), 5U) << "what the layout has is not added";
+}
+
+/// A table of so many results, each with an indication of its own, U, limits and verdict, and its parts.
+certificate::Certificate table_of_results(std::size_t results, const std::string& number) {
+    certificate::Certificate certificate = table_of_points();
+    CertifiedTable& table = certificate.tables[0];
+    const certificate::PointColumn nominal = table.layout->columns.front();
+    const certificate::CertifiedColumn column = table.columns.front();
+    table.columns.clear();
+    table.layout->shown = {shown("column", "nominal", "nominal")};
+    for (std::size_t i = 1; i <= results; ++i) {
+        const std::string name = "E_" + std::to_string(i);
+        certificate::PointColumn indication = nominal;
+        indication.name = "x_" + std::to_string(i);
+        indication.role = "indication";
+        indication.printed = {number, number, number};
+        table.layout->columns.push_back(indication);
+        certificate::CertifiedColumn of = column;
+        of.result = name;
+        of.name = "error of channel " + std::to_string(i);
+        for (CertifiedValue& v : of.values) {
+            v.printed_value = number;
+        }
+        table.columns.push_back(of);
+        for (const ShownColumn& one : {shown("column", indication.name, "indication"), shown("value", name, "error"),
+                                       shown("U", name), shown("limit", name), shown("verdict", name)}) {
+            table.layout->shown.push_back(one);
+        }
+    }
+    return certificate;
+}
+
+json tables_in(const certificate::Certificate& certificate, const std::string& language) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+    const Wording words(texts);
+    const CertifiedOverview overview(certificate);
+    CertificateBuilder builder(words);
+    builder.section("certified_results");
+    layout_table(
+        builder, words, certificate.tables.front(), "t", [](const CertifiedValue&) { return true; }, overview);
+    json all = json::array();
+    const json sections = builder.take();
+    for (const json& block : sections.at(0).at("blocks")) {
+        all.push_back(block.at("table").at(0));
+    }
+    return all;
+}
+
+TEST(PointTableView, ManyResultsBecomeSeveralTablesWithTheSamePoints) {
+    for (const char* language : {"en", "de", "es", "zh-Hant"}) {
+        for (std::size_t results = 1; results <= 6; ++results) {
+            for (const std::string number : {"1.0", "10000.0045", "1000000.00045"}) {
+                SCOPED_TRACE(std::string(language) + " " + std::to_string(results) + " " + number);
+                const json tables = tables_in(table_of_results(results, number), language);
+                std::size_t columns = 0;
+                for (const json& table : tables) {
+                    const std::vector<std::string> all = heads(table);
+                    EXPECT_EQ(all.front(), heads(tables.at(0)).front()) << "which row it is";
+                    EXPECT_LE(all.size(), 16U);
+                    EXPECT_EQ((all.size() - 1) % 5, 0U) << "the columns of a result stay together";
+                    EXPECT_EQ(table.at("rows").size(), 3U);
+                    columns += all.size() - 1;
+                }
+                EXPECT_EQ(columns, 5 * results);
+                const std::string caption = tables.at(0).at("caption");
+                EXPECT_EQ(tables.size() > 1, caption.find("error of channel 1") != std::string::npos) << caption;
+                if (results == 1) {
+                    EXPECT_EQ(tables.size(), 1U);
+                }
+            }
+        }
+    }
+    EXPECT_GE(tables_in(table_of_results(3, "10000.0045"), "de").size(), 2U);
 }
 
 }  // namespace
