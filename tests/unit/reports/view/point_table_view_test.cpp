@@ -174,7 +174,47 @@ TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     ASSERT_EQ(plot->panels.size(), 1U);
     ASSERT_EQ(plot->panels[0].series.size(), 3U) << "the error and both limits, which differ from point to point";
     EXPECT_EQ(plot->panels[0].series[0].points[2].x, 10.0);
-    EXPECT_TRUE(plot->panels[0].series[1].dashed);
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{2}}) {
+        EXPECT_EQ(plot->panels[0].series[limit].marker, PlotMarker::bar);
+        EXPECT_FALSE(plot->panels[0].series[limit].joined) << "between the points other limits hold";
+    }
+}
+
+/// A limit is drawn where it holds, and nowhere else: as a line where all values have the same, else at each point.
+TEST(PointTableView, NoPlotStatesALimitThatDoesNotHold) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    for (const double second : {0.5, 0.7}) {
+        for (const double third : {0.5, 0.9}) {
+            for (const bool all_decided : {true, false}) {
+                certificate::Certificate certificate = table_of_points();
+                std::vector<CertifiedValue>& values = certificate.tables[0].columns[0].values;
+                values = {value("0.10", "0.20", "2.00", 0.5), value("-0.20", "0.20", "2.00", second),
+                          value("0.30", "0.20", "2.00", third)};
+                if (!all_decided) {
+                    values[0].verdict.reset();
+                }
+                const auto plot = certified_plot(certificate.tables[0], "T.", words, "p");
+                ASSERT_TRUE(plot);
+                const PlotPanel& panel = plot->panels[0];
+                for (const PlotLimit& line : panel.limits) {
+                    for (const CertifiedValue& v : values) {
+                        ASSERT_TRUE(v.verdict) << "a line says that all values have this limit";
+                        EXPECT_TRUE(line.y == *v.verdict->lower || line.y == *v.verdict->upper);
+                    }
+                }
+                for (std::size_t i = 1; i < panel.series.size(); ++i) {
+                    EXPECT_FALSE(panel.series[i].joined || panel.series[i].dashed);
+                    for (const PlotPoint& point : panel.series[i].points) {
+                        const std::size_t at = point.x == 1.0 ? 0 : point.x == 5.0 ? 1 : 2;
+                        ASSERT_TRUE(values[at].verdict);
+                        EXPECT_TRUE(point.y == *values[at].verdict->lower || point.y == *values[at].verdict->upper);
+                    }
+                }
+                EXPECT_EQ(panel.limits.size() + panel.series.size() - 1, 2U);
+            }
+        }
+    }
 }
 
 TEST(PointTableView, AddsNuBesideKWhereTheSentenceSpeaksOfIt) {
