@@ -16,17 +16,12 @@ constexpr double k_least_printed = 1e-4;  // of a risk
 constexpr double k_largest_loss = 0.05;   // of U by rounding
 constexpr double k_noise_of_a_quantum = 1e-6;
 constexpr double k_noise_of_a_limit = 16.0 * std::numeric_limits<double>::epsilon();
-constexpr double k_noise = 1e-12;  // 3.999…9 degrees of freedom are 4
+constexpr double k_noise_of_arguments = 0.01;  // of a unit of the last digit of a capability
+constexpr double k_noise = 1e-12;              // 3.999…9 degrees of freedom are 4
 
 /// The number without the noise of a conversion.
 double trusted(double number) {
     return number_of(gum::round_significant(number, k_trusted_digits)).value_or(number);
-}
-
-bool below(const std::string& printed, double capability) {
-    // The printed number against the scope, for that is what a reader of both compares; the noise of a unit conversion
-    // must not decide.
-    return number_of(printed).value_or(0.0) < trusted(capability);
 }
 
 /// Decimals of a number as it was stated: without the zeros at its end and the noise of a conversion.
@@ -41,11 +36,19 @@ int own_decimals(double number) {
     return decimals_of(text) - static_cast<int>(zeros);
 }
 
+/// A number of the scope itself, not one that was computed from measured values.
+bool is_of_a_scope(double capability) {
+    return significant_digits(gum::round_to_quantum(capability, own_decimals(capability))) <= k_most_digits_of_a_scope;
+}
+
 StatedPair raised_to(double value, double capability) {
-    const gum::RoundedPair floor =
-        // Rounded up, since the capability rounded to nearest may print below itself.
-        gum::round_to_uncertainty(value, capability, k_digits_of_raised_U, gum::RoundingMode::up);
-    return {.value = floor.value, .U = floor.U, .raised = true};
+    const auto floor = [&](gum::RoundingMode mode) {
+        return gum::round_to_uncertainty(value, capability, k_digits_of_raised_U, mode);
+    };
+    // Upwards by a whole unit only where something is left that is more than the scatter of the arguments.
+    const gum::RoundedPair nearest = floor(gum::RoundingMode::half_even);
+    const gum::RoundedPair pair = is_below_capability(nearest.U, capability) ? floor(gum::RoundingMode::up) : nearest;
+    return {.value = pair.value, .U = pair.U, .raised = true};
 }
 
 /// Whether rounding took more than a twentieth of U away, as 0.14 printed as 0.1 does.
@@ -81,7 +84,7 @@ StatedPair state_uncertainty(double value, double U, std::optional<double> capab
     const gum::RoundedPair plain = gum::round_to_uncertainty(value, U, rule.digits, rule.rounding);
     // First as the profile rounds. Rounded down below the capability, or by more than a twentieth, U is rounded up;
     // only a U that is smaller by itself is replaced by the capability.
-    const bool too_small = capability && below(plain.U, *capability);
+    const bool too_small = capability && is_below_capability(plain.U, *capability);
     if (!too_small && !lost_much(plain.U, U)) {
         return {.value = plain.value, .U = plain.U};
     }
@@ -91,6 +94,20 @@ StatedPair state_uncertainty(double value, double U, std::optional<double> capab
         return {.value = upwards.value, .U = upwards.U};
     }
     return raise ? raised_to(value, *capability) : StatedPair{.value = plain.value, .U = plain.U, .below = true};
+}
+
+bool is_below_capability(const std::string& printed_U, double capability) {
+    const double held = trusted(capability);
+    double noise = 0.0;
+    if (held > 0.0 && !is_of_a_scope(held)) {
+        const double first_digit = std::floor(std::log10(held));
+        noise = k_noise_of_arguments * std::pow(10.0, first_digit - (k_digits_of_raised_U - 1));
+    }
+    return number_of(printed_U).value_or(0.0) < held - noise;
+}
+
+bool states_capability(double U, const std::string& printed_U, std::optional<double> capability) {
+    return capability && trusted(U) < trusted(*capability) && !is_below_capability(printed_U, *capability);
 }
 
 std::string printed_coverage_factor(double k) {
@@ -172,10 +189,19 @@ std::string printed_at_most(double number, int decimals) {
 }
 
 std::string printed_capability(double capability) {
-    std::string text = gum::round_to_quantum(capability, std::max(own_decimals(capability), 0));
-    return significant_digits(text) <= k_most_digits_of_a_scope
-               ? text
-               : gum::round_to_uncertainty(0.0, capability, k_digits_of_raised_U, gum::RoundingMode::up).U;
+    if (is_of_a_scope(capability)) {
+        return gum::round_to_quantum(capability, std::max(own_decimals(capability), 0));
+    }
+    const auto of_digits = [&](int digits) { return gum::round_to_uncertainty(0.0, capability, digits).U; };
+    std::string text = of_digits(k_most_digits_of_a_scope);
+    // Zeros at the end say nothing, but for those of two digits.
+    for (int digits = k_most_digits_of_a_scope - 1; digits >= k_digits_of_raised_U; --digits) {
+        const std::string shorter = of_digits(digits);
+        if (number_of(shorter) == number_of(text)) {
+            text = shorter;
+        }
+    }
+    return text;
 }
 
 }  // namespace gumcert::certificate

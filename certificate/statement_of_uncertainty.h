@@ -29,7 +29,8 @@ struct StatedPair {
 ///
 /// The capability is taken as the scope states it: U is below it if the printed number is, so 1450 printed as 1.4E+3 is
 /// below 1.45E+3. If U itself is not below, it is rounded upwards. If it is, the capability is printed in its place, to
-/// two significant digits and never less than it is (1.45E+3 gives 1.5E+3; 0.50 gives 0.50).
+/// two significant digits and never less than it is (1.45E+3 gives 1.5E+3; 0.50 gives 0.50). What is_below_capability()
+/// leaves out is no reason to raise it: 0.1 + 0.002·m is 0.30000006 at a mass of 100.00003 g, and printed 0.30.
 /// \param value       finite
 /// \param U           greater than 0, in the unit of the value; with a capability also 0
 /// \param capability  in the same unit; differences in and after the 13th significant digit are noise of a conversion
@@ -37,6 +38,14 @@ struct StatedPair {
 /// \throws gum::InputError  GC-GUM-0001, -0003 or -0040
 [[nodiscard]] StatedPair state_uncertainty(double value, double U, std::optional<double> capability,
                                            const PrintRule& rule, bool raise = true);
+
+/// Whether a printed U is smaller than a capability. One of at most four significant digits is the number of the scope,
+/// and held as it is. One with more digits was computed from measured values: less than a hundredth of a unit of its
+/// second digit, to which scopes state capabilities, is the scatter of these values and leaves U equal to it.
+[[nodiscard]] bool is_below_capability(const std::string& printed_U, double capability);
+
+/// Whether the printed U stands for the capability in place of a smaller U, put there or reached by rounding alone.
+[[nodiscard]] bool states_capability(double U, const std::string& printed_U, std::optional<double> capability);
 
 /// k with two decimals.
 [[nodiscard]] std::string printed_coverage_factor(double k);
@@ -47,8 +56,8 @@ struct StatedPair {
 /// and t(16.8) is not t(16). Else as whole_degrees_of_freedom; "∞" for none (infinite).
 [[nodiscard]] std::string printed_degrees_of_freedom(std::optional<double> nu_eff);
 
-/// A capability as the scope states it; with two significant digits, and not less than it is, where it was computed and
-/// has more than four.
+/// A capability as the scope states it; rounded to four significant digits where it was computed and has more, without
+/// zeros at its end but for those of two digits: 55.9017 gives "55.9", 0.30000006 gives "0.30".
 [[nodiscard]] std::string printed_capability(double capability);
 
 /// A probability in percent: two significant digits of it or of its complement, whichever is smaller. 0.02275 gives

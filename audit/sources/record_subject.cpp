@@ -16,8 +16,9 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/sources/job_statements.h"
+#include "certificate/agreed_rule.h"
+#include "certificate/statement_of_uncertainty.h"
 #include "certificate/waiver.h"
-#include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
 #include "reports/record/record_sections.h"
 
@@ -250,11 +251,14 @@ void state_conformity(AuditedBudget& budget, const CertifiedAt& certified) {
     if (certified.value == nullptr) {
         return;
     }
-    budget.capability = certified.value->capability;
-    budget.claims.U =
-        certified.value->U ? std::optional(exact_number(*certified.value->U, budget.place)) : budget.claims.U;
-    if (certified.value->raised && certified.value->capability) {
-        budget.claims.U = exact_number(*certified.value->capability, budget.place);
+    const certificate::CertifiedValue& value = *certified.value;
+    if (!value.scope_entry.empty()) {
+        budget.capability = value.capability;  // it holds for what is accredited; a smaller U is stated outside of it
+    }
+    if (value.U) {
+        // Where the printed U stands for the capability, also by rounding alone, that is what is claimed.
+        const bool at_capability = certificate::states_capability(*value.U, value.printed_U, budget.capability);
+        budget.claims.U = exact_number(at_capability ? *budget.capability : *value.U, budget.place);
     }
     if (!certified.value->verdict) {
         return;
@@ -264,24 +268,17 @@ void state_conformity(AuditedBudget& budget, const CertifiedAt& certified) {
         return;  // nothing was decided: nothing can be held against the rule
     }
     budget.limits = {.lower = verdict.lower, .upper = verdict.upper};
-    budget.rule = gum::decision_rule_from_id(verdict.rule);
     budget.claims.verdict = verdict.verdict;
+    // The agreed rule with its alternative, not the one of both that decided: the alternative has no parameters of its own,
+    // and which of both decides follows from U. A rule that cannot be applied here is none: the verdict of the
+    // certificate stays what it claims.
     if (certified.specification != nullptr) {
-        const certificate::AgreedSpecification::Rule& rule = certified.specification->rule;
-        budget.rule_parameters.guard_factor = rule.guard_factor;
-        budget.rule_parameters.guard_band = rule.guard_band;
-        budget.rule_parameters.probability = rule.probability;
-        budget.rule_parameters.test_uncertainty_ratio = rule.test_uncertainty_ratio;
-        budget.rule_parameters.largest_U = rule.largest_U;
-        budget.rule_parameters.alternative = gum::decision_rule_from_id(rule.alternative);
-        budget.rule_parameters.population_reliability = rule.population_reliability;
-        budget.rule_parameters.population_deviation = rule.population_deviation;
-        budget.rule_parameters.population_centre = rule.population_centre;
-        budget.rule_parameters.method = rule.method;
-    }
-    // A rule that cannot be applied here is none: the verdict of the certificate stays what it claims.
-    if (budget.rule && !gum::check_decision_rule(*budget.rule, budget.rule_parameters, budget.limits).empty()) {
-        budget.rule.reset();
+        const certificate::AgreedRule agreed =
+            certificate::agreed_rule(*certified.specification, budget.unit, budget.limits);
+        if (agreed.problem.empty()) {
+            budget.rule = agreed.rule;
+            budget.rule_parameters = agreed.parameters;
+        }
     }
 }
 

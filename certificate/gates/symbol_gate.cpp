@@ -138,14 +138,11 @@ void routes(FindingList& found, const CertificateData& data) {
 void capabilities(FindingList& found, const CertifiedTable& table, const CertifiedColumn& column) {
     for (std::size_t row = 0; row < column.values.size(); ++row) {
         const CertifiedValue& value = column.values[row];
-        const std::optional<double> U = number_of(value.printed_U);
-        if (value.scope_entry.empty() || !value.capability || !U) {
+        if (value.scope_entry.empty() || !value.capability || !number_of(value.printed_U)) {
             continue;
         }
-        // Compared as printed, because the printed U is what the laboratory states; the capability without the noise of
-        // a conversion of units, which must not fail a U that is equal to it.
-        const double capability = number_of(gum::round_significant(*value.capability, 12)).value_or(*value.capability);
-        if (*U < capability) {
+        // Compared as printed, because the printed U is what the laboratory states.
+        if (is_below_capability(value.printed_U, *value.capability)) {
             const bool named = table.argument && row < table.argument->printed.size();
             found.critical("X01", k_p14,
                            column.result + (named ? ", " + table.argument->name + " " + table.argument->printed[row]

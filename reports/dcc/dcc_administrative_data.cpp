@@ -5,6 +5,7 @@
 #include "certificate/address_lines.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/view/certificate_conformity_section.h"
 #include "reports/view/certificate_identity_sections.h"
 
 namespace gumcert::reports {
@@ -358,6 +359,9 @@ void decision_rules(DccWriter& w) {
         Text text = words("certificate", "decision_rule") + ": " + s.rule.id;
         if (words.has("rule_name", s.rule.id)) {
             text += Text(", ") + words("rule_name", s.rule.id);
+        }
+        for (const auto& [label, condition] : conditions_of_rule(s, words)) {
+            append_line(text, label + ": " + condition);
         }
         append_line(text, words.localised(s.rule.text));
         if (!s.rule.prescribed_by.empty()) {

@@ -7,6 +7,7 @@
 #include "reports/dcc/dcc_joint_results.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
+#include "reports/point_headings.h"
 #include "reports/result_names.h"
 #include "reports/view/decision_formula.h"
 #include "reports/view/point_table_view.h"
@@ -218,10 +219,13 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const Wording& words = w.words();
     std::vector<std::string> verdicts;
     std::vector<std::string> exact;
-    const Verdict* first = nullptr;
+    std::vector<const Verdict*> formulas;  // several where an alternative of the rule decided some of the values
     for (const CertifiedValue& v : c.column.values) {
         const Verdict* const verdict = verdict_for(v, specification);
-        first = first == nullptr ? verdict : first;
+        const auto same = [&](const Verdict* one) { return one->formula == verdict->formula; };
+        if (verdict != nullptr && !verdict->formula.empty() && std::none_of(formulas.begin(), formulas.end(), same)) {
+            formulas.push_back(verdict);
+        }
         // A row without a specification must have an entry, and the format has none for "not decided". "noPass" claims
         // least: it says neither that the row conforms nor that it does not.
         verdicts.push_back(verdict == nullptr ? "noPass" : conformity_word(verdict->verdict));
@@ -230,7 +234,11 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const Text name = words.filled("dcc", "verdicts", {{"name", c.column.result}});
     w.xml.open("dcc:metaData",
                {{"refId", w.specification_id(specification)}, {"refType", w.ref_types()("conformity")}});
-    Text declaration = decision_formula(first->formula, words);
+    Text declaration;
+    for (const Verdict* const one : formulas) {
+        const Text formula = decision_formula(one->formula, words);
+        append_line(declaration, formulas.size() > 1 ? one->rule + ": " + formula : formula);
+    }
     if (std::find(verdicts.begin(), verdicts.end(), "noPass") != verdicts.end()) {
         append_line(declaration, words.filled("dcc", "conformity_words", {{"name", name}}));
     }

@@ -1,5 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
+#include "reports/point_headings.h"
 #include "reports/printable_text.h"
 
 #include <algorithm>
@@ -53,9 +54,9 @@ const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
     return nullptr;
 }
 
-/// One limit of all values: a line where it is the same for all, else a mark at each value, or a line from value to value.
+/// One limit of all values: a line where it is the same for all, else a bar at each value. Between the points nothing is
+/// known here: a limit by steps jumps there, one by an expression curves, and a line from bar to bar would state others.
 struct CertifiedLimit {
-    bool joined = false;  ///< by a line
     std::vector<PlotPoint> points = {};
     bool constant = true;
 
@@ -65,20 +66,17 @@ struct CertifiedLimit {
             points.push_back({.x = x, .y = *limit, .U = 0.0});
         }
     }
-    /// \param acceptance  of a limit of acceptance, whose line differs from that of a tolerance
-    void put(PlotPanel& panel, const std::string& label, bool acceptance) const {
+    /// \param acceptance  of a limit of acceptance, which is drawn differently from that of a tolerance
+    /// \param values      how many the panel shows: what some of them lack is no line across all
+    void put(PlotPanel& panel, const std::string& label, bool acceptance, std::size_t values) const {
         if (points.empty()) {
             return;
         }
-        if (constant) {
+        if (constant && points.size() == values) {
             panel.limits.push_back({.y = points.front().y, .label = label, .dotted = acceptance});
         } else {
-            panel.series.push_back({.label = label,
-                                    .points = points,
-                                    .marker = joined ? PlotMarker::none : PlotMarker::cross,
-                                    .joined = joined,
-                                    .dashed = joined,
-                                    .dotted = joined && acceptance});
+            panel.series.push_back(
+                {.label = label, .points = points, .marker = acceptance ? PlotMarker::broken_bar : PlotMarker::bar});
         }
     }
 };
@@ -89,7 +87,7 @@ std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& co
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
                 const std::string stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ";
-                return stage + words("point_table", shown.role).first();
+                return stage + heading_of_shown(table, shown, words).first();
             }
         }
     }
@@ -98,12 +96,12 @@ std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& co
 
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     const certificate::PointColumn* const abscissa = abscissa_of(table);
-    const bool joined = abscissa != nullptr;
-    PlotSeries series{.label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = !joined};
-    CertifiedLimit lower{joined};
-    CertifiedLimit upper{joined};
-    CertifiedLimit acceptance_lower{joined};
-    CertifiedLimit acceptance_upper{joined};
+    PlotSeries series{
+        .label = "", .points = {}, .marker = PlotMarker::disc, .bars = PlotBars::bars, .joined = abscissa == nullptr};
+    CertifiedLimit lower;
+    CertifiedLimit upper;
+    CertifiedLimit acceptance_lower;
+    CertifiedLimit acceptance_upper;
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         const CertifiedValue& value = column.values[i];
         const std::optional<double>& x = abscissa != nullptr ? abscissa->values[i] : table.argument->values[i];
@@ -127,19 +125,14 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
     const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
     const std::string name = shortened(printable(name_of_panel(table, column, words)), 40);
     PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
-    for (CertifiedLimit* const limit : {&lower, &upper, &acceptance_lower, &acceptance_upper}) {
-        if (limit->joined) {  // from left to right, whatever the order of the points
-            std::stable_sort(limit->points.begin(), limit->points.end(),
-                             [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
-        }
-    }
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
+    const std::size_t values = series.points.size();
     panel.series.push_back(std::move(series));
-    lower.put(panel, tolerance, false);
-    upper.put(panel, tolerance, false);
-    acceptance_lower.put(panel, acceptance, true);
-    acceptance_upper.put(panel, acceptance, true);
+    lower.put(panel, tolerance, false, values);
+    upper.put(panel, tolerance, false, values);
+    acceptance_lower.put(panel, acceptance, true, values);
+    acceptance_upper.put(panel, acceptance, true, values);
     return panel;
 }
 

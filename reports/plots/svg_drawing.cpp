@@ -127,6 +127,13 @@ void Drawing::marker(PlotMarker kind, double x, double y, double r) {
             line(x - r, y - r, x + r, y + r, "stroke=\"#000000\" stroke-width=\"1.2\"");
             line(x - r, y + r, x + r, y - r, "stroke=\"#000000\" stroke-width=\"1.2\"");
             return;
+        case PlotMarker::bar:
+            line(x - 2.4 * r, y, x + 2.4 * r, y, "stroke=\"#000000\" stroke-width=\"1.2\"");
+            return;
+        case PlotMarker::broken_bar:
+            line(x - 2.4 * r, y, x - 0.9 * r, y, "stroke=\"#000000\" stroke-width=\"1.2\"");
+            line(x + 0.9 * r, y, x + 2.4 * r, y, "stroke=\"#000000\" stroke-width=\"1.2\"");
+            return;
         case PlotMarker::none:
             return;
     }

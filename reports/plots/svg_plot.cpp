@@ -96,7 +96,9 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
     std::stable_sort(sorted.begin(), sorted.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     const double radius = sorted.size() > 80 ? 1.3 : 2.2;
     const auto x = [&](const PlotPoint& p) { return frame.px(p.x) + series.shift; };
-    if (series.joined || series.bars == PlotBars::band) {
+    const bool many_bars =
+        sorted.size() > k_many_points && (series.marker == PlotMarker::bar || series.marker == PlotMarker::broken_bar);
+    if (series.joined || series.bars == PlotBars::band || many_bars) {
         sorted = thinned(sorted, frame);
     }
     if (sorted.size() > k_many_points && series.marker == PlotMarker::disc && !series.joined) {

@@ -5,7 +5,8 @@
 
 namespace gumcert::reports {
 
-enum class PlotMarker { disc, ring, square, triangle, cross, none };
+/// `bar` and `broken_bar` lie across the axis: a limit that holds at a point, and says nothing beside it.
+enum class PlotMarker { disc, ring, square, triangle, cross, bar, broken_bar, none };
 /// How the expanded uncertainty is drawn; `edges` are dashed lines at y - U and y + U.
 enum class PlotBars { none, bars, band, edges };
 

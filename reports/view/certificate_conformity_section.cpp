@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,6 +26,8 @@ using certificate::Certificate;
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
+
+constexpr double k_least_ratio_of_far_limits = 1.0 - 1e-9;
 
 /// A value with a verdict, and where it stands.
 struct Decided {
@@ -64,6 +67,11 @@ std::vector<std::string> texts_of(const std::vector<Decided>& decided, Take take
         texts.push_back(take(d));
     }
     return texts;
+}
+
+/// "DR-03: guarded acceptance, w = U"
+Text rule_by_name(const std::string& id, const Wording& words) {
+    return id + ": " + words("rule_name", id);
 }
 
 Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
@@ -139,8 +147,9 @@ void specification_rows(CertificateBuilder& builder, const Wording& words, const
                         const std::vector<Decided>& decided) {
     Facts rows = {{words("certificate", "specification"), document_of(s)}};
     add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
-    rows.emplace_back(words("certificate", "decision_rule"), s.rule.id + ": " + words("rule_name", s.rule.id));
-    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    rows.emplace_back(words("certificate", "decision_rule"), rule_by_name(s.rule.id, words));
+    const Facts conditions = conditions_of_rule(s, words);
+    rows.insert(rows.end(), conditions.begin(), conditions.end());
     add_fact(rows, words("certificate", "agreed_wording"), words.localised(s.rule.text));
     add_fact(rows, words("certificate", "prescribed_by"), s.rule.prescribed_by);
     std::vector<std::string> agreed;
@@ -153,29 +162,61 @@ void specification_rows(CertificateBuilder& builder, const Wording& words, const
     builder.definitions(rows);
 }
 
-/// D-1: by which rule and formula, with which guard band and risk.
-void decision_sentences(CertificateBuilder& builder, const Wording& words, const std::vector<Decided>& decided) {
-    std::vector<std::pair<std::string, std::string>> formulas;
+/// What stands behind the verdict "conditional pass", which is no pass: its risk is another one. None without such values.
+///
+/// At a tolerance limit the risk is 50 %, and it grows no further inside of it (ILAC-G8:09/2019, 4.2.3), where the other
+/// limit is far: with TUR ≥ 1 it is 2 U away, and adds less than 0.01 %. What a distribution that is not symmetric makes
+/// of it is seen at the values.
+Text risk_of_conditional_pass(const std::vector<Decided>& decided, const Wording& words) {
+    const certificate::Verdict* largest = nullptr;
+    bool far_limits = true;
     for (const Decided& d : decided) {
-        const std::pair<std::string, std::string> one = {d.value->verdict->rule, d.value->verdict->formula};
+        const certificate::Verdict& v = *d.value->verdict;
+        far_limits = far_limits && v.test_uncertainty_ratio.value_or(1.0) >= k_least_ratio_of_far_limits;
+        if (v.verdict == "conditional_pass" && (largest == nullptr || v.specific_risk > largest->specific_risk)) {
+            largest = &v;
+        }
+    }
+    if (largest == nullptr) {
+        return {};
+    }
+    const bool bounded = far_limits && largest->specific_risk <= 0.5;
+    return words.filled("statement", bounded ? "conformity_risk_conditional" : "conformity_risk_conditional_narrow",
+                        {{"risk", words.number(largest->printed.specific_risk)}});
+}
+
+/// D-1: by which rule and formula, with which guard band and risk. Each sentence is about the values that were decided so.
+void decision_sentences(CertificateBuilder& builder, const Wording& words, const std::vector<Decided>& all) {
+    using Formula = std::pair<std::string, std::string>;
+    const auto formula_of = [](const Decided& d) { return Formula(d.value->verdict->rule, d.value->verdict->formula); };
+    std::vector<Formula> formulas;
+    for (const Decided& d : all) {
+        const Formula one = formula_of(d);
         const bool decided_by_it = !one.second.empty();  // else the note says why nothing is decided
         if (decided_by_it && std::find(formulas.begin(), formulas.end(), one) == formulas.end()) {
             formulas.push_back(one);
         }
     }
-    const auto bands = common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.guard_band; }));
-    const auto risks =
-        common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
-    const std::string& unit = decided.front().column->printed_unit;
-    for (const auto& [rule, formula] : formulas) {
+    const std::string& unit = all.front().column->printed_unit;
+    for (const Formula& one : formulas) {
+        std::vector<Decided> decided;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(decided),
+                     [&](const Decided& d) { return formula_of(d) == one; });
+        const auto bands =
+            common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.guard_band; }));
+        const auto risks =
+            common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
         Text text = words.filled("statement", "conformity_sentence",
-                                 {{"rule", rule}, {"formula", decision_formula(formula, words)}});
+                                 {{"rule", one.first}, {"formula", decision_formula(one.second, words)}});
         if (bands && !bands->empty()) {
             text += " " +
                     words.filled("statement", "conformity_guard_band", {{"w", with_unit(words.number(*bands), unit)}});
         }
         if (risks && !risks->empty()) {
             text += " " + words.filled("statement", "conformity_risk", {{"risk", words.number(*risks)}});
+        }
+        if (const Text conditional = risk_of_conditional_pass(decided, words); !conditional.empty()) {
+            text += " " + conditional;
         }
         builder.paragraph(text);
     }
@@ -267,6 +308,15 @@ void verdict_meanings(CertificateBuilder& builder, const Wording& words, const s
 }
 
 }  // namespace
+
+Facts conditions_of_rule(const AgreedSpecification& s, const Wording& words) {
+    Facts rows;
+    add_fact(rows, words("certificate", "rule_parameters"), rule_parameters(s, words));
+    if (!s.rule.alternative.empty()) {
+        rows.emplace_back(words("certificate", "rule_alternative"), rule_by_name(s.rule.alternative, words));
+    }
+    return rows;
+}
 
 std::string document_of(const AgreedSpecification& s) {
     std::string text = s.document.empty() ? s.id : s.document;

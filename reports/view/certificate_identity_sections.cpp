@@ -210,6 +210,15 @@ Text verdict_counts(const std::vector<const certificate::Verdict*>& verdicts, co
     return text;
 }
 
+/// "DR-02, simple acceptance with a condition on the uncertainty; where a condition of it is not kept DR-03, guarded …"
+Text rule_with_alternative(const certificate::AgreedSpecification::Rule& rule, const Wording& words) {
+    const auto named = [&](const std::string& id) { return id + ", " + words("rule_name", id); };
+    return rule.alternative.empty()
+               ? named(rule.id)
+               : words.filled("statement", "conformity_alternative",
+                              {{"rule", named(rule.id)}, {"alternative", named(rule.alternative)}});
+}
+
 /// The one certified value of the certificate with its column; nothing where there are none or several.
 std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue*> only_value(
     const Certificate& certificate) {
@@ -313,7 +322,7 @@ void summary_section(CertificateBuilder& builder, const Wording& words, const Ev
                                            {{"specification", document_of(s)},
                                             {"results", decided_names(names)},
                                             {"verdicts", verdict_counts(verdicts, words)},
-                                            {"rule", s.rule.id + ", " + words("rule_name", s.rule.id)}}));
+                                            {"rule", rule_with_alternative(s.rule, words)}}));
         }
     }
     if (const auto& amendment = certificate.data.amendment) {

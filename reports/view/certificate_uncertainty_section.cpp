@@ -98,8 +98,9 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 
-Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& values, const EvaluationRecord& record,
+Text coverage_sentence(Coverage c, const CertifiedOverview& overview, const EvaluationRecord& record,
                        const Wording& words) {
+    const std::vector<const CertifiedValue*>& values = overview.values(c);
     const certificate::LocalisedText& own = record.certificate->profile.uncertainty_sentence;
     const Text p = words.number(record.coverage_probability.text);
     const std::optional<std::string> one_k = common(printed_k(values));
@@ -112,8 +113,9 @@ Text coverage_sentence(Coverage c, const std::vector<const CertifiedValue*>& val
         case Coverage::normal:
             return words.fill("coverage_normal", {{"k", k}, {"p", p}});
         case Coverage::student_t:
-            return one_k ? student_t_sentence(values, k, p, words)
-                         : words.filled("statement", "uncertainty_k_and_nu", {{"p", p}});
+            // The tables have a column of ν_eff by the same question.
+            return overview.nu_beside_k() ? words.filled("statement", "uncertainty_k_and_nu", {{"p", p}})
+                                          : student_t_sentence(values, k, p, words);
         case Coverage::convolution:
             return words.fill("coverage_convolution", {{"k", k}, {"p", p}});
         case Coverage::monte_carlo:
@@ -188,7 +190,7 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
     for (const Coverage c : overview.used()) {
         const std::string letter = overview.letter(c);
         builder.paragraph((letter.empty() ? Text() : Text(letter + " ")) +
-                          coverage_sentence(c, overview.values(c), record, words));
+                          coverage_sentence(c, overview, record, words));
     }
     for (const Text& sentence : reasons_for_monte_carlo(record, words)) {
         builder.paragraph(sentence);

@@ -59,6 +59,11 @@ CertifiedOverview::CertifiedOverview(const certificate::Certificate& certificate
         }
     }
     k_column_ = !ks.empty() && (certificate.profile.k_position == "column" || !common(ks));
+    std::vector<std::string> student_ks;
+    for (const CertifiedValue* const v : values(Coverage::student_t)) {
+        student_ks.push_back(v->printed_k);
+    }
+    nu_beside_k_ = !student_ks.empty() && !common(student_ks);
     for (const Coverage c : k_coverages) {
         if (!values(c).empty()) {
             used_.push_back(c);

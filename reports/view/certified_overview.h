@@ -36,6 +36,8 @@ public:
     [[nodiscard]] const std::vector<Coverage>& used() const { return used_; }
     /// k is not the same for all, or the profile wants its column.
     [[nodiscard]] bool k_column() const { return k_column_; }
+    /// Of values of a t-distribution k is not the same for all: the sentence of their U speaks of ν_eff beside it.
+    [[nodiscard]] bool nu_beside_k() const { return nu_beside_k_; }
     /// Whether a table may have ±.
     [[nodiscard]] bool plus_minus() const { return certificate_.profile.plus_minus_in_tables; }
     /// Some values are exact.
@@ -61,7 +63,7 @@ private:
     const certificate::Certificate& certificate_;
     std::array<std::vector<const certificate::CertifiedValue*>, 7> by_coverage_;
     std::vector<Coverage> used_;
-    bool k_column_ = false, raised_ = false, exact_ = false;
+    bool k_column_ = false, nu_beside_k_ = false, raised_ = false, exact_ = false;
 };
 
 }  // namespace gumcert::reports

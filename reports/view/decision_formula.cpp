@@ -45,13 +45,24 @@ std::string_view symbol_at(std::string_view text, std::size_t at, std::string_vi
     return begins && ends && text.substr(at, name.size()) == name ? name : std::string_view{};
 }
 
+/// "r = -0.2" with a minus sign; an exponent keeps its hyphen, which words.number() replaces.
+std::string with_minus_signs(std::string_view text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const bool digit = at + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[at + 1])) != 0;
+        const bool of_exponent = at > 0 && (text[at - 1] == 'E' || text[at - 1] == 'e');
+        out += text[at] == '-' && digit && !of_exponent ? std::string("\u2212") : std::string(1, text[at]);
+    }
+    return out;
+}
+
 }  // namespace
 
 Text decision_formula(const std::string& recorded, const Wording& words) {
     Text out;
     std::string between;
     const auto put = [&](const Text& text) {
-        out += words.number(between);
+        out += words.number(with_minus_signs(between));
         between.clear();
         out += text;
     };

@@ -1,11 +1,13 @@
 #include "reports/view/point_table_view.h"
 
+#include "reports/point_headings.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -25,7 +27,10 @@ using certificate::Verdict;
 /// A column of the document, cell by cell.
 struct LayoutColumn {
     Column column;
-    std::string stage;
+    std::string stage, role;
+    std::string result;  ///< that it belongs to; "" of points
+    bool is_value = false;
+    Text heading = {};  ///< of the value of a result, for captions
     std::function<Text(std::size_t)> cell;
 };
 
@@ -52,7 +57,9 @@ public:
                   const CertifiedOverview::Holds& shown)
         : table_(table), words_(words), overview_(overview), shown_(shown) {}
 
-    std::vector<LayoutColumn> all() {
+    /// Of an object that stays: the cells look into it.
+    std::vector<LayoutColumn> all() && = delete;
+    std::vector<LayoutColumn> all() & {
         const std::vector<ShownColumn>& shown = table_.layout->shown;
         for (std::size_t i = 0; i < shown.size(); ++i) {
             add(shown[i]);
@@ -87,8 +94,14 @@ private:
 
     void put(const ShownColumn& as, const Text& head, const std::string& unit, bool number,
              std::function<Text(std::size_t)> cell) {
-        columns_.push_back(
-            {{as.heading.empty() ? head : words_.localised(as.heading), unit, number}, as.stage, std::move(cell)});
+        const Text heading = as.heading.empty() ? head : words_.localised(as.heading);
+        columns_.push_back({.column = {heading, unit, number},
+                            .stage = as.stage,
+                            .role = as.role,
+                            .result = as.show == "point" || as.show == "column" ? "" : as.of,
+                            .is_value = as.show == "value",
+                            .heading = heading,
+                            .cell = std::move(cell)});
     }
 
     /// A text of each value of a result that is shown here.
@@ -111,7 +124,7 @@ private:
             if (found != columns.end()) {
                 const bool number = std::any_of(found->values.begin(), found->values.end(),
                                                 [](const auto& v) { return v.has_value(); });
-                put(c, heading_of(*found, words_), found->printed_unit, number,
+                put(c, heading_of_shown(table_, c, words_), found->printed_unit, number,
                     [found](std::size_t row) { return Text(found->printed[row]); });
             }
             return;
@@ -124,7 +137,7 @@ private:
     void add_of_result(const ShownColumn& c, const CertifiedColumn& of) {
         const std::string& unit = of.printed_unit;
         if (c.show == "value") {
-            put(c, c.role.empty() ? Text(of.result) : words_("point_table", c.role), unit, true, of,
+            put(c, heading_of_shown(table_, c, words_), unit, true, of,
                 [](const CertifiedValue& v) { return Text(v.printed_value); });
         } else if (c.show == "U") {
             put(c, words_("certificate", "U_short"), unit, true, of,
@@ -173,7 +186,7 @@ private:
         }
     }
 
-    /// Intervals in place of U, k that is not the same for all, and marks.
+    /// Intervals in place of U, k that is not the same for all with the ν_eff that it is taken for, and marks.
     void add_what_U_needs(const ShownColumn& of_result) {
         const CertifiedColumn* const of = result(of_result.of);
         if (of == nullptr) {
@@ -201,6 +214,12 @@ private:
         if (overview_.k_column() && !has("k") && any(*of, [](const auto& v) { return !v.printed_k.empty(); })) {
             add_too("k");
         }
+        const auto has_degrees = [](const CertifiedValue& v) {
+            return coverage_of(v) == Coverage::student_t && !v.printed_nu_eff.empty();
+        };
+        if (overview_.nu_beside_k() && !has("nu_eff") && any(*of, has_degrees)) {
+            add_too("nu_eff");
+        }
         if (any(*of, [&](const auto& v) { return !overview_.note(v).empty(); })) {
             put(c, words_("certificate", "note"), "", false, *of, [this](const CertifiedValue& v) {
                 const std::string note = overview_.note(v);
@@ -211,20 +230,191 @@ private:
 };
 
 /// Heads above the heads: before and after an adjustment. None where nothing was adjusted.
-std::vector<std::pair<Text, std::size_t>> stages_of(const std::vector<LayoutColumn>& columns, const Wording& words) {
+std::vector<std::pair<Text, std::size_t>> stages_of(const std::vector<const LayoutColumn*>& columns,
+                                                    const Wording& words) {
     std::vector<std::pair<Text, std::size_t>> stages;
     std::optional<std::string> last;
     bool any = false;
-    for (const LayoutColumn& c : columns) {
-        any = any || !c.stage.empty();
-        if (last == c.stage) {
+    for (const LayoutColumn* const c : columns) {
+        any = any || !c->stage.empty();
+        if (last == c->stage) {
             ++stages.back().second;
             continue;
         }
-        stages.emplace_back(c.stage.empty() ? Text() : words("point_table", c.stage), 1U);
-        last = c.stage;
+        stages.emplace_back(c->stage.empty() ? Text() : words("point_table", c->stage), 1U);
+        last = c->stage;
     }
     return any ? stages : std::vector<std::pair<Text, std::size_t>>();
+}
+
+// Room on a page, as templates/pdf/certificate.typ sets tables of more than eight columns on A4 upright: bold, 8.2 pt.
+constexpr double k_page = 480.0;  // [pt] 172 mm, and some points for what is not looked at
+constexpr double k_em = 8.2;      // [pt]
+constexpr double k_column_of_words = 40.0;
+constexpr double k_insets = 6.4;
+constexpr std::size_t k_longest_part = 11;  // letters of a word that is hyphenated
+constexpr double k_uneven_parts = 1.15;
+constexpr double k_second_language = 0.85;
+
+/// Of the letter that begins with a byte, in em; 0 within a letter. Classes of letters are enough, their widths are those
+/// of the wider ones of a class.
+double width_of_letter(char first) {
+    const auto byte = static_cast<unsigned char>(first);
+    if ((byte & 0xC0U) == 0x80U) {
+        return 0.0;
+    }
+    if (byte >= 0xE3U) {
+        return 1.0;  // U+3000 and above: as wide as high
+    }
+    constexpr std::string_view k_narrow = "ijlft.,:;'|()/ ";
+    constexpr std::string_view k_wide = "mwMW%";
+    if (k_narrow.find(first) != std::string_view::npos) {
+        return 0.36;
+    }
+    if (k_wide.find(first) != std::string_view::npos) {
+        return 0.88;
+    }
+    return first >= 'A' && first <= 'Z' ? 0.72 : 0.54;
+}
+
+double width_of(std::string_view text) {
+    double width = 0.0;
+    for (const char c : text) {
+        width += k_em * width_of_letter(c);
+    }
+    return width;
+}
+
+/// Width of the longest part of a text that is not broken into lines.
+double width_of_words(const std::string& text) {
+    double widest = 0.0;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t blank = std::min(text.find(' ', begin), text.size());
+        const std::string_view word = std::string_view(text).substr(begin, blank - begin);
+        const auto letters = static_cast<std::size_t>(
+            std::count_if(word.begin(), word.end(), [](char c) { return width_of_letter(c) > 0.0; }));
+        const std::size_t parts = (letters + k_longest_part - 1) / k_longest_part;
+        widest = std::max(widest, width_of(word) * (parts > 1 ? k_uneven_parts / static_cast<double>(parts) : 1.0));
+        begin = blank + 1;
+    }
+    return widest;
+}
+
+/// Room that a column takes.
+struct ColumnWidth {
+    double least = 0.0;      ///< so that nothing breaks that must not
+    double with_room = 0.0;  ///< the same, where a column of words has some room
+    double whole = 0.0;      ///< in one line
+};
+
+ColumnWidth width_of(const LayoutColumn& column, const Rows& lines, std::size_t position) {
+    ColumnWidth width;
+    const auto see = [&](double least, double whole) {
+        width.least = std::max(width.least, least);
+        width.whole = std::max(width.whole, whole);
+    };
+    for (std::size_t language = 0; language < column.column.head.languages(); ++language) {
+        const std::string& head = column.column.head.in(language);
+        const double size = language == 0 ? 1.0 : k_second_language;
+        see(size * width_of_words(head), size * width_of(head));
+    }
+    const double unit = column.column.unit.empty() ? 0.0 : width_of("/ " + column.column.unit);
+    see(unit, unit);
+    for (const std::vector<Text>& line : lines) {
+        const std::string& cell = line[position].first();
+        see(column.column.number ? width_of(cell) : width_of_words(cell), width_of(cell));
+    }
+    width.least += k_insets;
+    width.whole += k_insets;
+    width.with_room = column.column.number ? width.least : std::max(width.least, k_column_of_words + k_insets);
+    return width;
+}
+
+/// Whether columns fit side by side: where the template gives them their widths, or where it leaves them to the setter,
+/// who makes the widest ones equal until all fit.
+bool fit_on_a_page(const std::vector<ColumnWidth>& columns) {
+    double with_room = 0.0;
+    std::vector<double> whole;
+    for (const ColumnWidth& column : columns) {
+        with_room += column.with_room;
+        whole.push_back(column.whole);
+    }
+    if (with_room <= k_page) {
+        return true;
+    }
+    std::sort(whole.begin(), whole.end());
+    double left = k_page, widest = 0.0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const double fair = left / static_cast<double>(whole.size() - i);
+        widest = fair;
+        if (whole[i] > fair) {
+            break;
+        }
+        left -= whole[i];
+        widest = whole[i];
+    }
+    return std::all_of(columns.begin(), columns.end(),
+                       [&](const ColumnWidth& column) { return column.least <= widest; });
+}
+
+/// The columns of each table that what is shown becomes: one, where it fits on a page.
+std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutColumn>& columns, const Rows& lines) {
+    std::vector<ColumnWidth> widths;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        widths.push_back(width_of(columns[i], lines, i));
+    }
+    const auto fit = [&](const std::vector<std::size_t>& some, const std::vector<std::size_t>& others) {
+        std::vector<ColumnWidth> both;
+        for (const std::vector<std::size_t>* const all : {&some, &others}) {
+            for (const std::size_t i : *all) {
+                both.push_back(widths[i]);
+            }
+        }
+        return fit_on_a_page(both);
+    };
+    std::size_t first_result = 0;
+    while (first_result < columns.size() && columns[first_result].result.empty()) {
+        ++first_result;
+    }
+    // A result with its columns, and the columns of points that stand before it.
+    std::vector<std::vector<std::size_t>> blocks;
+    for (std::size_t i = first_result; i < columns.size(); ++i) {
+        const LayoutColumn& before = columns[i - (i > first_result ? 1 : 0)];
+        const bool begins = i == first_result || (columns[i].result.empty() && !before.result.empty()) ||
+                            (columns[i].is_value && !before.result.empty() && before.result != columns[i].result);
+        if (begins) {
+            blocks.emplace_back();
+        }
+        blocks.back().push_back(i);
+    }
+    std::vector<std::size_t> leading(first_result);
+    std::iota(leading.begin(), leading.end(), std::size_t{0});
+    // Where later results have an indication of their own before them, that of the first one belongs to it, too.
+    const auto has_own = [&](const std::vector<std::size_t>& block) {
+        return columns[block.front()].result.empty() && columns[block.front()].role == columns[leading.back()].role;
+    };
+    while (leading.size() > 1 && !columns[leading.back()].role.empty() && !blocks.empty() &&
+           std::any_of(blocks.begin() + 1, blocks.end(), has_own)) {
+        blocks.front().insert(blocks.front().begin(), leading.back());
+        leading.pop_back();
+    }
+    const std::size_t end_of_leading = leading.size();
+    std::vector<std::vector<std::size_t>> parts = {leading};
+    // Where points have so many columns that a result hardly fits beside them, their first one says which row it is.
+    const bool all_fit = std::all_of(blocks.begin(), blocks.end(),
+                                     [&](const std::vector<std::size_t>& block) { return fit(leading, block); });
+    if (!all_fit && leading.size() > 1) {
+        leading.resize(1);
+    }
+    for (const std::vector<std::size_t>& block : blocks) {
+        const bool has_result = parts.back().size() > leading.size() && parts.back().back() >= end_of_leading;
+        const bool crowded = parts.back().size() > leading.size() && !all_fit;
+        if ((has_result || crowded) && !fit(parts.back(), block)) {
+            parts.push_back(leading);
+        }
+        parts.back().insert(parts.back().end(), block.begin(), block.end());
+    }
+    return parts;
 }
 
 }  // namespace
@@ -241,14 +431,10 @@ Text layout_caption(const certificate::TableLayout& layout, const Wording& words
     return caption;
 }
 
-Text heading_of(const PointColumn& column, const Wording& words) {
-    return !column.heading.empty() ? words.localised(column.heading)
-                                   : word_or(column.role.empty() ? column.name : column.role, words);
-}
-
 void layout_table(CertificateBuilder& builder, const Wording& words, const CertifiedTable& table, const std::string& id,
                   const CertifiedOverview::Holds& shown, const CertifiedOverview& overview) {
-    const std::vector<LayoutColumn> columns = LayoutColumns(table, words, overview, shown).all();
+    LayoutColumns layout(table, words, overview, shown);
+    const std::vector<LayoutColumn> columns = layout.all();
     Rows lines;
     std::vector<const CertifiedValue*> marked;
     for (std::size_t row = 0; row < table.argument->printed.size(); ++row) {
@@ -271,15 +457,32 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
     if (lines.empty()) {
         return;
     }
-    std::vector<Column> heads;
-    for (const LayoutColumn& c : columns) {
-        heads.push_back(c.column);
+    const Text marks = overview.meaning_of_marks(words, marked);
+    const std::vector<std::vector<std::size_t>> parts = columns_of_parts(columns, lines);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        std::vector<const LayoutColumn*> of_part;
+        std::vector<Column> heads;
+        Rows cells(lines.size());
+        Text names;
+        for (const std::size_t i : parts[p]) {
+            of_part.push_back(&columns[i]);
+            heads.push_back(columns[i].column);
+            for (std::size_t row = 0; row < lines.size(); ++row) {
+                cells[row].push_back(lines[row][i]);
+            }
+            if (columns[i].is_value) {
+                const std::string& stage = columns[i].stage;
+                names += (names.empty() ? Text() : words("document", "enumeration")) +
+                         (stage.empty() ? Text() : words("point_table", stage) + ": ") + columns[i].heading;
+            }
+        }
+        Text caption = layout_caption(*table.layout, words);
+        if (parts.size() > 1 && !names.empty()) {
+            caption += " " + names + ".";
+        }
+        caption += marks.empty() ? Text() : " " + marks;
+        builder.table(id + (p == 0 ? "" : "-" + std::to_string(p)), caption, heads, cells, stages_of(of_part, words));
     }
-    Text caption = layout_caption(*table.layout, words);
-    if (const Text marks = overview.meaning_of_marks(words, marked); !marks.empty()) {
-        caption += " " + marks;
-    }
-    builder.table(id, caption, heads, lines, stages_of(columns, words));
 }
 
 bool shows_verdict(const CertifiedTable& table, const std::string& result) {

@@ -82,6 +82,31 @@ def set_by_typst(documents: dict[str, str], folder: Path) -> dict[str, Path]:
     return files
 
 
+def wide_job(results: tuple[int, ...]) -> dict:
+    """A gauge with several readings at six pressures: nominal value and reference, and of each result so many columns."""
+    channels = range(1, len(results) + 1)
+    roles = {1: "rising", 2: "falling", 3: "rising again", 4: "falling again"}
+    columns = ["p_n", "p_s"]
+    for i, wanted in zip(channels, results):
+        columns += [f"p_{i}", f"e_{i}", "U", "limit", "verdict"][:wanted]
+    points = [{"p_n": 1000 * p, "p_s": 1000 * p + 0.0045, **{f"p_{i}": 1000 * p + 0.05 * i for i in channels}} for p in range(1, 7)]
+    indications = {f"p_{i}": {"unit": "bar", "u": 0.03, "role": "indication"} for i in channels}
+    return {
+        "schema": "gumcert/job/1", "kind": "budget", "title": "Pressure gauge",
+        "model": [f"e_{i} = p_{i} + d - p_s" for i in channels],
+        "inputs": {"p_n": {"unit": "bar", "constant": True, "role": "nominal"}, "p_s": {"unit": "bar", "u": 0.01, "role": "reference"},
+                   "d": {"unit": "bar", "value": 0, "half_width": 0.025}} | indications,
+        "outputs": {f"e_{i}": {"unit": "bar", "role": "error", "description": f"error, {roles[i]}"} for i in channels},
+        "points": points, "tables": [{"title": "Pressure", "columns": columns, "plot": "none"}],
+        "certificate": {"annexes": "none", "specifications": [{
+            "id": "class", "results": [f"e_{i}" for i in channels], "lower": -0.6, "upper": 0.6, "unit": "bar", "document": "EN 837-1",
+            "edition": "1996", "rule": {"id": "DR-04", "guard_factor": 0.5}}]}}
+
+
+# Columns side by side: 12, 15 and 18.
+WIDE = ((5, 5), (5, 5, 3), (5, 5, 3, 3))
+
+
 def planted_problems(folder: Path) -> list[str]:
     files = set_by_typst({"sound": SOUND} | {name: FRAME + text for name, (text, _) in PLANTED.items()}, folder)
     problems = [f"sound: {breach}" for breach in layout_breaches(files["sound"])]
@@ -92,7 +117,15 @@ def planted_problems(folder: Path) -> list[str]:
     return problems
 
 
+def wide_problems(program: str, results: tuple[int, ...]) -> list[str]:
+    with tempfile.TemporaryDirectory() as name:
+        job = Path(name) / f"{2 + sum(results)} columns.json"
+        job.write_text(json.dumps(wide_job(results)), encoding="utf-8")
+        return example_problems(program, str(job), LANGUAGES)
+
+
 def example_problems(program: str, job: str, languages: tuple[str, ...]) -> list[str]:
+    """:param job: below examples/, or an absolute path"""
     problems = []
     with tempfile.TemporaryDirectory() as name:
         record = Path(name) / "record.json"
@@ -122,6 +155,8 @@ def main() -> int:
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = ALL if arguments.all else FEW
         for found in pool.map(lambda job: example_problems(arguments.program, *job), jobs):
+            problems += found
+        for found in pool.map(lambda results: wide_problems(arguments.program, results), WIDE):
             problems += found
     for problem in problems:
         print(problem)

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <optional>
 #include <string>
 
@@ -161,8 +163,45 @@ TEST(StatementOfUncertainty, PrintsACapabilityAsTheScopeDoes) {
     EXPECT_EQ(printed_capability(1450.0), "1450");
     EXPECT_EQ(printed_capability(0.2), "0.2");
     EXPECT_EQ(printed_capability(1.3e-6), "0.0000013");
-    EXPECT_EQ(printed_capability(0.5512345), "0.56");
-    EXPECT_EQ(printed_capability(55.9017), "56");
+    EXPECT_EQ(printed_capability(0.5512345), "0.5512");
+    EXPECT_EQ(printed_capability(55.9017), "55.9");
+    EXPECT_EQ(printed_capability(0.30000006), "0.30");
+    EXPECT_EQ(printed_capability(123456.0), "1.235E+5");
+}
+
+/// A capability of two digits that was computed with an argument as it was measured: 0.1 + 0.002·m at 100.00003 g.
+TEST(StatementOfUncertainty, TheScatterOfAnArgumentRaisesNoCapability) {
+    for (int digits = 10; digits < 100; ++digits) {
+        for (const int exponent : {-9, -3, -2, 0, 2}) {
+            const double stated = digits * std::pow(10.0, exponent);
+            const std::string as_it_is = gum::round_to_uncertainty(0.0, stated, 2).U;
+            for (const double scatter : {-1e-5, -3e-7, -1e-9, 1e-9, 3e-7, 1e-5}) {
+                const double computed = stated * (1.0 + scatter);
+                SCOPED_TRACE(computed);
+                const StatedPair raised = state_uncertainty(0.0, 0.5 * stated, computed, {});
+                EXPECT_EQ(raised.U, as_it_is);
+                EXPECT_TRUE(raised.raised);
+                EXPECT_FALSE(is_below_capability(as_it_is, computed));
+                EXPECT_EQ(number_of(printed_capability(computed)), number_of(as_it_is));
+                EXPECT_TRUE(states_capability(0.5 * stated, as_it_is, computed));
+                EXPECT_EQ(state_uncertainty(0.0, stated, computed, {}).U, as_it_is);
+            }
+            // More than that is a capability of its own, and never understated.
+            const double larger = stated * 1.0020001;
+            EXPECT_TRUE(is_below_capability(as_it_is, larger));
+            EXPECT_GE(number_of(state_uncertainty(0.0, 0.5 * stated, larger, {}).U), larger);
+        }
+    }
+}
+
+TEST(StatementOfUncertainty, ANumberOfTheScopeIsHeldAsItIs) {
+    EXPECT_TRUE(is_below_capability("0.12", 0.1201));
+    EXPECT_FALSE(is_below_capability("0.12", 0.12));
+    EXPECT_FALSE(is_below_capability("0.30", 0.1 + 0.2));
+    EXPECT_FALSE(states_capability(0.12, "0.12", 0.12));
+    EXPECT_FALSE(states_capability(0.1778, "0.18", 0.2));
+    EXPECT_TRUE(states_capability(0.1778, "0.2", 0.2));
+    EXPECT_FALSE(states_capability(0.1778, "0.2", {}));
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "certificate/agreed_rule.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/conformity/conformity.h"
 #include "gum/quantity/diagnostic.h"
-#include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 
 namespace gumcert::reports {
@@ -20,56 +20,6 @@ using certificate::AgreedSpecification;
 using certificate::CertifiedValue;
 using certificate::Verdict;
 using gum::ConformityDecision;
-using gum::Unit;
-
-constexpr double k_noise = 1e-12;  // of a capability that a unit was converted of
-
-/// A specification in the unit of a column.
-struct Agreed {
-    gum::DecisionRule rule = gum::DecisionRule::simple_acceptance;
-    gum::DecisionRuleParameters parameters;
-    gum::ToleranceLimits limits;
-    std::string problem;  ///< why it cannot be applied; "" where it can
-};
-
-std::optional<double> mapped(const std::optional<double>& from, const std::function<double(double)>& map) {
-    return from ? std::optional(map(*from)) : std::nullopt;
-}
-
-Agreed agreed(const AgreedSpecification& from, const std::string& unit) {
-    Agreed out;
-    const std::optional<gum::DecisionRule> rule = gum::decision_rule_from_id(from.rule.id);
-    if (!rule) {
-        out.problem = "the decision rule \"" + from.rule.id + "\" is not known";
-        return out;
-    }
-    out.rule = *rule;
-    const Unit stated = Unit::parse(from.unit);
-    const Unit column = Unit::parse(unit);
-    if (!(stated.dimension() == column.dimension()) ||
-        stated.is_celsius_temperature() != column.is_celsius_temperature()) {
-        out.problem = "the specification has the unit \"" + from.unit + "\", and the result \"" + unit + "\"";
-        return out;
-    }
-    const bool same = from.unit == unit;
-    const auto value = [&](double v) { return same ? v : column.from_si(stated.to_si(v)); };
-    const auto difference = [&](double v) { return same ? v : column.difference_from_si(stated.difference_to_si(v)); };
-    out.limits = {.lower = mapped(from.lower, value), .upper = mapped(from.upper, value)};
-    out.parameters.guard_factor = from.rule.guard_factor;
-    out.parameters.guard_band = mapped(from.rule.guard_band, difference);
-    out.parameters.probability = from.rule.probability;
-    out.parameters.test_uncertainty_ratio = from.rule.test_uncertainty_ratio;
-    out.parameters.largest_U = mapped(from.rule.largest_U, difference);
-    out.parameters.alternative = gum::decision_rule_from_id(from.rule.alternative);
-    out.parameters.population_reliability = from.rule.population_reliability;
-    out.parameters.population_deviation = mapped(from.rule.population_deviation, difference);
-    out.parameters.population_centre = mapped(from.rule.population_centre, value);
-    out.parameters.method = from.rule.method;
-    for (const std::string& sentence : gum::check_decision_rule(out.rule, out.parameters, out.limits)) {
-        out.problem += (out.problem.empty() ? "" : "; ") + sentence;
-    }
-    return out;
-}
 
 /// The numbers of a value that its decision rests on.
 struct DecisionNumbers {
@@ -117,8 +67,7 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
     }
     DecisionNumbers out;
     // Also where rounding alone has lifted U to the capability.
-    out.raised =
-        !by_interval && from.capability && *U < *from.capability && *U_printed >= *from.capability * (1.0 - k_noise);
+    out.raised = !by_interval && certificate::states_capability(*U, from.printed_U, from.capability);
     out.unrounded.value = from.value;
     out.unrounded.expanded_uncertainty = out.raised ? *from.capability : *U;
     out.unrounded.standard_uncertainty = out.unrounded.expanded_uncertainty / k;
@@ -223,7 +172,7 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     Verdict verdict;
     verdict.specification = specification.id;
     verdict.rule = specification.rule.id;
-    const Agreed rule = agreed(specification, column.unit);
+    const certificate::AgreedRule rule = certificate::agreed_rule(specification, column.unit);
     verdict.lower = rule.limits.lower;
     verdict.upper = rule.limits.upper;
     if (!rule.problem.empty()) {

@@ -273,7 +273,8 @@ TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
     EXPECT_THAT(text, HasSubstr("Decision rule=DR-03: guarded acceptance, w = U (ILAC-G8:09/2019, 4.2.2)\n"));
     EXPECT_THAT(text, HasSubstr("Agreed=Example Customer, purchasing, 2026-11-02, Contract 88-2026\n"));
     EXPECT_THAT(text, HasSubstr("Conformity was decided by rule DR-03: A_U = T_U − U, A_L = T_L + U."));
-    EXPECT_THAT(text, HasSubstr("Largest specific probability of false acceptance that the rule allows: 2.3"));
+    EXPECT_THAT(text,
+                HasSubstr("Largest specific probability of false acceptance that the rule allows for a pass: 2.3"));
     EXPECT_THAT(text, HasSubstr("Result|θ/°|Value/″|U/″|T_L/″|T_U/″|A_L/″|A_U/″|TUR|p_c/%|Specific risk/%|Verdict|\n"));
     EXPECT_THAT(text, HasSubstr("EAA|0|3.70|0.76|\u221210.00|10.00|\u22129.24|9.24|21|100.0|0.0|pass|\n"));
     EXPECT_THAT(text, HasSubstr("nothing is claimed between the points"));

@@ -19,8 +19,10 @@ using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 using certificate::ShownColumn;
 using nlohmann::json;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ShownColumn shown(const std::string& show, const std::string& of, const std::string& role = "",
                   const std::string& stage = "") {
@@ -162,20 +164,6 @@ TEST(PointTableView, KnowsWhichTablesShowVerdicts) {
     EXPECT_FALSE(shows_verdict(certificate.tables[0], "E"));
 }
 
-TEST(PointTableView, NamesColumnsByHeadingRoleOrName) {
-    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
-    const Wording words(texts);
-    certificate::PointColumn column;
-    column.name = "serial";
-    EXPECT_EQ(heading_of(column, words).first(), "serial");
-    column.name = "range";
-    EXPECT_EQ(heading_of(column, words).first(), "Range");
-    column.role = "reference";
-    EXPECT_EQ(heading_of(column, words).first(), "Reference value");
-    column.heading = "Applied";
-    EXPECT_EQ(heading_of(column, words).first(), "Applied");
-}
-
 TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
     const Wording words(texts);
@@ -186,7 +174,138 @@ TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     ASSERT_EQ(plot->panels.size(), 1U);
     ASSERT_EQ(plot->panels[0].series.size(), 3U) << "the error and both limits, which differ from point to point";
     EXPECT_EQ(plot->panels[0].series[0].points[2].x, 10.0);
-    EXPECT_TRUE(plot->panels[0].series[1].dashed);
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{2}}) {
+        EXPECT_EQ(plot->panels[0].series[limit].marker, PlotMarker::bar);
+        EXPECT_FALSE(plot->panels[0].series[limit].joined) << "between the points other limits hold";
+    }
+}
+
+/// A limit is drawn where it holds, and nowhere else: as a line where all values have the same, else at each point.
+TEST(PointTableView, NoPlotStatesALimitThatDoesNotHold) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+    const Wording words(texts);
+    for (const double second : {0.5, 0.7}) {
+        for (const double third : {0.5, 0.9}) {
+            for (const bool all_decided : {true, false}) {
+                certificate::Certificate certificate = table_of_points();
+                std::vector<CertifiedValue>& values = certificate.tables[0].columns[0].values;
+                values = {value("0.10", "0.20", "2.00", 0.5), value("-0.20", "0.20", "2.00", second),
+                          value("0.30", "0.20", "2.00", third)};
+                if (!all_decided) {
+                    values[0].verdict.reset();
+                }
+                const auto plot = certified_plot(certificate.tables[0], "T.", words, "p");
+                ASSERT_TRUE(plot);
+                const PlotPanel& panel = plot->panels[0];
+                for (const PlotLimit& line : panel.limits) {
+                    for (const CertifiedValue& v : values) {
+                        ASSERT_TRUE(v.verdict) << "a line says that all values have this limit";
+                        EXPECT_TRUE(line.y == *v.verdict->lower || line.y == *v.verdict->upper);
+                    }
+                }
+                for (std::size_t i = 1; i < panel.series.size(); ++i) {
+                    EXPECT_FALSE(panel.series[i].joined || panel.series[i].dashed);
+                    for (const PlotPoint& point : panel.series[i].points) {
+                        const std::size_t at = point.x == 1.0 ? 0 : point.x == 5.0 ? 1 : 2;
+                        ASSERT_TRUE(values[at].verdict);
+                        EXPECT_TRUE(point.y == *values[at].verdict->lower || point.y == *values[at].verdict->upper);
+                    }
+                }
+                EXPECT_EQ(panel.limits.size() + panel.series.size() - 1, 2U);
+            }
+        }
+    }
+}
+
+TEST(PointTableView, AddsNuBesideKWhereTheSentenceSpeaksOfIt) {
+    certificate::Certificate certificate = table_of_points();
+    for (CertifiedValue& v : certificate.tables[0].columns[0].values) {
+        v.coverage = "student_t";
+        v.nu_eff = 9.4;
+        v.printed_nu_eff = "9.4";
+    }
+    EXPECT_THAT(heads(table_in(certificate)), Not(Contains("ν_eff"))) << "one k: the sentence states ν_eff itself";
+    certificate.tables[0].columns[0].values[2].printed_k = "2.31";
+    EXPECT_THAT(heads(table_in(certificate)),
+                ElementsAre("Nominal value / V", "Error / mV", "U / mV", "k", "ν_eff", "Limits ± / mV", "Verdict"));
+    EXPECT_EQ(row(table_in(certificate), 2).at(4), "9.4");
+    std::vector<ShownColumn>& layout = certificate.tables[0].layout->shown;
+    layout = {shown("column", "nominal", "nominal"), shown("value", "E", "error"), shown("U", "E"),
+              shown("nu_eff", "E"), shown("k", "E")};
+    EXPECT_EQ(heads(table_in(certificate)).size(), 5U) << "what the layout has is not added";
+}
+
+/// A table of so many results, each with an indication of its own, U, limits and verdict, and its parts.
+certificate::Certificate table_of_results(std::size_t results, const std::string& number) {
+    certificate::Certificate certificate = table_of_points();
+    CertifiedTable& table = certificate.tables[0];
+    const certificate::PointColumn nominal = table.layout->columns.front();
+    const certificate::CertifiedColumn column = table.columns.front();
+    table.columns.clear();
+    table.layout->shown = {shown("column", "nominal", "nominal")};
+    for (std::size_t i = 1; i <= results; ++i) {
+        const std::string name = "E_" + std::to_string(i);
+        certificate::PointColumn indication = nominal;
+        indication.name = "x_" + std::to_string(i);
+        indication.role = "indication";
+        indication.printed = {number, number, number};
+        table.layout->columns.push_back(indication);
+        certificate::CertifiedColumn of = column;
+        of.result = name;
+        of.name = "error of channel " + std::to_string(i);
+        for (CertifiedValue& v : of.values) {
+            v.printed_value = number;
+        }
+        table.columns.push_back(of);
+        for (const ShownColumn& one : {shown("column", indication.name, "indication"), shown("value", name, "error"),
+                                       shown("U", name), shown("limit", name), shown("verdict", name)}) {
+            table.layout->shown.push_back(one);
+        }
+    }
+    return certificate;
+}
+
+json tables_in(const certificate::Certificate& certificate, const std::string& language) {
+    const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+    const Wording words(texts);
+    const CertifiedOverview overview(certificate);
+    CertificateBuilder builder(words);
+    builder.section("certified_results");
+    layout_table(
+        builder, words, certificate.tables.front(), "t", [](const CertifiedValue&) { return true; }, overview);
+    json all = json::array();
+    const json sections = builder.take();
+    for (const json& block : sections.at(0).at("blocks")) {
+        all.push_back(block.at("table").at(0));
+    }
+    return all;
+}
+
+TEST(PointTableView, ManyResultsBecomeSeveralTablesWithTheSamePoints) {
+    for (const char* language : {"en", "de", "es", "zh-Hant"}) {
+        for (std::size_t results = 1; results <= 6; ++results) {
+            for (const std::string number : {"1.0", "10000.0045", "1000000.00045"}) {
+                SCOPED_TRACE(std::string(language) + " " + std::to_string(results) + " " + number);
+                const json tables = tables_in(table_of_results(results, number), language);
+                std::size_t columns = 0;
+                for (const json& table : tables) {
+                    const std::vector<std::string> all = heads(table);
+                    EXPECT_EQ(all.front(), heads(tables.at(0)).front()) << "which row it is";
+                    EXPECT_LE(all.size(), 16U);
+                    EXPECT_EQ((all.size() - 1) % 5, 0U) << "the columns of a result stay together";
+                    EXPECT_EQ(table.at("rows").size(), 3U);
+                    columns += all.size() - 1;
+                }
+                EXPECT_EQ(columns, 5 * results);
+                const std::string caption = tables.at(0).at("caption");
+                EXPECT_EQ(tables.size() > 1, caption.find("error of channel 1") != std::string::npos) << caption;
+                if (results == 1) {
+                    EXPECT_EQ(tables.size(), 1U);
+                }
+            }
+        }
+    }
+    EXPECT_GE(tables_in(table_of_results(3, "10000.0045"), "de").size(), 2U);
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+#include "reports/point_headings.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gumcert::reports {
+
+namespace {
+
+using certificate::CertifiedTable;
+using certificate::ShownColumn;
+
+bool shows_a_quantity(const ShownColumn& shown) {
+    return shown.show == "value" || shown.show == "column";
+}
+
+const certificate::PointColumn* column_of_points(const CertifiedTable& table, const std::string& name) {
+    const auto& columns = table.layout->columns;
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
+/// By what it shows alone.
+Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
+    if (!shown.heading.empty()) {
+        return words.localised(shown.heading);
+    }
+    if (shown.show == "column") {
+        const certificate::PointColumn* const column = column_of_points(table, shown.of);
+        return column == nullptr ? Text(shown.of) : heading_of(*column, words);
+    }
+    return shown.role.empty() ? Text(shown.of) : words("point_table", shown.role);
+}
+
+/// By what it is called; of points, and of a result that has its name alone: role and name.
+Text described_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
+    const auto of_result = std::find_if(table.columns.begin(), table.columns.end(),
+                                        [&](const auto& c) { return shown.show == "value" && c.result == shown.of; });
+    if (of_result != table.columns.end() && !of_result->name.empty() && of_result->name.in("en") != shown.of) {
+        return words.localised(of_result->name);
+    }
+    return plain_heading(table, shown, words) + " " + shown.of;
+}
+
+}  // namespace
+
+Text heading_of(const certificate::PointColumn& column, const Wording& words) {
+    if (!column.heading.empty()) {
+        return words.localised(column.heading);
+    }
+    const std::string& name = column.role.empty() ? column.name : column.role;
+    return !name.empty() && words.has("point_table", name) ? words("point_table", name) : Text(name);
+}
+
+Text heading_of_shown(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
+    const auto is_told_apart = [&](const Text& heading, auto heading_of_other) {
+        const auto& all = table.layout->shown;
+        return std::none_of(all.begin(), all.end(), [&](const ShownColumn& other) {
+            const bool same = other.show == shown.show && other.of == shown.of;
+            return !same && shows_a_quantity(other) && other.stage == shown.stage &&
+                   heading_of_other(table, other, words) == heading;
+        });
+    };
+    const Text plain = plain_heading(table, shown, words);
+    if (!shown.heading.empty() || is_told_apart(plain, plain_heading)) {
+        return plain;
+    }
+    const Text described = described_heading(table, shown, words);
+    const bool by_description = is_told_apart(described, described_heading) && is_told_apart(described, plain_heading);
+    return by_description ? described : plain + " " + shown.of;
+}
+
+}  // namespace gumcert::reports
