@@ -120,6 +120,10 @@ bool is_name(const LocalisedText& text) {
     return in_every_language<is_name>(text);
 }
 
+bool is_same_name(const std::string& a, const std::string& b) {
+    return is_stated(a) && is_stated(b) && letters_of(a) == letters_of(b);
+}
+
 bool is_identification(const std::string& text) {
     constexpr std::size_t k_least_repeated = 4;
     const std::u32string letters = letters_of(text);

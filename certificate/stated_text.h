@@ -28,6 +28,10 @@ template <class Text>
 [[nodiscard]] bool is_name_of_document(const std::string& text);
 [[nodiscard]] bool is_name(const LocalisedText& text);
 
+/// Whether two names are of one person or organisation: both stated, and with the same letters (letters_of()). A space,
+/// a full stop or a capital letter makes no other person.
+[[nodiscard]] bool is_same_name(const std::string& a, const std::string& b);
+
 /// A number or a mark that identifies something: stated in all of its parts, and not "0", "0000", "9999",
 /// "123456", "EX-XXXX" or "SN-tbd".
 [[nodiscard]] bool is_identification(const std::string& text);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -121,23 +122,40 @@ void no_time_to_acclimatise(const AuditSubject& subject, FindingCollector& findi
     findings.add(std::move(finding));
 }
 
-/// Slope of readings in their order over its standard deviation: Student's t with n − 2 degrees of freedom.
-double trend_of(const std::vector<double>& readings) {
+struct Trend {
+    /// Slope of readings in their order over its standard deviation: Student's t with n − 2 degrees of freedom.
+    double t = 0.0;
+    bool without_scatter = false;  ///< no reading is off the line by more than the rounding of its number
+};
+
+Trend trend_of(const std::vector<double>& readings) {
+    constexpr double k_rounding = 4.0 * std::numeric_limits<double>::epsilon();
     const double n = static_cast<double>(readings.size());
-    double mean = 0.0;
+    double mean = 0.0, largest = 0.0;
     for (const double reading : readings) {
         mean += reading / n;
+        largest = std::max(largest, std::abs(reading));
     }
-    double sxx = 0.0, sxy = 0.0, syy = 0.0;
+    double sxx = 0.0, sxy = 0.0;
+    // Both about their means: Σ y² − (Σ y)²/n would cancel for readings that share most of their digits.
+    const auto x_at = [n](std::size_t i) { return static_cast<double>(i) - 0.5 * (n - 1.0); };
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        // Both about their means: Σ y² − (Σ y)²/n would cancel for readings that share most of their digits.
-        const double x = static_cast<double>(i) - 0.5 * (n - 1.0), y = readings[i] - mean;
-        sxx += x * x;
-        sxy += x * y;
-        syy += y * y;
+        sxx += x_at(i) * x_at(i);
+        sxy += x_at(i) * (readings[i] - mean);
     }
-    const double rest = syy - sxy * sxy / sxx;
-    return rest > 0.0 ? sxy / std::sqrt(sxx * rest / (n - 2.0)) : 0.0;
+    double rest = 0.0;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        // Each by itself: Σ y² − (Σ x y)²/Σ x² of readings close to a line would be all rounding.
+        const double off_line = readings[i] - mean - sxy / sxx * x_at(i);
+        rest += off_line * off_line;
+    }
+    // A scatter below the rounding of the numbers is not known to be smaller than that: equal steps have a t that is
+    // large and finite, and equal readings none.
+    const double least = n * (k_rounding * largest) * (k_rounding * largest);
+    if (!(least > 0.0)) {
+        return {};
+    }
+    return {.t = sxy / std::sqrt(sxx * std::max(rest, least) / (n - 2.0)), .without_scatter = rest <= least};
 }
 
 constexpr std::size_t k_least_for_trend = 6;
@@ -153,14 +171,18 @@ void drift_in_readings(const AuditSubject& subject, FindingCollector& findings) 
             return;
         }
         const double nu = static_cast<double>(at.is.readings.size() - 2);
-        const double t = trend_of(at.is.readings), limit = gum::coverage_factor(1.0 - k_trend_risk / tests, nu);
-        if (std::abs(t) <= limit) {
+        const Trend trend = trend_of(at.is.readings);
+        const double limit = gum::coverage_factor(1.0 - k_trend_risk / tests, nu);
+        if (std::abs(trend.t) <= limit) {
             return;
         }
-        AuditFinding finding = finding_at(at, "",
-                                          say("the readings have a trend in their order: t = {t:number}, limit "
-                                              "{limit:number} (1 % over all rows with readings)",
-                                              text::significant(t, 3), text::significant(limit, 3)));
+        AuditFinding finding =
+            finding_at(at, "",
+                       trend.without_scatter ? say("the readings lie on one straight line in their order: a trend, and "
+                                                   "no scatter about it")
+                                             : say("the readings have a trend in their order: t = {t:number}, limit "
+                                                   "{limit:number} (1 % over all rows with readings)",
+                                                   text::significant(trend.t, 3), text::significant(limit, 3)));
         finding.contribution_missing = true;
         findings.add(std::move(finding));
     });

@@ -93,7 +93,7 @@ Sentence what_was_done(Shape shape, const std::string& half_width, const Sentenc
         case Shape::triangular:
             return say("the half-width {a:number} of a triangular distribution is {done}", half_width, done);
         case Shape::arcsine:
-            return say("the half-width {a:number} of a arcsine distribution is {done}", half_width, done);
+            return say("the half-width {a:number} of an arcsine distribution is {done}", half_width, done);
         default:
             return say("the half-width {a:number} of a rectangular distribution is {done}", half_width, done);
     }

@@ -10,7 +10,7 @@
 
 #include "audit/finding.h"
 #include "audit/word_line.h"
-#include "certificate/text_words.h"
+#include "certificate/stated_text.h"
 #include "gum/conformity/decision_rule.h"
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
@@ -358,7 +358,7 @@ void take_traceability(const reports::XmlElement& root, AuditSubject& subject) {
 }
 
 bool is_same_person(const std::optional<certificate::Person>& a, const std::optional<certificate::Person>& b) {
-    return a && b && certificate::letters_of(a->name) == certificate::letters_of(b->name);
+    return a && b && certificate::is_same_name(a->name, b->name);
 }
 
 /// Who did what, as far as the document says; the days of authorisations are in no such document.

@@ -152,7 +152,7 @@ void persons(FindingList& found, const CertificateData& data, const Profile& pro
                     "the profile " + profile.id +
                         " demands a reviewer who did not do the work, and it is not stated who did which",
                     "State who performed and who reviewed.");
-    } else if (reviewed_by->name == performed_by->name) {
+    } else if (is_same_name(reviewed_by->name, performed_by->name)) {
         found.major(
             "P04", iso_17025("7.8.1.1"), "/persons/reviewed_by",
             reviewed_by->name + " reviewed work of his or her own, which the profile " + profile.id + " forbids",

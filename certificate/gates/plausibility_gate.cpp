@@ -85,7 +85,7 @@ void own_customer(FindingList& found, const CertificateData& data) {
 // --- persons ---
 
 bool same_person(const std::optional<Person>& a, const std::optional<Person>& b) {
-    return a && b && is_stated(a->name) && letters_of(a->name) == letters_of(b->name);
+    return a && b && is_same_name(a->name, b->name);
 }
 
 void plausible_persons(FindingList& found, const CertificateData& data, const Profile& profile) {
@@ -113,8 +113,7 @@ void plausible_persons(FindingList& found, const CertificateData& data, const Pr
 /// Nobody certifies something to himself.
 void customers(FindingList& found, const CertificateData& data) {
     const auto check = [&](const std::optional<Person>& person, const char* key, FindingSeverity severity) {
-        // Compared by letters alone, so that a space or a capital letter makes no other person.
-        if (person && is_stated(person->name) && letters_of(person->name) == letters_of(data.customer.name.in("en"))) {
+        if (person && is_same_name(person->name, data.customer.name.in("en"))) {
             found.add(severity, "P13", iso_17025("4.1"), "/persons/" + std::string(key),
                       person->name + " acts for the laboratory and is the customer",
                       "Let a person of the laboratory do it, or correct the name of the customer.");

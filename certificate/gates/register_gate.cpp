@@ -6,7 +6,7 @@
 
 #include "certificate/dates.h"
 #include "certificate/gates/finding_list.h"
-#include "certificate/text_words.h"
+#include "certificate/stated_text.h"
 
 namespace gumcert::certificate {
 
@@ -68,9 +68,9 @@ void signatory(FindingList& found, const CertificateData& data, const Laboratory
                        "by the register, " + person->name + " may not authorise this certificate: " + why,
                        "Let a person authorise it whom the register allows to, or bring the register up to date.");
     };
-    const auto one = std::find_if(
-        registered.signatories.begin(), registered.signatories.end(),
-        [&](const LaboratoryRegister::Signatory& s) { return letters_of(s.name) == letters_of(person->name); });
+    const auto one =
+        std::find_if(registered.signatories.begin(), registered.signatories.end(),
+                     [&](const LaboratoryRegister::Signatory& s) { return is_same_name(s.name, person->name); });
     if (one == registered.signatories.end()) {
         refute("it does not name this person");
         return;

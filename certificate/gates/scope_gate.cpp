@@ -59,7 +59,7 @@ void signatories(FindingList& found, const Accreditation& a) {
     }
 }
 
-/// Which values of the results an entry of the scope covers, in SI units, by the dimension of the results.
+/// Which values of the results an entry of the scope covers, each in the unit of its column; measured() converts.
 struct Covered {
     std::vector<const CertifiedValue*> values;
     std::vector<const CertifiedColumn*> columns;  ///< of each value
@@ -358,8 +358,8 @@ void symbol(FindingList& found, const Accreditation& a) {
     }
 }
 
-/// A pattern that covers nearly everything: one letter and a star, or the same result in the scope under many names.
-void patterns(FindingList& found, const Accreditation& a) {
+/// An entry that does not say for which measurand it holds.
+void measurands(FindingList& found, const Accreditation& a) {
     for (std::size_t i = 0; i < a.scope.size(); ++i) {
         if (!is_name(a.scope[i].measurand)) {
             found.add(FindingSeverity::minor, "X13", k_p8, place_in("/accreditation/scope", i, "measurand"),
@@ -380,7 +380,7 @@ std::vector<Finding> scope_findings(const Certificate& certificate) {
     validity(found, a);
     signatories(found, a);
     symbol(found, a);
-    patterns(found, a);
+    measurands(found, a);
     for (std::size_t i = 0; i < a.scope.size(); ++i) {
         const Covered covered = covered_by(certificate, a.scope[i]);
         if (!covered.values.empty()) {

@@ -26,24 +26,21 @@ bool is_partner(const std::string& text) {
     return is_name(text) || std::find(k_customer.begin(), k_customer.end(), letters_of(text)) != k_customer.end();
 }
 
-bool is_same(const std::string& a, const std::string& b) {
-    return is_stated(a) && letters_of(a) == letters_of(b);
-}
-
 /// A standard, a regulation or somebody else than the laboratory, of three letters or one ideograph at least.
 bool is_prescriber(const CertificateData& data, const std::string& text) {
     constexpr std::size_t k_least = 3;
     const std::u32string letters = letters_of(text);
     const bool long_enough = letters.size() >= k_least || (!letters.empty() && is_ideograph(letters.front()));
-    return is_name(text) && long_enough && telling_words(text) > 0 && !is_same(text, data.laboratory.name.in("en"));
+    return is_name(text) && long_enough && telling_words(text) > 0 &&
+           !is_same_name(text, data.laboratory.name.in("en"));
 }
 
 /// The laboratory, or somebody who acts for it.
 bool is_of_the_laboratory(const CertificateData& data, const std::string& text) {
     const auto person = [&](const std::optional<Person>& p) {
-        return p && (is_same(text, p->name) || is_same(text, p->function.in("en")));
+        return p && (is_same_name(text, p->name) || is_same_name(text, p->function.in("en")));
     };
-    return is_same(text, data.laboratory.name.in("en")) || person(data.persons.performed_by) ||
+    return is_same_name(text, data.laboratory.name.in("en")) || person(data.persons.performed_by) ||
            person(data.persons.reviewed_by) || person(data.persons.authorised_by);
 }
 
@@ -147,7 +144,7 @@ void specification(FindingList& found, const Certificate& certificate, std::size
         found.major("D03", iso_17025("7.8.6.2 b"), where(!is_name_of_document(s.document) ? "document" : "edition"),
                     name + " has no document or no edition", "State both.");
     }
-    if (is_same(s.document, certificate.data.number)) {
+    if (is_stated(s.document) && letters_of(s.document) == letters_of(certificate.data.number)) {
         found.major("D03", iso_17025("7.8.6.2 b"), where("document"),
                     name + " names this certificate itself as its document",
                     "Name the document in which the limits stand.");

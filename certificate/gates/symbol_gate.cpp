@@ -92,7 +92,8 @@ void accreditation(FindingList& found, const CertificateData& data) {
     }
     const std::optional<Person>& person = data.persons.authorised_by;
     if (person && !a.signatories.empty() &&
-        std::find(a.signatories.begin(), a.signatories.end(), person->name) == a.signatories.end()) {
+        std::none_of(a.signatories.begin(), a.signatories.end(),
+                     [&](const std::string& name) { return is_same_name(name, person->name); })) {
         found.critical("P03", iso_17025("6.2.6"), "/persons/authorised_by",
                        person->name + " is not one of the signatories of accredited certificates",
                        "Let a signatory authorise the certificate.");

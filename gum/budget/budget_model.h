@@ -86,7 +86,7 @@ struct BudgetInputs {
 /// Degrees of freedom of a correlated group: n − 1 of inputs observed together, the common ν of inputs that all have
 /// the same one (an ensemble in the sense of Willink 2007, Metrologia 44, 340-349), else the least of them, which
 /// claims no more than is known. Drawn by Monte Carlo as multivariate normal, multivariate t (observed together: ν = n
-/// − N, JCGM 102:2011, 5.3.2) or Gaussian copula with the stated coefficients of correlation; notes tell what was
+/// − 1, ADR 0030) or Gaussian copula with the stated coefficients of correlation; notes tell what was
 /// chosen.
 ///
 /// Points that share some inputs of a correlated group draw the others by themselves, given those that they share.

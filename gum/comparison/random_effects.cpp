@@ -43,7 +43,7 @@ ShiftedResults shifted(const LaboratoryResults& results) {
     return c;
 }
 
-/// Mean with weights 1/(u_i² + τ²) and the sum of weighted squares about it, in the unit of CentredResults.
+/// Mean with weights 1/(u_i² + τ²) and the sum of weighted squares about it, in the unit of ShiftedResults.
 struct WeightedSums {
     ArrayXd weights;
     double total = 0.0, mean = 0.0, squares = 0.0;

@@ -76,7 +76,8 @@ MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
 }
 
 /// What the scores of one item say together, where it is known how they hang together.
-std::optional<Agreement> agreement_of(const EvaluatedItem& item, double coverage_probability) {
+/// \param probability  for which E_n is formed: en_coverage_probability()
+std::optional<Agreement> agreement_of(const EvaluatedItem& item, double probability) {
     std::vector<const ScoredResult*> points;
     std::vector<std::size_t> positions;
     for (std::size_t i = 0; i < item.scores.size(); ++i) {
@@ -94,7 +95,7 @@ std::optional<Agreement> agreement_of(const EvaluatedItem& item, double coverage
         return std::nullopt;
     }
     try {
-        return agreement(differences_of(points, positions, item), coverage_probability);
+        return agreement(differences_of(points, positions, item), probability);
     } catch (const DiagnosedError&) {
         return std::nullopt;  // correlations of different origin need not make a covariance together
     }
@@ -258,23 +259,32 @@ Eigen::MatrixXd covariance_of_vector(const ComparisonVector& vector, const std::
     return covariance;
 }
 
+/// \param probability  for which E_n is formed: en_coverage_probability()
 std::optional<VectorScore> vector_score(const ComparisonVector& vector, const std::vector<const ScoredResult*>& points,
-                                        double coverage_probability) {
+                                        double probability) {
+    constexpr double k_normal = std::numeric_limits<double>::infinity();
     const auto m = static_cast<Eigen::Index>(points.size());
+    const double k_one = coverage_factor(probability, k_normal);
     Eigen::VectorXd d(m);
+    Eigen::VectorXd of_scores(m);
     VectorScore score{
         .participant = points.front()->participant, .round = points.front()->round, .quantities = points.size()};
     for (Eigen::Index a = 0; a < m; ++a) {
         const ScoredResult& point = *points[static_cast<std::size_t>(a)];
         d[a] = point.difference;
+        // With U_D/k_one in place of u_D: a U_D of few degrees of freedom, or of a stated k, has another factor than
+        // the normal distribution, and a vector of one quantity would contradict its E_n.
+        of_scores[a] = *point.en * k_one * *point.u_difference;
         score.largest_absolute_en = std::max(score.largest_absolute_en, std::abs(*point.en));
     }
     try {
-        score.vector_en = vector_en(d, covariance_of_vector(vector, points), coverage_probability);
-        const double k_p =
-            ellipsoid_coverage_factor(coverage_probability, points.size(), std::numeric_limits<double>::infinity());
-        // E_n of a vector is √(Dᵀ V⁻¹ D)/k_p; this is Dᵀ V⁻¹ D again.
-        score.mahalanobis_square = score.vector_en * score.vector_en * k_p * k_p;
+        const Eigen::MatrixXd covariance = covariance_of_vector(vector, points);
+        // E_n of one quantity is settled at 1, and a sum of one square would only round it.
+        score.vector_en = m == 1 ? score.largest_absolute_en : vector_en(of_scores, covariance, probability);
+        // √(Dᵀ V⁻¹ D)/k_p, and Dᵀ V⁻¹ D again.
+        const double distance =
+            vector_en(d, covariance, probability) * ellipsoid_coverage_factor(probability, points.size(), k_normal);
+        score.mahalanobis_square = distance * distance;
     } catch (const DiagnosedError&) {
         return std::nullopt;
     }
@@ -305,7 +315,7 @@ std::optional<ScoreSummary> summary_of_scores(const ComparisonScheme& scheme, co
     // Results of several items come from the same laboratories, and how they correlate is not stated: nothing joint is
     // computed for them.
     if (items.size() == 1) {
-        summary.agreement = agreement_of(items.front(), scheme.coverage_probability);
+        summary.agreement = agreement_of(items.front(), en_coverage_probability(scheme.coverage_probability));
     }
     return summary;
 }
@@ -339,6 +349,7 @@ std::vector<VectorScore> vector_scores(const ComparisonScheme& scheme, const std
                                        std::size_t& left_out) {
     left_out = 0;
     const Table table(scheme, items);
+    const double probability = en_coverage_probability(scheme.coverage_probability);
     std::vector<VectorScore> scores;
     for (std::size_t v = 0; v < scheme.vectors.size(); ++v) {
         const ComparisonVector& vector = scheme.vectors[v];
@@ -358,7 +369,7 @@ std::vector<VectorScore> vector_scores(const ComparisonScheme& scheme, const std
                 if (chosen.empty() || chosen.size() != vector.items.size()) {
                     continue;
                 }
-                if (std::optional<VectorScore> score = vector_score(vector, chosen, scheme.coverage_probability)) {
+                if (std::optional<VectorScore> score = vector_score(vector, chosen, probability)) {
                     score->vector = v;
                     scores.push_back(*score);
                 } else {

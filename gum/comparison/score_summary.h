@@ -52,10 +52,15 @@ struct ParticipantSummary {
 struct VectorScore {
     std::size_t vector = 0, participant = 0, round = 0;  ///< positions in the scheme
     std::size_t quantities = 0;
-    double mahalanobis_square = 0.0, vector_en = 0.0, largest_absolute_en = 0.0;
+    double mahalanobis_square = 0.0;  ///< Dᵀ V⁻¹ D, V of the standard uncertainties
+    double vector_en = 0.0, largest_absolute_en = 0.0;
 };
 /// E_n of the vectors of the scheme for every laboratory and round with all their quantities. One whose covariance is
 /// singular is left out.
+///
+/// √(Eᵀ R⁻¹ E) k_1/k_m, E the E_n of the m quantities, R the correlations of their differences, k_m the factor of the
+/// joint region and k_1 that of one quantity, for the probability of E_n: of one quantity it is |E_n|. Where every U_D
+/// is k_1 u_D, that is √(Dᵀ V⁻¹ D)/k_m.                                                    (after JCGM 102:2011, 6.5.2)
 /// \param left_out  receives how many were
 [[nodiscard]] std::vector<VectorScore> vector_scores(const ComparisonScheme& scheme,
                                                      const std::vector<EvaluatedItem>& items, std::size_t& left_out);

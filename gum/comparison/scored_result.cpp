@@ -75,7 +75,7 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
         point.zeta = score->zeta;
     }
     // The trials drew the value and the results, and not the items: what the items add is not in these intervals.
-    if (scene.assigned.intervals && !scene.item.u_homogeneity) {
+    if (scene.assigned.intervals && scene.item.u_of_item() == 0.0) {
         const double low = scene.assigned.intervals->d_low[at];
         if (std::isfinite(low)) {
             point.low = low;

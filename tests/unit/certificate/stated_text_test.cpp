@@ -46,6 +46,16 @@ TEST(StatedText, TellsNamesFromOtherTexts) {
     EXPECT_FALSE(is_name(LocalisedText()));
 }
 
+TEST(StatedText, ComparesNamesByTheirLetters) {
+    for (const char* other : {"A. Meier", "A.Meier", "a. meier", "A Meier", "A\u00a0. Meier", "А. Meier"}) {
+        EXPECT_TRUE(is_same_name("A. Meier", other)) << other;
+        EXPECT_TRUE(is_same_name(other, "A. Meier")) << other;
+    }
+    EXPECT_FALSE(is_same_name("A. Meier", "B. Meier"));
+    EXPECT_FALSE(is_same_name("", ""));
+    EXPECT_FALSE(is_same_name("–", "n/a")) << "two empty fields are no person";
+}
+
 TEST(StatedText, TellsIdentificationsFromOtherTexts) {
     for (const char* text : {"7", "SN-1001", "EX-0000", "2026-11", "1200", "A", "00017", "12345"}) {
         EXPECT_TRUE(is_identification(std::string(text))) << text;

@@ -72,6 +72,34 @@ TEST(EnvironmentRules, E06_sees_a_trend_of_readings) {
     EXPECT_EQ(found_by(environment_rules(), "E06", subject), "");
 }
 
+TEST(EnvironmentRules, E06_sees_a_trend_without_scatter) {
+    AuditSubject subject = test::subject_with({test::sound_budget()});
+    std::vector<double>& readings = subject.budgets[0].rows[3].readings;
+    readings = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+    EXPECT_THAT(found_by(environment_rules(), "E06", subject), HasSubstr("on one straight line in their order"));
+    // Equal steps are a trend wherever they begin and however small they are; equal readings are none, whatever the
+    // rounding of their mean leaves.
+    for (const double first : {0.0, 0.1, -7.3, 100000.1, 1e-9}) {
+        for (const double step : {0.1, -0.1, 0.3, 1e-6, 12.7}) {
+            for (const std::size_t n : {6U, 7U, 10U, 30U}) {
+                readings.clear();
+                for (std::size_t i = 0; i < n; ++i) {
+                    readings.push_back(first + step * static_cast<double>(i));
+                }
+                EXPECT_THAT(found_by(environment_rules(), "E06", subject), HasSubstr("in their order"))
+                    << first << " + i * " << step << ", n = " << n;
+                readings.assign(n, first);
+                EXPECT_EQ(found_by(environment_rules(), "E06", subject), "") << first << ", n = " << n;
+                readings.assign(n, first + step);
+                EXPECT_EQ(found_by(environment_rules(), "E06", subject), "") << first + step << ", n = " << n;
+            }
+        }
+    }
+    // Equal but for the last bit: nothing that an instrument shows.
+    readings = {0.3, 0.1 + 0.2, 0.3, 0.1 + 0.2, 0.1 + 0.2, 0.1 + 0.2};
+    EXPECT_EQ(found_by(environment_rules(), "E06", subject), "");
+}
+
 TEST(EnvironmentRules, E07_sees_limits_in_place_of_observations) {
     AuditSubject subject = subject_at(18.0, 22.0);
     EXPECT_EQ(found_by(environment_rules(), "E07", subject), "");

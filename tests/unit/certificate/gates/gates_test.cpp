@@ -3,6 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "certificate/gates/register_gate.h"
 #include "tests/support/finding_severities.h"
 #include "tests/unit/certificate/passed_certificate.h"
 
@@ -61,6 +67,37 @@ TEST(Gates, BlockByOneCriticalFinding) {
     c.data.status = "not_accredited";
     pass_gates(c);
     EXPECT_TRUE(c.blocked);
+}
+
+TEST(Gates, CompareNamesOfPersonsAlike) {
+    // What one gate takes for the same person, no other takes for another one.
+    const auto has = [](const std::vector<Finding>& findings, const char* id) {
+        return std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.id == id; });
+    };
+    const auto found = [&](const std::string& first, const std::string& second) {
+        Certificate c = passed_certificate();
+        c.profile.reviewer_may_be_performer = false;
+        c.data.persons.performed_by->name = first;
+        c.data.persons.reviewed_by->name = second;
+        c.data.persons.authorised_by->name = second;
+        c.data.accreditation->signatories = {first};
+        c.data.customer.name = first;
+        LaboratoryRegister registered;
+        registered.signatories.emplace_back().name = first;
+        const std::vector<Finding> plausible = plausibility_findings(c);
+        return std::array<bool, 5>{
+            has(completeness_findings(c), "P04"), has(plausible, "P07"),
+            std::count_if(plausible.begin(), plausible.end(), [](const Finding& f) { return f.id == "P13"; }) == 3,
+            !has(symbol_findings(c), "P03"), !has(register_findings(c.data, registered), "P14")};
+    };
+    for (const char* spelt :
+         {"A. Meier", "A.Meier", "a. meier", "A Meier", "A.  Meier", "A.\u00a0Meier", "Ａ. Meier"}) {
+        EXPECT_THAT(found("A. Meier", spelt), testing::Each(true)) << spelt;
+        EXPECT_THAT(found(spelt, "A. Meier"), testing::Each(true)) << spelt;
+    }
+    for (const char* other : {"B. Meier", "A. Meyer", "A. B. Meier"}) {
+        EXPECT_THAT(found("A. Meier", other), testing::Each(false)) << other;
+    }
 }
 
 TEST(Gates, NeverBlockASpecimen) {

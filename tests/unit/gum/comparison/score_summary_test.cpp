@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "gum/comparison/scores.h"
+#include "gum/coverage.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
 #include "tests/unit/gum/printed.h"
 
@@ -91,13 +94,86 @@ TEST(VectorScores, OfIndependentQuantities) {
     EXPECT_EQ(left_out, 0U);
     EXPECT_EQ(scores[1].participant, 1U);
     EXPECT_EQ(scores[1].quantities, 2U);
-    // (0.6² + 0.8²)/u_D² with u_D = 0.5, over k² = −2 ln(1 − p).
+    // (0.6² + 0.8²)/u_D² with u_D = 0.5, over k² = −2 ln(1 − p). U_D has the stated k = 2, which is 2.00002 for p.
+    const double k_1 = coverage_factor(0.9545, std::numeric_limits<double>::infinity());
     EXPECT_NEAR(scores[1].mahalanobis_square, 4.0, 1e-9);
-    EXPECT_NEAR(scores[1].vector_en, std::sqrt(4.0 / (-2.0 * std::log(1.0 - 0.9545))), 1e-9);
+    EXPECT_NEAR(scores[1].vector_en, k_1 / 2.0 * std::sqrt(4.0 / (-2.0 * std::log(1.0 - 0.9545))), 1e-9);
     stated.scheme.vectors[0].correlation = Eigen::MatrixXd::Ones(2, 2);
     stated.scheme.vectors[0].reference_correlation = Eigen::MatrixXd::Ones(2, 2);
     EXPECT_TRUE(vector_scores(stated.scheme, evaluated_items(stated), left_out).empty());
     EXPECT_EQ(left_out, 3U) << "singular";
+}
+
+/// One item of five laboratories, of which two have few degrees of freedom, and a vector of nothing else.
+test::StatedComparison single_quantity(AssignedValueMethod method, double coverage_probability) {
+    test::StatedComparison stated = test::key_comparison();
+    stated.scheme.coverage_probability = coverage_probability;
+    AssignedValueRequest& request = stated.scheme.items[0].assigned_value;
+    request.method = method;
+    if (method == AssignedValueMethod::given) {
+        request.value = 12.3;
+        request.uncertainty = test::u_with_k_2(0.05);
+    } else if (method == AssignedValueMethod::reference) {
+        request.participant = "L1";
+    } else if (method == AssignedValueMethod::median) {
+        request.median_by_trials = true;
+        request.trials = 20000;
+    }
+    stated.results[1].uncertainty = stated_expanded(0.15 * 2.57, 2.57);
+    stated.results[1].uncertainty->degrees_of_freedom = 5.0;
+    stated.results[2].uncertainty = stated_expanded(0.20, 1.0);
+    stated.scheme.vectors = {{.name = "x", .items = {0}, .correlation = {}, .reference_correlation = {}}};
+    return stated;
+}
+
+TEST(VectorScores, OfASingleQuantityAreItsEn) {
+    // For every coverage probability and whatever E_n is formed from: stated or converted U, few degrees of freedom,
+    // the scatter of the others.
+    using enum AssignedValueMethod;
+    for (const AssignedValueMethod method :
+         {given, reference, weighted_mean, arithmetic_mean, median, algorithm_a, largest_consistent_subset,
+          dersimonian_laird, mandel_paule, power_moderated_mean}) {
+        for (const double p : {0.5, 0.90, 0.95, 0.9545, 0.99, 0.9973}) {
+            const test::StatedComparison stated = single_quantity(method, p);
+            const std::vector<EvaluatedItem> items = evaluated_items(stated);
+            std::size_t left_out = 0;
+            const std::vector<VectorScore> scores = vector_scores(stated.scheme, items, left_out);
+            ASSERT_GE(scores.size(), 5U);
+            EXPECT_EQ(left_out, 0U);
+            for (const VectorScore& score : scores) {
+                const double en = std::abs(*items[0].scores[score.participant].en);
+                EXPECT_NEAR(score.vector_en, en, 1e-12 * en)
+                    << "method " << static_cast<int>(method) << ", p = " << p << ", laboratory " << score.participant;
+                EXPECT_EQ(score.largest_absolute_en, en);
+            }
+        }
+    }
+}
+
+TEST(ScoreSummary, ChanceIsThatOfTheProbabilityOfEn) {
+    // E_n is formed for 95.45 % where the comparison states another probability: so are the limits of what chance
+    // explains of it.
+    const ScoreSummary usual = [] {
+        const test::StatedComparison stated = test::key_comparison();
+        return summary_of_scores(stated.scheme, evaluated_items(stated)).value();
+    }();
+    for (const double p : {0.5, 0.90, 0.95, 0.99, 0.9973}) {
+        test::StatedComparison stated = test::key_comparison();
+        stated.scheme.coverage_probability = p;
+        const ScoreSummary summary = summary_of_scores(stated.scheme, evaluated_items(stated)).value();
+        ASSERT_TRUE(summary.agreement);
+        const double of_scores = en_coverage_probability(p);
+        const double n = static_cast<double>(summary.agreement->points);
+        const auto k = [](double probability) {
+            return coverage_factor(probability, std::numeric_limits<double>::infinity());
+        };
+        EXPECT_NEAR(summary.agreement->largest_en_by_chance, k(std::pow(0.99, 1.0 / n)) / k(of_scores), 1e-9) << p;
+        if (of_scores == 0.9545) {
+            EXPECT_EQ(summary.agreement->count_by_chance, usual.agreement->count_by_chance) << p;
+            EXPECT_NEAR(summary.agreement->largest_en_by_chance, usual.agreement->largest_en_by_chance, 1e-9) << p;
+            EXPECT_NEAR(summary.agreement->vector_en, usual.agreement->vector_en, 1e-9) << p;
+        }
+    }
 }
 
 TEST(YoudenDiagrams, EllipseAboutTheMedians) {

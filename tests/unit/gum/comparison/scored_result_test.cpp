@@ -91,6 +91,40 @@ TEST(ScoredResults, AReferenceThatIsWorseClearsNobody) {
     EXPECT_EQ(scores[1].verdict, Verdict::none);
 }
 
+TEST(ScoredResults, DifferencesHaveIntervalsWhereTheValueHasOne) {
+    // A check of the items that finds nothing adds nothing: both keep the intervals of the trials. One that finds
+    // something takes them from both.
+    const auto intervals = [](const std::vector<double>& between) {
+        test::StatedComparison stated = test::key_comparison();
+        ComparisonItem& item = stated.scheme.items[0];
+        item.assigned_value.method = AssignedValueMethod::median;
+        item.assigned_value.median_by_trials = true;
+        item.assigned_value.trials = 2000;
+        item.delta_E = 3.0;
+        if (!between.empty()) {
+            Eigen::MatrixXd& tested = item.homogeneity.emplace();
+            tested.resize(static_cast<Eigen::Index>(between.size()), 2);
+            for (std::size_t i = 0; i < between.size(); ++i) {
+                tested(static_cast<Eigen::Index>(i), 0) = 12.3 + between[i] - 0.01;
+                tested(static_cast<Eigen::Index>(i), 1) = 12.3 + between[i] + 0.01;
+            }
+        }
+        const LaboratoryData data = stated.data();
+        const AssignedValue assigned = assigned_value(stated.scheme, data);
+        const ItemResult result = item_result(stated.scheme, data, assigned);
+        const std::vector<ScoredResult> scores = scored_results(stated.scheme, data, assigned, result);
+        for (const ScoredResult& score : scores) {
+            EXPECT_EQ(score.low.has_value(), result.low.has_value());
+            EXPECT_EQ(score.high.has_value(), result.high.has_value());
+        }
+        EXPECT_EQ(result.low.has_value(), result.u_of_item() == 0.0);
+        return result.low.has_value();
+    };
+    EXPECT_TRUE(intervals({}));
+    EXPECT_TRUE(intervals({0.0, 0.0, 0.0, 0.0})) << "s_s = 0";
+    EXPECT_FALSE(intervals({-0.3, 0.1, 0.3, 0.2}));
+}
+
 TEST(ScoredResults, TheReferenceLaboratoryHasNoScore) {
     test::StatedComparison stated = test::key_comparison();
     stated.scheme.items[0].assigned_value.method = AssignedValueMethod::reference;
