@@ -100,7 +100,7 @@ set(GUMCERT_EDGES_signing                            text encoding system gum/qu
 set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
-set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)
+set(GUMCERT_EDGES_archive                            text encoding gum/quantity gum/expression json archive/store)
 set(GUMCERT_EDGES_app                                text encoding system gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
