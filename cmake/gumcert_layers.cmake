@@ -110,9 +110,10 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
                                                      imports workbook audit audit/rules audit/sources)
-set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/monte_carlo certificate/gates jobs
-                                                     reports/record reports/record/make/certificate reports signing
-                                                     imports app archive/store archive)
+set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/expression gum/monte_carlo certificate
+                                                     certificate/gates jobs reports/record
+                                                     reports/record/make/certificate reports reports/forms reports/dcc
+                                                     signing imports app archive/store archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
 set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates reports/record
