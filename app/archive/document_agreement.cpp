@@ -124,11 +124,12 @@ DocumentWords document_words(const std::filesystem::path& templates) {
 
 /// Numbers that stand behind each other.
 struct PrintedDocument::Row {
-    std::vector<std::string> numbers;  ///< digits
-    std::size_t largest_gap = 0;       ///< digits of other numbers between two of them
-    std::string shown = {};            ///< for messages
-    std::string verdict = {};          ///< code; "" where none follows
-    std::size_t verdicts = 1;          ///< of so many that follow, one is this
+    std::vector<std::string> numbers;         ///< digits
+    std::size_t largest_gap = 0;              ///< digits of other numbers between two of them
+    std::string shown = {};                   ///< for messages
+    std::string verdict = {};                 ///< code; "" where none follows
+    std::size_t verdicts = 1;                 ///< of so many that follow, one is this
+    std::vector<std::string> otherwise = {};  ///< in place of `numbers` in another layout
 };
 
 PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_(pages) {
@@ -146,11 +147,41 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_
     }
 }
 
+/// The cells of some row that stand before and behind each other, with how far they may be apart.
+PrintedDocument::Row PrintedDocument::row_of(const std::string& name, const std::vector<std::string>& cells,
+                                             std::size_t gap) {
+    constexpr std::size_t k_gap_of_power = 5;  // "10" and an exponent
+    Row row{.numbers = {}, .largest_gap = gap};
+    for (const std::string& cell : cells) {
+        if (std::string digits = mantissa_digits(cell); !digits.empty()) {
+            const bool has_power = digits.size() < cell.size() && cell.find_first_of("eE") != std::string::npos;
+            row.largest_gap = std::max(row.largest_gap, has_power ? k_gap_of_power : 0U);
+            row.numbers.push_back(std::move(digits));
+            row.shown += (row.shown.empty() ? "" : ", ") + cell;
+        }
+    }
+    row.shown = name + " = " + row.shown;
+    return row;
+}
+
 std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable& table) {
-    constexpr std::size_t k_gap_of_power = 5;     // "10" and an exponent
     constexpr std::size_t k_gap_of_interval = 8;  // u beside it
-    constexpr std::size_t k_gap_in_layouts = 60;  // a job may order the columns
+    constexpr std::size_t k_gap_in_rows = 24;     // of limits, k and degrees of freedom
+    constexpr std::size_t k_gap_in_layouts = 60;  // where only some cells of a row are known to be there
     std::vector<Row> rows;
+    const auto put = [&](Row row) {
+        if (!row.numbers.empty()) {
+            rows.push_back(std::move(row));
+        }
+    };
+    const auto argument_at = [&](std::size_t i) {
+        return table.argument && i < table.argument->printed.size() ? table.argument->printed[i] : std::string();
+    };
+    const auto has_number = [&](std::size_t i) {  // names of points may have digits here and there
+        return table.argument && i < table.argument->values.size() && table.argument->values[i].has_value();
+    };
+    const auto is_interval = [](const CertifiedValue& v) { return v.interval && !v.printed_low.empty(); };
+    const CertifiedColumn* before = nullptr;
     for (const CertifiedColumn& column : table.columns) {
         const auto shows = [&](const char* what) {
             return !table.layout || std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
@@ -159,49 +190,75 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
         const bool verdict_in_row = table.layout && shows("verdict");
         for (std::size_t i = 0; i < column.values.size(); ++i) {
             const CertifiedValue& v = column.values[i];
-            const std::string name =
-                column.result +
-                (table.argument && i < table.argument->printed.size() ? " at " + table.argument->printed[i] : "");
-            const auto add = [&](const std::vector<std::pair<const char*, std::string>>& numbers,
-                                 const std::string& verdict) {
-                Row row{.numbers = {}, .largest_gap = table.layout ? k_gap_in_layouts : 0U};
-                for (const auto& [letter, printed] : numbers) {
-                    const std::size_t gap = printed.find_first_of("eE") != std::string::npos ? k_gap_of_power
-                                            : numbers.size() > 2                             ? k_gap_of_interval
-                                                                                             : 0U;
-                    row.largest_gap = std::max(row.largest_gap, gap);
-                    if (std::string digits = mantissa_digits(printed); !digits.empty()) {
-                        row.numbers.push_back(std::move(digits));
-                        row.shown += (row.shown.empty() ? "" : ", ") + (letter + printed);
+            const std::string name = column.result + (argument_at(i).empty() ? "" : " at " + argument_at(i));
+            if (is_interval(v)) {
+                const bool with_U = shows("U") || shows("k") || shows("nu_eff");
+                put(row_of(
+                    name,
+                    {shows("value") ? v.printed_value : "", with_U ? v.printed_low : "", with_U ? v.printed_high : ""},
+                    table.layout ? k_gap_in_layouts : k_gap_of_interval));
+            } else if (!table.layout) {
+                Row row = row_of(name, {v.printed_value, v.printed_U}, 0);
+                if (has_number(i) && !row.numbers.empty()) {
+                    // Behind the argument, or behind the quantity before it where both stand in one table.
+                    row.numbers = row_of(name, {argument_at(i), v.printed_value, v.printed_U}, 0).numbers;
+                    if (before != nullptr && i < before->values.size()) {
+                        row.otherwise = row_of(name,
+                                               {before->values[i].printed_value, before->values[i].printed_U,
+                                                v.printed_value, v.printed_U},
+                                               0)
+                                            .numbers;
+                        row.largest_gap = std::max(row.largest_gap, k_gap_of_interval);
                     }
                 }
-                if (!row.numbers.empty()) {
-                    row.shown = name + " = " + row.shown +
-                                (column.printed_unit.empty() ? "" : " " + column.printed_unit) +
-                                (verdict.empty() ? "" : ", " + verdict);
-                    row.verdict = verdict;
-                    row.verdicts = verdict_in_row ? verdicts_of_a_row(*table.layout) : 1;
-                    rows.push_back(std::move(row));
-                }
-            };
-            const bool is_interval = v.interval && !v.printed_low.empty();
-            std::vector<std::pair<const char*, std::string>> numbers;
-            if (shows("value")) {
-                numbers.emplace_back("", v.printed_value);
+                put(std::move(row));
             }
-            if (is_interval && (shows("U") || shows("k") || shows("nu_eff"))) {
-                numbers.emplace_back("from ", v.printed_low);
-                numbers.emplace_back("to ", v.printed_high);
-            } else if (shows("U")) {
-                numbers.emplace_back("U = ", v.printed_U);
+            if (v.verdict) {
+                const bool value = !verdict_in_row || shows("value");
+                const bool U = !verdict_in_row || (shows("U") && !is_interval(v));
+                Row row = row_of(name, {value ? v.printed_value : "", U ? v.printed_U : ""},
+                                 verdict_in_row ? k_gap_in_layouts : 0U);
+                row.verdict = v.verdict->verdict;
+                row.shown += ", " + row.verdict;
+                row.verdicts = verdict_in_row ? verdicts_of_a_row(*table.layout) : 1;
+                put(std::move(row));
             }
-            add(numbers, "");
-            if (v.verdict && verdict_in_row) {
-                add({{"", shows("value") ? v.printed_value : ""},
-                     {"U = ", shows("U") && !is_interval ? v.printed_U : ""}},
-                    v.verdict->verdict);
-            } else if (v.verdict) {
-                add({{"", v.printed_value}, {"U = ", v.printed_U}}, v.verdict->verdict);
+        }
+        before = &column;
+    }
+    const std::size_t count = table.layout && !table.columns.empty() ? table.columns.front().values.size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::set<bool> outside;  // values outside of the accreditation may stand in a table of their own
+        std::vector<std::string> cells;
+        for (const certificate::ShownColumn& shown : table.layout->shown) {
+            const auto result = std::find_if(table.columns.begin(), table.columns.end(),
+                                             [&](const CertifiedColumn& c) { return c.result == shown.of; });
+            const auto point = std::find_if(table.layout->columns.begin(), table.layout->columns.end(),
+                                            [&](const certificate::PointColumn& c) { return c.name == shown.of; });
+            if (shown.show == "point") {
+                cells.push_back(argument_at(i));
+            } else if (shown.show == "column" && point != table.layout->columns.end() && i < point->printed.size()) {
+                cells.push_back(point->printed[i]);
+            } else if ((shown.show == "value" || shown.show == "U") && result != table.columns.end() &&
+                       i < result->values.size()) {
+                const CertifiedValue& v = result->values[i];
+                outside.insert(v.scope_entry.empty());
+                cells.push_back(shown.show == "value" ? v.printed_value : is_interval(v) ? "" : v.printed_U);
+            }
+        }
+        if (outside.size() < 2) {
+            put(row_of("row " + argument_at(i), cells, k_gap_in_rows));
+        }
+        for (const CertifiedColumn& column : table.columns) {
+            if (outside.size() > 1 && i < column.values.size() && !is_interval(column.values[i])) {
+                const auto shows = [&](const char* what) {
+                    return std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
+                                       [&](const auto& c) { return c.of == column.result && c.show == what; });
+                };
+                put(row_of(column.result + " at " + argument_at(i),
+                           {shows("value") ? column.values[i].printed_value : "",
+                            shows("U") ? column.values[i].printed_U : ""},
+                           k_gap_in_layouts));
             }
         }
     }
@@ -227,18 +284,18 @@ bool PrintedDocument::is_followed_by(std::size_t digit, const Row& row, const Do
     return false;
 }
 
-bool PrintedDocument::has(const Row& row, const DocumentWords& words, std::size_t& from) const {
+bool PrintedDocument::has(const Row& row, const std::vector<std::string>& numbers, const DocumentWords& words,
+                          std::size_t& from) const {
     for (const std::size_t begin : {from, std::size_t{0}}) {
-        for (std::size_t first = digits_.find(row.numbers.front(), begin); first != std::string::npos;
-             first = digits_.find(row.numbers.front(), first + 1)) {
-            std::set<std::size_t> ends{first + row.numbers.front().size()};
-            for (std::size_t i = 1; i < row.numbers.size() && !ends.empty(); ++i) {
+        for (std::size_t first = digits_.find(numbers.front(), begin); first != std::string::npos;
+             first = digits_.find(numbers.front(), first + 1)) {
+            std::set<std::size_t> ends{first + numbers.front().size()};
+            for (std::size_t i = 1; i < numbers.size() && !ends.empty(); ++i) {
                 std::set<std::size_t> next;
                 for (const std::size_t end : ends) {
-                    for (std::size_t gap = 0; gap <= row.largest_gap; ++gap) {
-                        if (digits_.compare(end + gap < digits_.size() ? end + gap : digits_.size(),
-                                            row.numbers[i].size(), row.numbers[i]) == 0) {
-                            next.insert(end + gap + row.numbers[i].size());
+                    for (std::size_t gap = 0; gap <= row.largest_gap && end + gap < digits_.size(); ++gap) {
+                        if (digits_.compare(end + gap, numbers[i].size(), numbers[i]) == 0) {
+                            next.insert(end + gap + numbers[i].size());
                         }
                     }
                 }
@@ -262,7 +319,9 @@ std::string PrintedDocument::disagreement_with(const certificate::Certificate& c
     std::size_t from = 0;
     for (const CertifiedTable& table : certificate.tables) {
         for (const Row& row : rows_of(table)) {
-            if (!has(row, words, from)) {
+            const bool is_printed =
+                has(row, row.numbers, words, from) || (!row.otherwise.empty() && has(row, row.otherwise, words, from));
+            if (!is_printed) {
                 return "does not print \"" + row.shown + "\" of the record";
             }
         }

@@ -45,7 +45,9 @@ private:
     std::vector<std::size_t> places_;  // of each digit in text_
     struct Row;
     [[nodiscard]] bool is_marked(const DocumentWords& words) const;
-    [[nodiscard]] bool has(const Row& row, const DocumentWords& words, std::size_t& from) const;
+    [[nodiscard]] bool has(const Row& row, const std::vector<std::string>& numbers, const DocumentWords& words,
+                           std::size_t& from) const;
+    [[nodiscard]] static Row row_of(const std::string& name, const std::vector<std::string>& cells, std::size_t gap);
     [[nodiscard]] static std::vector<Row> rows_of(const certificate::CertifiedTable& table);
     [[nodiscard]] bool is_followed_by(std::size_t digit, const Row& row, const DocumentWords& words) const;
 };

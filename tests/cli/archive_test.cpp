@@ -19,12 +19,13 @@ bool tells(const Ended& ended, const std::string& part) {
     return (ended.out + ended.err).find(part) != std::string::npos;
 }
 
+constexpr const char* k_authoriser = "Head of laboratory";  // as the certificate data of the example name
+
 class ArchiveOfALaboratory : public ProgramTest {
 protected:
     ArchiveOfALaboratory() {
         fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "certificate", folder(),
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-        change_certificate([](json& c) { c["persons"]["authorised_by"]["name"] = "M. Weber"; });
     }
     [[nodiscard]] std::string path(const char* name) const { return (folder() / name).string(); }
     [[nodiscard]] std::string store() const { return path("lab.archive"); }
@@ -62,7 +63,8 @@ protected:
     }
     void lead_to_issue(const std::string& number) const {
         for (const char* const action : {"review", "authorise", "issue"}) {
-            const Ended ended = archive({action, number}, "M. Weber");
+            const bool authorises = std::string(action) == "authorise";
+            const Ended ended = archive({action, number}, authorises ? k_authoriser : "M. Weber");
             ASSERT_EQ(ended.code, 0) << ended.err;
         }
     }
@@ -99,7 +101,7 @@ TEST_F(ArchiveOfALaboratory, LeadsFromTheRecordToTheIssuedCertificate) {
     EXPECT_EQ(one["entries"].size(), 4U);
     EXPECT_EQ(one["entries"][0]["by"], "R. Lin");
     EXPECT_EQ(one["entries"][3]["body"]["old"]["state"], "authorised");
-    EXPECT_TRUE(tells(archive({"show", "EX-2026-0042"}), "authorised  M. Weber"));
+    EXPECT_TRUE(tells(archive({"show", "EX-2026-0042"}), "authorised  Head of laboratory"));
     const Ended verified = archive({"verify"});
     EXPECT_EQ(verified.code, 0) << verified.err;
     EXPECT_TRUE(tells(verified, "sound; 5 entries, 3 contents, 1 certificates"));
@@ -185,7 +187,7 @@ TEST_F(ArchiveOfALaboratory, IssuesNoSpecimen) {
     ASSERT_LE(made.code, 1) << made.err;
     ASSERT_EQ(archive({"add", path("s.json")}, "R. Lin").code, 0);
     EXPECT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
-    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, "M. Weber").code, 0);
+    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, k_authoriser).code, 0);
     EXPECT_TRUE(tells(archive({"issue", "EX-2026-0042"}, "M. Weber"), "[GC-ARCHIVE-0030]"));
     EXPECT_EQ(shown({"show", "EX-2026-0042"})["state"], "authorised");
 }
@@ -252,8 +254,11 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     std::ofstream(folder() / "longer.html") << "<!DOCTYPE html>\nEX-2026-00421";
     EXPECT_TRUE(tells(added("longer.html"), "[GC-ARCHIVE-0029]"));
     // What was written together stays together.
-    std::ofstream(folder() / "later.html", std::ios::app) << " ";
+    const fs::path manifest = folder() / ".gumcert-set.json";
+    const json set{{"name", "later.html"}, {"sha256", std::string(64, 'a')}};
+    std::ofstream(manifest) << json{{"schema", "gumcert/set/1"}, {"sets", {{{"files", {set}}}}}}.dump();
     EXPECT_TRUE(tells(added("later.html"), "[GC-STORE-0014]"));
+    fs::remove(manifest);
     EXPECT_EQ(shown({"list"})["certificates"].size(), 0U) << "nothing came in";
     for (const char* const language : {"de", "zh-Hant"}) {
         const std::string page = path((std::string(language) + ".html").c_str());
@@ -271,7 +276,7 @@ TEST_F(ArchiveOfALaboratory, GoesByTheLogAndItsHashes) {
     evaluate("first");
     ASSERT_EQ(archive(files("add", "first"), "R. Lin").code, 0);
     ASSERT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
-    ASSERT_EQ(archive({"authorise", "EX-2026-0042"}, "M. Weber").code, 0);
+    ASSERT_EQ(archive({"authorise", "EX-2026-0042"}, k_authoriser).code, 0);
     const auto tampered = [&](const std::string& sql) {
         const std::string script =
             "import sqlite3\n"
@@ -318,9 +323,9 @@ TEST_F(ArchiveOfALaboratory, IsAuthorisedByWhomTheCertificateNames) {
     const Ended refused = archive({"authorise", "EX-2026-0042"}, "A. Nother");
     EXPECT_EQ(refused.code, 3);
     EXPECT_TRUE(tells(refused, "[GC-ARCHIVE-0039]")) << refused.err;
-    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, "m. weber").code, 0);
+    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, "head of laboratory").code, 0);
     EXPECT_EQ(archive({"issue", "EX-2026-0042"}, "A. Nother").code, 0) << "whoever issues what was authorised";
-    EXPECT_TRUE(tells(archive({"statistics"}), "m. weber"));
+    EXPECT_TRUE(tells(archive({"statistics"}), "head of laboratory"));
 }
 
 TEST_F(ArchiveOfALaboratory, LeavesNoCopyThatNobodyMayMake) {
@@ -395,7 +400,6 @@ TEST_F(ArchiveOfALaboratory, ComparesAnAmendmentWithWhatWasIssued) {
 TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment) {
     fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "laboratory", folder(),
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    change_certificate([](json& c) { c["persons"]["authorised_by"]["name"] = "M. Weber"; });
     issue_the_example();
     const std::vector<std::string> query = {"affected", "--source", "STD-017", "--since", "2026-03-02"};
     const Ended listed = archive(query);
@@ -708,7 +712,8 @@ TEST_F(ArchiveOfALaboratory, CountsWhatItDid) {
     issue_the_example();
     const json counted = shown({"statistics"});
     EXPECT_EQ(counted["by_state"]["issued"], 1);
-    EXPECT_EQ(counted["by_month"]["2026-11"], 1);
+    EXPECT_EQ(counted["by_month"].size(), 1U) << "the month of the entry";
+    EXPECT_EQ(counted["by_authoriser"][k_authoriser], 1);
     EXPECT_EQ(counted["by_method"]["CP-01"], 1);
     EXPECT_TRUE(tells(archive({"statistics"}), "Certificates by state")) << "for people, too";
 }

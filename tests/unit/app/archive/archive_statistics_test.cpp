@@ -121,7 +121,7 @@ TEST_F(StatisticsOfAnArchive, ChartASetBesideThoseOfItsMeanWhateverItsScatter) {
     ASSERT_EQ(found.charts.size(), 1U);
     EXPECT_EQ(found.charts[0].scatters.size(), 5U);
     EXPECT_EQ(found.charts[0].degrees_of_freedom, 45);
-    EXPECT_NEAR(found.charts[0].pooled_standard_deviation, 12.27, 0.005);
+    EXPECT_NEAR(found.charts[0].pooled_standard_deviation, 12.264, 0.0005);
     EXPECT_NEAR(found.charts[0].scatters[4].limit, 21.28, 0.005);
     EXPECT_TRUE(found.charts[0].scatters[4].is_above());
     EXPECT_NE(statistics_text(found).find("ABOVE THE LIMIT: C-4"), std::string::npos);

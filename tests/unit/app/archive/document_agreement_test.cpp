@@ -64,9 +64,13 @@ void for_each_value(EvaluationRecord& record, const Work& work) {
     }
 }
 
-void change_last_digit(std::string& printed) {
-    const std::size_t at = printed.find_last_of("0123456789");
-    printed[at] = printed[at] == '9' ? '8' : static_cast<char>(printed[at] + 1);
+/// Another value, of which every digit is another one.
+void change_digits(std::string& printed) {
+    for (char& c : printed) {
+        if (c >= '0' && c <= '9') {
+            c = c == '9' ? '0' : static_cast<char>(c + 1);
+        }
+    }
 }
 
 TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
@@ -101,7 +105,7 @@ TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
             std::size_t i = 0;
             for_each_value(other, [&](CertifiedValue& v) {
                 if (v.printed_value.size() > 2 && !v.printed_U.empty() && i++ == chosen) {
-                    change_last_digit(v.printed_value);
+                    change_digits(v.printed_value);
                 }
             });
             const std::string page = page_of(other);
