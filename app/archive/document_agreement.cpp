@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
@@ -23,6 +24,12 @@ using certificate::CertifiedValue;
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
+}
+
+std::string all_digits(std::string_view text) {
+    std::string digits;
+    std::copy_if(text.begin(), text.end(), std::back_inserter(digits), is_digit);
+    return digits;
 }
 
 /// Digits of a printed number without those of its exponent, which documents set in several ways.
@@ -130,6 +137,7 @@ struct PrintedDocument::Row {
     std::string verdict = {};                 ///< code; "" where none follows
     std::size_t verdicts = 1;                 ///< of so many that follow, one is this
     std::vector<std::string> otherwise = {};  ///< in place of `numbers` in another layout
+    std::vector<std::size_t> gaps = {};       ///< before each of `numbers`, in place of largest_gap
 };
 
 PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_(pages) {
@@ -229,25 +237,42 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
     const std::size_t count = table.layout && !table.columns.empty() ? table.columns.front().values.size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         std::set<bool> outside;  // values outside of the accreditation may stand in a table of their own
-        std::vector<std::string> cells;
+        Row whole{.numbers = {}, .largest_gap = k_gap_in_rows};
+        bool is_next = false;  // nothing else is printed between this cell and the one before
+        const auto add_cell = [&](std::string digits, const std::string& cell) {
+            if (!digits.empty()) {
+                whole.gaps.push_back(is_next ? 0U : k_gap_in_rows);
+                whole.numbers.push_back(std::move(digits));
+                whole.shown += (whole.shown.empty() ? "" : ", ") + cell;
+            }
+            is_next = cell.find_first_of("eE") == std::string::npos;  // no power of ten behind it
+        };
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             const auto result = std::find_if(table.columns.begin(), table.columns.end(),
                                              [&](const CertifiedColumn& c) { return c.result == shown.of; });
             const auto point = std::find_if(table.layout->columns.begin(), table.layout->columns.end(),
                                             [&](const certificate::PointColumn& c) { return c.name == shown.of; });
             if (shown.show == "point") {
-                cells.push_back(argument_at(i));
+                add_cell(all_digits(argument_at(i)), argument_at(i));
             } else if (shown.show == "column" && point != table.layout->columns.end() && i < point->printed.size()) {
-                cells.push_back(point->printed[i]);
+                const bool number = i < point->values.size() && point->values[i].has_value();
+                add_cell(number ? mantissa_digits(point->printed[i]) : all_digits(point->printed[i]),
+                         point->printed[i]);
             } else if ((shown.show == "value" || shown.show == "U") && result != table.columns.end() &&
                        i < result->values.size()) {
                 const CertifiedValue& v = result->values[i];
                 outside.insert(v.scope_entry.empty());
-                cells.push_back(shown.show == "value" ? v.printed_value : is_interval(v) ? "" : v.printed_U);
+                const std::string& printed = shown.show == "value" ? v.printed_value : v.printed_U;
+                if (shown.show == "value" || !is_interval(v)) {
+                    add_cell(mantissa_digits(printed), printed);
+                }
+                is_next = is_next && shown.show == "value";  // k, and what else U needs, stand behind it
+            } else {
+                is_next = false;
             }
         }
         if (outside.size() < 2) {
-            put(row_of("row " + argument_at(i), cells, k_gap_in_rows));
+            put(std::move(whole));
         }
         for (const CertifiedColumn& column : table.columns) {
             if (outside.size() > 1 && i < column.values.size() && !is_interval(column.values[i])) {
@@ -293,7 +318,9 @@ bool PrintedDocument::has(const Row& row, const std::vector<std::string>& number
             for (std::size_t i = 1; i < numbers.size() && !ends.empty(); ++i) {
                 std::set<std::size_t> next;
                 for (const std::size_t end : ends) {
-                    for (std::size_t gap = 0; gap <= row.largest_gap && end + gap < digits_.size(); ++gap) {
+                    const std::size_t largest =
+                        &numbers == &row.numbers && i < row.gaps.size() ? row.gaps[i] : row.largest_gap;
+                    for (std::size_t gap = 0; gap <= largest && end + gap < digits_.size(); ++gap) {
                         if (digits_.compare(end + gap, numbers[i].size(), numbers[i]) == 0) {
                             next.insert(end + gap + numbers[i].size());
                         }
