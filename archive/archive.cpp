@@ -1,14 +1,17 @@
 #include "archive/archive.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/names.h"
 #include "archive/printed_head.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "json/canonical_json.h"
+#include "text/visible_text.h"
 
 namespace gumcert::archive {
 
@@ -71,6 +74,91 @@ LogEntry entry_for(const Request& request, std::string kind, std::string certifi
             .hash = {}};
 }
 
+/// An entry that counts has the fields that were hashed.
+void require_whole(const LogEntry& entry) {
+    if (entry_hash(entry) != entry.hash) {
+        throw gum::StorageError(gum::Diagnostic{.code = "GC-ARCHIVE-0013",
+                                                .where = "entry " + std::to_string(entry.seq),
+                                                .what = "its fields give another hash than the one it has",
+                                                .rule = "an entry is as it was when it was written",
+                                                .action =
+                                                    "see what gumcert archive verify says, and restore the newest "
+                                                    "backup that can be verified"});
+    }
+}
+
+/// "2026-11-24…" as days since 1970-01-01.
+std::int64_t day_number(std::string_view at) {
+    const auto part = [&](std::size_t from, std::size_t length) {
+        int value = 0;
+        for (const char c : at.substr(std::min(from, at.size()), length)) {
+            value = c >= '0' && c <= '9' ? 10 * value + (c - '0') : value;
+        }
+        return value;
+    };
+    const std::chrono::year_month_day day{std::chrono::year(part(0, 4)),
+                                          std::chrono::month(static_cast<unsigned>(part(5, 2))),
+                                          std::chrono::day(static_cast<unsigned>(part(8, 2)))};
+    return std::chrono::sys_days(day).time_since_epoch().count();
+}
+
+/// Nobody can tell a holiday from a wrong clock but a person with a calendar.
+void require_no_jump(const std::string& last, const Request& request) {
+    constexpr std::int64_t k_week = 7;
+    const std::string day = request.at.substr(0, 10);
+    const std::int64_t days = day_number(request.at) - day_number(last);
+    if (days > k_week && request.confirmed_day != day) {
+        refuse_request(
+            "GC-ARCHIVE-0065", "the clock of this machine",
+            "says " + request.at + ", " + std::to_string(days) + " days after the last entry, " + last,
+            "an entry more than a week after the last one states the day by hand, because no later entry may "
+            "be earlier",
+            "look at a calendar: set the clock right, or add --today " + day);
+    }
+}
+
+void require_clear_name(const std::string& where, const std::string& name) {
+    if (const std::string objection = objection_to_name(name); !objection.empty()) {
+        refuse_request("GC-ARCHIVE-0033", where, text::in_quotes(name) + ' ' + objection,
+                       "names and numbers can be told apart by who reads them",
+                       "write it in letters of one script, with single plain blanks");
+    }
+}
+
+/// Persons that are told apart, and one who may change the settings.
+void require_persons(const Settings& settings) {
+    bool is_kept = settings.persons.empty();
+    for (auto one = settings.persons.begin(); one != settings.persons.end(); ++one) {
+        require_clear_name("persons", one->first);
+        is_kept = is_kept || one->second.contains("keeper");
+        for (auto other = settings.persons.begin(); other != one; ++other) {
+            if (may_be_one_person(other->first, one->first)) {
+                refuse_request(
+                    "GC-ARCHIVE-0033", "persons",
+                    text::in_quotes(other->first) + " and " + text::in_quotes(one->first) + " may be one person",
+                    "names and numbers can be told apart by who reads them",
+                    "state the roles of one person together, and tell others apart by more letters");
+            }
+        }
+    }
+    if (!is_kept) {
+        refuse_request("GC-ARCHIVE-0033", "persons", "nobody is a keeper",
+                       "somebody may change the settings and make backups, where persons are stated",
+                       "state a person with the role keeper");
+    }
+}
+
+constexpr const char* k_request = "request";  // member of a body: digest of what was asked for with a key
+
+std::string digest_of_request(const LogEntry& wanted, const std::string& why, const json& what) {
+    return encoding::sha256(gumcert::json::canonical_json({{"actor", wanted.actor},
+                                                           {"certificate", wanted.certificate},
+                                                           {"kind", wanted.kind},
+                                                           {"record", wanted.record},
+                                                           {"what", what},
+                                                           {"why", why}}));
+}
+
 json changed_state(const std::string& before, const std::string& after, const std::string& why) {
     return {{"old", {{"state", before}}}, {"new", {{"state", after}}}, {"why", why}};
 }
@@ -111,6 +199,7 @@ void list_again(Store& store) {
 LogEntry first_entry(const Settings& settings, const std::string& software, const std::string& nonce,
                      const Request& request) {
     require_numbering(settings);
+    require_persons(settings);
     LogEntry entry = entry_for(request, "created");
     entry.seq = 1;
     // The hash of this entry names the archive: with the nonce no two archives that begin alike have one name.
@@ -156,6 +245,7 @@ LogRules Archive::rules_for(const std::vector<std::string>& certificates, const 
     std::sort(needed.begin(), needed.end(), [](const LogEntry& a, const LogEntry& b) { return a.seq < b.seq; });
     LogRules rules;
     for (const LogEntry& entry : needed) {
+        require_whole(entry);
         rules.take(entry);
     }
     return rules;
@@ -173,38 +263,139 @@ LogEntry Archive::append(LogRules& rules, LogEntry entry) {
     if (entry.at < last->at) {
         refuse_breach({Breach::Kind::order, "", "no entry is earlier than the one before"}, entry, last->at);
     }
+    require_distinct(entry, rules);
     if (const std::optional<Breach> breach = rules.accept(entry)) {
         refuse_breach(*breach, entry, last->at);
     }
     entry.hash = entry_hash(entry);
     store_.append(entry);
+    numbers_as_of_ = numbers_as_of_ == entry.seq - 1 ? entry.seq : -1;
     if (is_of_life(entry.kind)) {
         store_.list(listed_as(entry.certificate, *rules.life(entry.certificate)));
     }
     return entry;
 }
 
+/// What a request asks beside actor, kind, certificate, record and reason.
+struct Archive::Asked {
+    json what;
+    /// Whether the entry with the same key has it too: of an earlier version, without a digest of its request, it says it.
+    std::function<bool(const LogEntry& entry, const json& body)> is_in;
+};
+
 /// \param wanted  an entry with the same key must be of this kind, actor, certificate ("" = any) and record ("" = any)
-Written Archive::write(const LogEntry& wanted, const std::function<LogEntry()>& work) {
+/// \param work    is given the beginning of a body, with the digest of a request that has a key
+Written Archive::write(const LogEntry& wanted, const Request& request, const Asked& asked,
+                       const std::function<LogEntry(json)>& work) {
     Written written;
-    store_.write([&] {
-        if (!wanted.request_key.empty()) {
-            if (std::optional<LogEntry> known = store_.entry_of_request(wanted.request_key)) {
-                if (known->kind != wanted.kind || known->actor != wanted.actor ||
-                    (!wanted.certificate.empty() && known->certificate != wanted.certificate) ||
-                    (!wanted.record.empty() && known->record != wanted.record)) {
-                    refuse_request(
-                        "GC-ARCHIVE-0027", wanted.request_key,
-                        "was the key of \"" + known->kind + "\" " + known->certificate + " by " + known->actor,
-                        "a key belongs to one request", "take a new key for a new request");
-                }
-                written = {std::move(*known), true};
-                return;
+    const std::string& why = request.why;
+    const std::string digest = digest_of_request(wanted, why, asked.what);
+    const auto whole = [&] {
+        std::optional<LogEntry> known =
+            wanted.request_key.empty() ? std::nullopt : store_.entry_of_request(wanted.request_key);
+        if (!known) {
+            if (const std::optional<LogEntry> last = store_.last_entry()) {
+                require_no_jump(last->at, request);
             }
+            json begun = json::object();
+            if (!wanted.request_key.empty()) {
+                begun[k_request] = digest;
+            }
+            written.entry = work(std::move(begun));
+            return;
         }
-        written.entry = work();
-    });
+        require_whole(*known);
+        const json body = body_of(*known).value_or(json::object());
+        const auto text_of_body = [&](const char* key) {
+            const auto found = body.find(key);
+            return found != body.end() && found->is_string() ? found->get<std::string>() : std::string();
+        };
+        const std::string stated = text_of_body(k_request);
+        const bool is_same = known->kind == wanted.kind && known->actor == wanted.actor &&
+                             (wanted.certificate.empty() || known->certificate == wanted.certificate) &&
+                             (wanted.record.empty() || known->record == wanted.record) &&
+                             (stated.empty() ? text_of_body("why") == why : stated == digest) &&
+                             asked.is_in(*known, body);
+        if (!is_same) {
+            refuse_request("GC-ARCHIVE-0027", wanted.request_key,
+                           "was the key of another request: \"" + known->kind + "\" " + known->certificate + " by " +
+                               known->actor + ", entry " + std::to_string(known->seq),
+                           "a key belongs to one request", "take a new key for a new request");
+        }
+        written = {std::move(*known), true};
+    };
+    try {
+        store_.write(whole);
+    } catch (...) {
+        numbers_as_of_ = -1;  // what was taken for known did not come in
+        throw;
+    }
     return written;
+}
+
+/// Record and documents, as they were archived: whoever judges them, judges these.
+void Archive::require_contents(const CertificateLife& life, const Judge& judge) {
+    const auto kept = [&](const std::string& sha256) {
+        std::optional<std::string> bytes = store_.content(sha256);
+        if (!bytes) {
+            throw gum::StorageError(
+                gum::Diagnostic{.code = "GC-ARCHIVE-0012",
+                                .where = store_.name() + ", content " + sha256,
+                                .what = "is not there",
+                                .rule = "a record or document is what was archived under its SHA-256",
+                                .action = "see what gumcert archive verify says, and restore the "
+                                          "newest backup that can be verified"});
+        }
+        return std::move(*bytes);
+    };
+    for (const std::string& document : life.documents) {
+        (void)kept(document);
+    }
+    if (!life.record.empty()) {
+        const std::string record = kept(life.record);
+        if (judge) {
+            judge(record, life);
+        }
+    }
+}
+
+/// What the log cannot tell apart later does not come in: names of persons, numbers of certificates.
+void Archive::require_distinct(const LogEntry& entry, const LogRules& rules) {
+    if (!entry.actor.empty() && !rules.settings().persons.contains(entry.actor)) {
+        require_clear_name("--by", entry.actor);
+    }
+    if (entry.certificate.empty()) {
+        return;
+    }
+    const CertificateLife* const life = rules.life(entry.certificate);
+    if (life == nullptr) {
+        require_clear_name("number", entry.certificate);
+        if (numbers_as_of_ != entry.seq - 1) {
+            numbers_by_form_.clear();
+            for (const ListedCertificate& known : store_.listed()) {
+                numbers_by_form_.emplace(confusable_form(known.number), known.number);
+            }
+            numbers_as_of_ = entry.seq - 1;
+        }
+        const auto [known, is_new] = numbers_by_form_.emplace(confusable_form(entry.certificate), entry.certificate);
+        if (!is_new && known->second != entry.certificate) {
+            refuse_request("GC-ARCHIVE-0024", entry.certificate,
+                           "the number cannot be told from " + text::in_quotes(known->second),
+                           "no number is given twice, and none that looks like another one",
+                           "take a number with gumcert archive number, and state it in the certificate data");
+        }
+        return;
+    }
+    const bool is_judged = entry.kind == "reviewed" || entry.kind == "authorised";
+    for (const std::string& author : life->authors) {
+        const bool may_be = author != entry.actor && may_be_one_person(author, entry.actor);
+        if (rules.settings().four_eyes && is_judged && may_be) {
+            refuse_request(
+                "GC-ARCHIVE-0022", entry.certificate,
+                text::in_quotes(author) + " has drafted it, and may be who is called " + text::in_quotes(entry.actor),
+                "nobody reviews or authorises what he has drafted (four eyes)", "let another person do it");
+        }
+    }
 }
 
 void Archive::require_known(const std::string& certificate, const std::vector<LogEntry>& entries) {
@@ -215,7 +406,9 @@ void Archive::require_known(const std::string& certificate, const std::vector<Lo
 
 Written Archive::take_number(const Request& request) {
     LogEntry entry = entry_for(request, "numbered");
-    return write(entry, [&] {
+    const Asked asked{
+        .what = {}, .is_in = [](const LogEntry&, const json& body) { return text_in(body, "new", "amends").empty(); }};
+    return write(entry, request, asked, [&](json body) {
         const std::string numbering = rules_for({}, "").settings().numbering;
         if (numbering.empty()) {
             refuse_request("GC-ARCHIVE-0025", store_.name(), "this archive gives no numbers",
@@ -236,7 +429,7 @@ Written Archive::take_number(const Request& request) {
             rules.take(known);
         }
         entry.certificate = *number;
-        json body = changed_state("", "numbered", request.why);
+        body.update(changed_state("", "numbered", request.why));
         body["new"]["ordinal"] = ordinal;
         body["new"]["series"] = series;
         entry.body = gumcert::json::canonical_json(body);
@@ -246,7 +439,10 @@ Written Archive::take_number(const Request& request) {
 
 Written Archive::take_amendment_number(const std::string& original, const Request& request) {
     const LogEntry wanted = entry_for(request, "numbered");
-    return write(wanted, [&] {
+    const Asked asked{.what = {{"amends", original}}, .is_in = [&](const LogEntry&, const json& body) {
+                          return text_in(body, "new", "amends") == original;
+                      }};
+    return write(wanted, request, asked, [&](json body) {
         require_known(original, store_.entries_of(original));
         const std::string series = series_of_amendments(original);
         LogRules rules = rules_for({original}, "");
@@ -268,7 +464,7 @@ Written Archive::take_amendment_number(const std::string& original, const Reques
         }
         LogEntry entry = wanted;
         entry.certificate = series + std::to_string(ordinal);
-        json body = changed_state("", "numbered", request.why);
+        body.update(changed_state("", "numbered", request.why));
         body["new"]["amends"] = original;
         body["new"]["ordinal"] = ordinal;
         body["new"]["series"] = series;
@@ -314,14 +510,29 @@ Written Archive::draft(const Draft& draft, const Request& request) {
                              {"sha256", contents.back().sha256},
                              {"bytes", document.bytes.size()}});
     }
-    return write(entry, [&] {
+    json amends;
+    if (draft.amends) {
+        json changes = json::array();
+        for (const AmendedPlace& place : draft.amends->changes) {
+            changes.push_back(
+                {{"kind", place.kind}, {"where", place.where}, {"before", place.before}, {"after", place.after}});
+        }
+        amends = {{"number", draft.amends->number}, {"kind", draft.amends->kind}, {"changes", std::move(changes)}};
+    }
+    const Asked asked{.what = {{"amends", amends}, {"documents", documents}, {"item", draft.item}},
+                      .is_in = [&](const LogEntry&, const json& body) {
+                          const json now = body.value("new", json::object());
+                          return now.value("documents", json()) == documents &&
+                                 now.value("item", json()) == draft.item && body.value("amends", json()) == amends;
+                      }};
+    return write(entry, request, asked, [&](json body) {
         std::vector<std::string> certificates{draft.number};
         if (draft.amends && draft.amends->number != draft.number) {
             certificates.push_back(draft.amends->number);
         }
         LogRules rules = rules_for(certificates, "");
         const CertificateLife* const life = rules.life(draft.number);
-        json body = changed_state(life != nullptr ? life->state : "", "drafted", request.why);
+        body.update(changed_state(life != nullptr ? life->state : "", "drafted", request.why));
         if (life != nullptr) {
             body["old"]["record"] = life->record;
             body["old"]["documents"] = life->documents;
@@ -330,27 +541,30 @@ Written Archive::draft(const Draft& draft, const Request& request) {
         body["new"]["documents"] = documents;
         body["new"]["item"] = draft.item;
         if (draft.amends) {
-            json changes = json::array();
-            for (const AmendedPlace& place : draft.amends->changes) {
-                changes.push_back(
-                    {{"kind", place.kind}, {"where", place.where}, {"before", place.before}, {"after", place.after}});
-            }
-            body["amends"] = {{"number", draft.amends->number}, {"kind", draft.amends->kind}, {"changes", changes}};
+            body["amends"] = amends;
         }
         entry.body = gumcert::json::canonical_json(body);
         require_heads(draft, entry.record);
         for (const Content& content : contents) {
             if (!store_.has(content.sha256)) {
                 store_.put(content);
+            } else {
+                (void)store_.content(content.sha256);  // and it is what it is named
             }
         }
         return append(rules, entry);
     });
 }
 
-Written Archive::advance(const std::string& certificate, const std::string& kind, const Request& request) {
+Written Archive::advance(const std::string& certificate, const std::string& kind, const Request& request,
+                         const Judge& judge) {
     LogEntry entry = entry_for(request, kind, certificate);
-    return write(entry, [&] {
+    // Asked again after a new draft it is another request: another record is to be judged.
+    const Asked asked{.what = {}, .is_in = [&](const LogEntry& known, const json&) {
+                          const LogRules rules = rules_for({certificate}, "");
+                          return rules.life(certificate)->record == known.record;
+                      }};
+    return write(entry, request, asked, [&](json body) {
         const std::vector<LogEntry> entries = store_.entries_of(certificate);
         require_known(certificate, entries);
         LogRules rules = rules_for({certificate}, "");
@@ -359,7 +573,11 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
             rules = rules_for({certificate, life.amends}, "");
         }
         entry.record = life.record;
-        entry.body = gumcert::json::canonical_json(changed_state(life.state, kind, request.why));
+        body.update(changed_state(life.state, kind, request.why));
+        entry.body = gumcert::json::canonical_json(body);
+        if (kind != "withdrawn") {
+            require_contents(life, judge);
+        }
         LogEntry written = append(rules, entry);
         if (kind == "issued" && !life.amends.empty()) {
             LogEntry of_original =
@@ -368,9 +586,9 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
             of_original.request_key.clear();
             const CertificateLife original = *rules.life(life.amends);
             of_original.record = original.record;
-            json body = changed_state(original.state, of_original.kind, request.why);
-            body["new"]["by"] = certificate;
-            of_original.body = gumcert::json::canonical_json(body);
+            json change = changed_state(original.state, of_original.kind, request.why);
+            change["new"]["by"] = certificate;
+            of_original.body = gumcert::json::canonical_json(change);
             (void)append(rules, of_original);
         }
         return written;
@@ -379,22 +597,29 @@ Written Archive::advance(const std::string& certificate, const std::string& kind
 
 Written Archive::change_settings(const Settings& settings, const Request& request) {
     require_numbering(settings);
+    require_persons(settings);
     LogEntry entry = entry_for(request, "settings");
-    return write(entry, [&] {
+    const Asked asked{.what = to_json(settings), .is_in = [&](const LogEntry&, const json& body) {
+                          return body.value("new", json()) == to_json(settings);
+                      }};
+    return write(entry, request, asked, [&](json body) {
         LogRules rules = rules_for({}, "");
-        entry.body = gumcert::json::canonical_json(
-            {{"old", to_json(rules.settings())}, {"new", to_json(settings)}, {"why", request.why}});
+        body.update({{"old", to_json(rules.settings())}, {"new", to_json(settings)}, {"why", request.why}});
+        entry.body = gumcert::json::canonical_json(body);
         return append(rules, entry);
     });
 }
 
 Written Archive::note_backup(const std::string& file, const Head& copy, const Request& request) {
     LogEntry entry = entry_for(request, "backed-up");
-    entry.body = gumcert::json::canonical_json(
-        {{"new", {{"file", file}, {"size", copy.size}, {"root", encoding::hexadecimal(copy.root)}}},
-         {"why", request.why}});
-    return write(entry, [&] {
+    // Each copy is another one: a key that was used belongs to the copy that the log knows.
+    const json made{{"file", file}, {"size", copy.size}, {"root", encoding::hexadecimal(copy.root)}};
+    const Asked asked{.what = made,
+                      .is_in = [&](const LogEntry&, const json& body) { return body.value("new", json()) == made; }};
+    return write(entry, request, asked, [&](json body) {
         LogRules rules = rules_for({}, "");
+        body.update({{"new", made}, {"why", request.why}});
+        entry.body = gumcert::json::canonical_json(body);
         return append(rules, entry);
     });
 }
@@ -427,15 +652,44 @@ std::vector<ListedCertificate> Archive::list() {
     return certificates;
 }
 
-void Archive::each_record(const std::function<void(const std::vector<ListedCertificate>&)>& begin,
+std::map<std::string, CertificateLife> Archive::stated_by_log() {
+    LogRules rules;
+    std::string before(k_hash_size, '\0');
+    store_.each_entry([&](const LogEntry& entry) {
+        require_whole(entry);
+        if (entry.prev != before) {
+            throw gum::StorageError(gum::Diagnostic{.code = "GC-ARCHIVE-0013",
+                                                    .where = "entry " + std::to_string(entry.seq),
+                                                    .what = "does not follow the entry before it",
+                                                    .rule = "an entry is as it was when it was written",
+                                                    .action = "see what gumcert archive verify says, and restore the "
+                                                              "newest backup that can be verified"});
+        }
+        before = entry.hash;
+        rules.take(entry);
+    });
+    return rules.lives();
+}
+
+std::vector<ListedCertificate> Archive::certificates() {
+    std::vector<ListedCertificate> certificates;
+    store_.read([&] {
+        for (const auto& [number, life] : stated_by_log()) {
+            certificates.push_back(listed_as(number, life));
+        }
+    });
+    return certificates;
+}
+
+void Archive::each_record(const std::function<void(const std::map<std::string, CertificateLife>&)>& begin,
                           const std::function<void(const ListedCertificate&, std::string bytes)>& visit) {
     store_.read([&] {
-        const std::vector<ListedCertificate> certificates = store_.listed();
-        begin(certificates);
-        for (const ListedCertificate& one : certificates) {
-            if (!one.record.empty()) {
+        const std::map<std::string, CertificateLife> lives = stated_by_log();
+        begin(lives);
+        for (const auto& [number, life] : lives) {
+            if (!life.record.empty()) {
                 // A record that is missing is for the verifier to tell; here it is one that says nothing.
-                visit(one, store_.content(one.record).value_or(""));
+                visit(listed_as(number, life), store_.content(life.record).value_or(""));
             }
         }
     });

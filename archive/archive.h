@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +22,9 @@ struct Request {
     std::string at;           ///< UTC, "2026-11-24T18:52:52Z"
     std::string request_key;  ///< the same key gives the same entry: a client may ask again after a crash; "" without
     std::string why;
+    /// "2026-11-24": the person has looked at a calendar. An entry more than a week after the last one needs it, because a
+    /// clock that is wrong once in the future stops the archive: no later entry may be earlier.
+    std::string confirmed_day = {};
 };
 
 /// A document that belongs to a record.
@@ -74,6 +80,8 @@ void list_again(Store& store);
 ///                          written then
 class Archive {
 public:
+    using Judge = std::function<void(const std::string& record, const CertificateLife& life)>;
+
     explicit Archive(Store& store) : store_(store) {}
 
     /// Takes the next certificate number; where it is not used in the end, it is withdrawn with a reason.
@@ -84,9 +92,13 @@ public:
     /// \throws gum::InputError  GC-ARCHIVE-0037 where a document prints a head that this archive never had, or that does
     ///                          not contain an earlier draft of the same record
     Written draft(const Draft& draft, const Request& request);
-    /// \param kind  "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
-    ///              amended or superseded, in one transaction.
-    Written advance(const std::string& certificate, const std::string& kind, const Request& request);
+    /// \param kind   "reviewed", "authorised", "issued" or "withdrawn". With an amendment that is issued its original is
+    ///               amended or superseded, in one transaction.
+    /// \param judge  is given the bytes of the record that is reviewed, authorised or issued, and its life before, inside
+    ///               of the transaction: where it throws, nothing is written
+    /// \throws gum::StorageError  GC-ARCHIVE-0012 where its record or a document is missing, or has other bytes
+    Written advance(const std::string& certificate, const std::string& kind, const Request& request,
+                    const Judge& judge = {});
     Written change_settings(const Settings& settings, const Request& request);
     /// \param file  name of the copy
     /// \param copy  head of the copy
@@ -96,10 +108,15 @@ public:
     /// \throws gum::InputError  GC-ARCHIVE-0026 where it is not in the archive
     [[nodiscard]] CertificateLife life(const std::string& certificate);
     [[nodiscard]] std::vector<LogEntry> history(const std::string& certificate);
+    /// As the table of lists says: fast, for people. What decides something asks certificates().
     [[nodiscard]] std::vector<ListedCertificate> list();
-    /// The certificates of list() that have a record, with its bytes, all of one state of the archive.
-    /// \param begin  is given that list, before the first record
-    void each_record(const std::function<void(const std::vector<ListedCertificate>&)>& begin,
+    /// As the log says, by number.
+    /// \throws gum::StorageError  GC-ARCHIVE-0013 where an entry has other fields than those that were hashed
+    [[nodiscard]] std::vector<ListedCertificate> certificates();
+    /// The certificates that have a record, with its bytes, all of one state of the archive, as the log says.
+    /// \param begin  is given the lives of all certificates by number, before the first record
+    /// \throws gum::StorageError  GC-ARCHIVE-0012, -0013 where contents or entries are not what was written
+    void each_record(const std::function<void(const std::map<std::string, CertificateLife>&)>& begin,
                      const std::function<void(const ListedCertificate&, std::string bytes)>& visit);
     /// Bytes of a record or document.
     [[nodiscard]] std::optional<std::string> content(const std::string& sha256);
@@ -112,11 +129,19 @@ public:
 
 private:
     Store& store_;
+    std::map<std::string, std::string> numbers_by_form_;  ///< confusable_form() → number, as of an entry
+    std::int64_t numbers_as_of_ = -1;                     ///< seq of that entry
 
+    struct Asked;
+
+    [[nodiscard]] std::map<std::string, CertificateLife> stated_by_log();
     [[nodiscard]] LogRules rules_for(const std::vector<std::string>& certificates, const std::string& series);
     [[nodiscard]] WalkedLog walked();
     LogEntry append(LogRules& rules, LogEntry entry);
-    Written write(const LogEntry& wanted, const std::function<LogEntry()>& work);
+    Written write(const LogEntry& wanted, const Request& request, const Asked& asked,
+                  const std::function<LogEntry(nlohmann::json)>& work);
+    void require_contents(const CertificateLife& life, const Judge& judge);
+    void require_distinct(const LogEntry& entry, const LogRules& rules);
     void require_heads(const Draft& draft, const std::string& record);
     void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/names.h"
 #include "encoding/sha2.h"
 #include "json/strict_parser.h"
 #include "text/utf8.h"
@@ -322,6 +323,12 @@ std::optional<Breach> LogRules::breach_of_draft(const LogEntry& entry, const jso
                           "an amendment states its kind, the reason and what has changed");
         }
     }
+    if (life != nullptr && !life->number_amends.empty() && life->number_amends != original_number) {
+        return breach(Breach::Kind::amendment,
+                      "the number was taken for an amendment of " + life->number_amends + ", and the draft " +
+                          (original_number.empty() ? "amends nothing" : "amends " + original_number),
+                      "a number that was taken for an amendment is one of its original");
+    }
     const bool numbered = life != nullptr;
     const bool follows_original = !original_number.empty() && entry.certificate.starts_with(original_number + "/");
     if (!settings_.numbering.empty() && !numbered && !follows_original) {
@@ -344,7 +351,11 @@ std::optional<Breach> LogRules::breach_of_person(const LogEntry& entry) const {
     const CertificateLife* const life = this->life(entry.certificate);
     const bool judged = entry.kind == "reviewed" || entry.kind == "authorised";
     // Of all drafts, not only the last one: who drafted once knows what he wanted to see.
-    if (settings_.four_eyes && judged && life != nullptr && life->authors.contains(entry.actor)) {
+    const bool is_author = judged && life != nullptr &&
+                           std::any_of(life->authors.begin(), life->authors.end(), [&](const std::string& author) {
+                               return name_key(author) == name_key(entry.actor);
+                           });
+    if (settings_.four_eyes && is_author) {
         return Breach{Breach::Kind::four_eyes, "\"" + entry.actor + "\" has drafted it",
                       "nobody reviews or authorises what he has drafted (four eyes)"};
     }
@@ -363,6 +374,11 @@ void LogRules::apply(const LogEntry& entry, const json& body) {
     CertificateLife& life = lives_[entry.certificate];
     life.state = entry.kind;
     life.since = entry.at;
+    if (entry.kind == "authorised") {
+        life.authorised_by = entry.actor;
+    } else if (entry.kind == "issued") {
+        life.issued_at = entry.at;
+    }
     due_kind_.clear();
     due_certificate_.clear();
     due_by_.clear();
@@ -372,8 +388,10 @@ void LogRules::apply(const LogEntry& entry, const json& body) {
             long long& last = ordinals_[text_of(member(body, "new"), "series")];
             last = std::max(last, ordinal.get<long long>());
         }
+        life.number_amends = text_of(member(body, "new"), "amends");
     } else if (entry.kind == "drafted") {
         life.authors.insert(entry.actor);
+        life.authorised_by.clear();
         life.record = entry.record;
         life.item = text_of(member(body, "new"), "item");
         life.documents = documents_in(body);

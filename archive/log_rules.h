@@ -21,6 +21,9 @@ struct CertificateLife {
     std::string item;                    ///< what was calibrated
     std::vector<std::string> documents;  ///< SHA-256 of those that hold
     std::set<std::string> authors;       ///< of all its drafts
+    std::string authorised_by;           ///< who authorised the draft that holds; "" before
+    std::string issued_at;               ///< time of its issue; "" before
+    std::string number_amends;           ///< original for which the number was taken; "" else
     std::string amends;                  ///< number of the certificate that it amends or replaces; "" else
     std::string amendment_kind;          ///< "amended" or "replaced"; "" else
     std::string later;                   ///< number of the certificate that amends or replaces it; "" else

@@ -101,7 +101,7 @@ set(GUMCERT_EDGES_signing                            text encoding system gum/qu
 set(GUMCERT_EDGES_imports                            text gum/quantity json gum/expression certificate reports reports/dcc
                                                      signing)
 set(GUMCERT_EDGES_archive_store                      encoding gum/quantity)
-set(GUMCERT_EDGES_archive                            text encoding gum/quantity json archive/store)
+set(GUMCERT_EDGES_archive                            text encoding gum/quantity gum/expression json archive/store)
 set(GUMCERT_EDGES_app                                text encoding system gum/quantity json gum/monte_carlo certificate
                                                      certificate/gates laboratory engine/rotary_table engine/rotary_table/studies gum/budget gum/circle_closure
                                                      gum/rotary_table gum/rotary_table/studies jobs jobs/certificate
@@ -111,9 +111,10 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      reports/record/make/circle_closure reports/record/make/certificate
                                                      reports reports/forms reports/audit reports/studies reports/dcc signing
                                                      imports workbook audit audit/rules audit/sources)
-set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/monte_carlo certificate/gates jobs
-                                                     reports/record reports/record/make/certificate reports signing
-                                                     imports app archive/store archive)
+set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/expression gum/monte_carlo certificate
+                                                     certificate/gates jobs reports/record
+                                                     reports/record/make/certificate reports reports/forms reports/dcc
+                                                     signing imports app archive/store archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
 set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates reports/record

@@ -248,6 +248,17 @@ def number_in(series, ordinal):
     return series[:run.start()] + str(ordinal).zfill(len(run[0])) + series[run.end():]
 
 
+# Capital letters of names: Latin (ASCII, Latin-1, Latin Extended-A but for U+0130), Greek, Cyrillic.
+CAPITALS = {code: chr(code).lower() for first, last in ((0x41, 0x5A), (0xC0, 0xDE), (0x100, 0x17E), (0x391, 0x3A9), (0x400, 0x42F))
+            for code in range(first, last + 1) if code != 0x130}
+BLANKS = re.compile("[ \u00a0\u2000-\u200a\u202f\u3000]+")
+
+
+def name_key(name):
+    """The form in which names of persons are compared."""
+    return BLANKS.sub(" ", name).strip(" ").translate(CAPITALS)
+
+
 class Rules:
     """What one entry after the other obeys, whoever wrote it."""
 
@@ -364,6 +375,8 @@ class Rules:
             changes = part(amends, "changes")
             if text(amends, "kind") not in ("amended", "replaced") or not text(body, "why") or not isinstance(changes, list) or not changes:
                 return "kind, reason or changes of the amendment are missing"
+        if life and life["number_amends"] not in ("", original):
+            return f"the number {number} was taken for an amendment of {life['number_amends']}"
         follows = bool(original) and number.startswith(original + "/")
         if self.judges_numbers and self.settings["numbering"] and life is None and not follows:
             return f"the number {number} was not taken"
@@ -375,7 +388,8 @@ class Rules:
         if self.settings["persons"] and role not in self.settings["persons"].get(actor, ()):
             return f"{actor} is no {role} of this archive"
         life = self.lives.get(names["certificate"])
-        if self.settings["four_eyes"] and kind in ("reviewed", "authorised") and life and actor in life["authors"]:
+        authors = {name_key(author) for author in life["authors"]} if life else set()
+        if self.settings["four_eyes"] and kind in ("reviewed", "authorised") and name_key(actor) in authors:
             return f"{actor} has drafted it, and nobody judges his own draft"
         return None
 
@@ -393,13 +407,14 @@ class Rules:
         if not number or kind not in KINDS_OF_LIFE:
             return
         life = self.lives.setdefault(number, {"state": "", "since": "", "item": "", "record": "", "documents": [], "authors": set(), "amends": "",
-                                              "amendment": "", "later": ""})
+                                              "amendment": "", "later": "", "number_amends": ""})
         life.update(state=kind, since=entry["at"].decode("utf-8", "replace"))
         self.due = None
         if kind == "numbered":
             series, ordinal = text(body, "new", "series"), part(body, "new", "ordinal")
             if type(ordinal) is int:
                 self.ordinals[series] = max(self.ordinals.get(series, 0), ordinal)
+            life["number_amends"] = text(body, "new", "amends")
         elif kind == "drafted":
             life["authors"].add(names["actor"])
             life.update(record=names["record"], item=text(body, "new", "item"), documents=documents_in(body), amends=text(body, "amends", "number"),

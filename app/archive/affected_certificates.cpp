@@ -10,7 +10,9 @@
 #include <tuple>
 #include <utility>
 
+#include "app/archive/record_parts.h"
 #include "app/recompute_record.h"
+#include "gum/expression/name_spelling.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
@@ -45,9 +47,9 @@ public:
 
     std::vector<SearchedRecord> read(archive::Archive& archive) {
         archive.each_record(
-            [&](const std::vector<archive::ListedCertificate>& certificates) {
-                for (const archive::ListedCertificate& one : certificates) {
-                    numbers_.insert(one.number);
+            [&](const std::map<std::string, archive::CertificateLife>& lives) {
+                for (const auto& [number, life] : lives) {
+                    numbers_.insert(number);
                 }
             },
             [&](const archive::ListedCertificate& certificate, std::string bytes) {
@@ -118,6 +120,17 @@ public:
             }
         }
     }
+    /// Texts that name nothing else than `name` but for their spelling: "std-017", "STD\u2011017, certificate 12".
+    [[nodiscard]] std::set<std::string> that_may_mean(const std::string& name) const {
+        std::set<std::string> found;
+        const std::string wanted = gum::without_spelling(name);
+        for (const auto& [text, records] : records_) {
+            if (!wanted.empty() && !names(text, name) && contains_name(gum::without_spelling(text), wanted)) {
+                found.insert(text);
+            }
+        }
+        return found;
+    }
     [[nodiscard]] std::set<std::size_t> that_name(const std::string& name) const {
         std::set<std::size_t> found;
         for (const auto& [text, records] : records_) {
@@ -130,6 +143,20 @@ public:
 
 private:
     std::map<std::string, std::vector<std::size_t>> records_;
+
+    /// Without spelling there are no blanks between words; but "std171" is another standard than "std17".
+    static bool contains_name(std::string_view text, std::string_view name) {
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+            const std::size_t end = at + name.size();
+            const bool goes_on = end < text.size() && is_digit(text[end]) && is_digit(name.back());
+            const bool began_before = at > 0 && is_digit(text[at - 1]) && is_digit(name.front());
+            if (!goes_on && !began_before) {
+                return true;
+            }
+        }
+        return false;
+    }
 };
 
 bool is_in_period(const RecordReferences& references, const std::string& since, const std::string& until) {
@@ -167,29 +194,96 @@ bool correct_files(reports::EvaluationRecord& record, const Correction& correcti
     return found;
 }
 
+/// A standard is found by its name alone: what a person should know of the name.
+std::vector<gum::Diagnostic> remarks_on_name(const std::string& name, const TextsOfRecords& texts) {
+    std::vector<gum::Diagnostic> remarks;
+    const auto add = [&](std::string what, const char* action) {
+        remarks.push_back({.code = "GC-ARCHIVE-0064",
+                           .where = "--source " + text::visible(name, 80),
+                           .what = std::move(what),
+                           .rule = "a record rests on a standard where it names it by these letters",
+                           .action = action,
+                           .severity = gum::Severity::warning});
+    };
+    for (const std::string& text : texts.that_may_mean(name)) {
+        add("records name " + text::in_quotes(text) + ", and are not among those that are listed for it",
+            "search for this name as well, where it is the same standard");
+    }
+    if (texts.that_name(name).empty()) {
+        add("no record names it",
+            "look at the spelling: it is the identification in the register, or the number of a "
+            "certificate of the standard");
+    }
+    return remarks;
+}
+
 double number_or(const nlohmann::json& object, const char* key, double otherwise) {
     const auto found = object.find(key);
     return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
 }
 
-/// The largest change of a value, or of its U, relative to U, of all values with U that two records have in common.
-double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
-    double largest = 0.0;
-    if (before.is_object() && now.is_object()) {
-        const double U = number_or(before, "U", 0.0);
-        if (U > 0.0 && before.contains("value") && now.contains("value")) {
-            const double value = number_or(before, "value", 0.0);
-            largest =
-                std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
+/// The change of a value, or of its U, relative to the U of before: of one object that has both.
+double shift_of(const nlohmann::json& before, const nlohmann::json& now) {
+    const double U = number_or(before, "U", 0.0);
+    if (!(U > 0.0) || !before.contains("value") || !now.is_object()) {
+        return 0.0;
+    }
+    const double value = number_or(before, "value", 0.0);
+    return std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
+}
+
+/// Value and U as a certified value has them issued: of an interval U is half of its width.
+nlohmann::json certified_value(const nlohmann::json& value) {
+    nlohmann::json stated = value;
+    const nlohmann::json& interval = part_of(value, "interval");
+    if (interval.is_array() && interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
+        stated["U"] = 0.5 * (interval[1].get<double>() - interval[0].get<double>());
+    }
+    return stated;
+}
+
+/// What certificates state, by its place: table, result and row.
+std::map<std::string, nlohmann::json> certified_values(const nlohmann::json& record) {
+    std::map<std::string, nlohmann::json> values;
+    for (const nlohmann::json& table : part_of(part_of(record, "certificate"), "tables")) {
+        for (const nlohmann::json& column : part_of(table, "columns")) {
+            std::size_t row = 0;
+            for (const nlohmann::json& value : part_of(column, "values")) {
+                values[text_of(table, "section") + '\n' + text_of(table, "id") + '\n' + text_of(column, "result") +
+                       '\n' + std::to_string(row++)] = certified_value(value);
+            }
         }
+    }
+    return values;
+}
+
+/// Of all objects with value and U in a part of two records that is stated as a whole.
+double shift_in(const nlohmann::json& before, const nlohmann::json& now) {
+    double largest = shift_of(before, now);
+    if (before.is_object() && now.is_object()) {
         for (const auto& [key, item] : before.items()) {
             if (const auto other = item.is_structured() ? now.find(key) : now.end(); other != now.end()) {
-                largest = std::max(largest, largest_shift(item, *other));
+                largest = std::max(largest, shift_in(item, *other));
             }
         }
     } else if (before.is_array() && now.is_array()) {
         for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
-            largest = std::max(largest, largest_shift(before[i], now[i]));
+            largest = std::max(largest, shift_in(before[i], now[i]));
+        }
+    }
+    return largest;
+}
+
+/// The largest change of a value, or of its U, relative to the U that was issued, of what the certificate states: its
+/// tables, or the report of a comparison. Inputs, the budget and the job that the record holds as well are none of it: a
+/// standard that changes by its own U moves a result by much less where other contributions are larger.
+double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
+    const std::map<std::string, nlohmann::json> stated = certified_values(before);
+    const std::map<std::string, nlohmann::json> again = certified_values(now);
+    double largest = stated.empty() ? shift_in(part_of(before, "comparison"), part_of(now, "comparison")) : 0.0;
+    for (const auto& [place, value] : stated) {
+        if (const auto found = again.find(place); found != again.end()) {
+            largest = std::max(largest, shift_of(value, found->second));
         }
     }
     return largest;
@@ -422,7 +516,8 @@ std::string filled(std::string text, std::size_t width) {
 }  // namespace
 
 std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
-                                               unsigned threads, const gum::Progress& progress) {
+                                               unsigned threads, const gum::Progress& progress,
+                                               std::vector<gum::Diagnostic>* remarks) {
     RecordSearch search(threads, progress);
     const std::vector<SearchedRecord> records = search.read(archive);
     const TextsOfRecords texts(records);
@@ -432,6 +527,9 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
         std::string name, through;
     };
     std::deque<Wanted> wanted{{standard.name, ""}};
+    if (remarks != nullptr) {
+        *remarks = remarks_on_name(standard.name, texts);
+    }
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (!records[i].references && records[i].certificate.state != "withdrawn") {  // it may rest on anything
             known.insert(i);

@@ -45,8 +45,11 @@ struct AffectedCertificate {
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
 /// every one that rests on a certificate that was found, from the first day on. What names() says of references_of() is
 /// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones.
+/// \param remarks  none, or GC-ARCHIVE-0064, warnings: names in records that differ from the standard in their spelling alone,
+///                 and that no record names it
 [[nodiscard]] std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
-                                                             unsigned threads, const gum::Progress& progress = {});
+                                                             unsigned threads, const gum::Progress& progress = {},
+                                                             std::vector<gum::Diagnostic>* remarks = nullptr);
 
 /// How affected certificates are calculated again.
 struct Correction {

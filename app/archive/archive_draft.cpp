@@ -1,18 +1,27 @@
 #include "app/archive/archive_draft.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/archive/document_agreement.h"
 #include "app/document_identity.h"
+#include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "archive/names.h"
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
+#include "reports/dcc/dcc_document.h"
+#include "reports/forms/document_forms.h"
+#include "reports/forms/html_texts.h"
+#include "reports/forms/pdf_page_texts.h"
+#include "reports/forms/render.h"
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "signing/verify.h"
-#include "text/markup.h"
+#include "text/visible_text.h"
 
 namespace gumcert::app {
 
@@ -70,48 +79,138 @@ void check_pdf_signatures(const signing::Verification& verification, bool trust_
     }
 }
 
-archive::Document checked_document(const fs::path& file, const std::string& number, const ArchiveChecks& checks,
-                                   CheckFindings& findings) {
-    archive::Document document{.name = file.filename().string(), .media_type = {}, .bytes = read_file(file)};
-    const std::string_view bytes = document.bytes;
-    const std::string_view start = bytes.substr(0, bytes.find_first_of("\r\n"));
-    if (start.starts_with("<!DOCTYPE html") || start.starts_with("<!doctype html")) {
-        document.media_type = "text/html";
-        if (bytes.find(text::escaped_markup(number)) == std::string_view::npos) {
-            refuse_as_other(file, "", number);
+/// Holds documents against the record that they are said to be made of.
+class DocumentsOfRecord {
+public:
+    DocumentsOfRecord(const reports::EvaluationRecord& record, const ArchiveChecks& checks)
+        : record_(record),
+          checks_(checks),
+          number_(record.certificate->data.number),
+          words_(document_words(checks.templates)) {
+        assets_.templates = checks.templates;
+    }
+
+    archive::Document checked(const fs::path& file, CheckFindings& findings) {
+        archive::Document document{.name = file.filename().string(), .media_type = {}, .bytes = read_file(file)};
+        require_as_written(file, document.bytes, findings);
+        const std::string_view bytes = document.bytes;
+        const std::string_view start = bytes.substr(0, bytes.find_first_of("\r\n"));
+        if (start.starts_with("<!DOCTYPE html") || start.starts_with("<!doctype html")) {
+            document.media_type = "text/html";
+            if (!says_number(document.bytes, number_)) {
+                refuse_as_other(file, "", number_);
+            }
+            require_agreement(file, PrintedDocument({reports::text_of_html(bytes)}));
+            return document;
+        }
+        const bool is_pdf = bytes.starts_with("%PDF-");
+        if (!is_pdf && !start.starts_with('<') && !start.starts_with("\xEF\xBB\xBF<")) {
+            refuse_document(file, "is neither a PDF, nor a digital certificate, nor HTML",
+                            "an archive keeps records and the documents that are made of them",
+                            "name the documents that gumcert run or gumcert render has written");
+        }
+        const signing::Verification verification = signing::verify_signatures(
+            document.bytes, file.string(), checks_.trusted.value_or(std::vector<signing::Bytes>()), checks_.now);
+        if (is_pdf) {
+            document.media_type = "application/pdf";
+            if (reports::printable(verification.pdf_keywords) != number_) {
+                refuse_as_other(file, verification.pdf_keywords, number_);
+            }
+            check_pdf_signatures(verification, checks_.trusted.has_value(), findings);
+        } else {
+            document.media_type = "application/xml";
+            findings.take(imports::check_certificate(document.bytes, file.string(),
+                                                     {.trusted = checks_.trusted, .now = checks_.now}));
+        }
+        for (const DocumentIdentity& identity : identities_in(document.bytes, file.string(), verification)) {
+            if (identity.number != number_) {
+                refuse_as_other(file, identity.number, number_);
+            }
+            if (!identity.state.empty()) {
+                refuse_document(file, "is a " + identity.state, "what is issued are the documents as they are archived",
+                                "mend what the findings of the record say, and make the documents anew");
+            }
+        }
+        if (is_pdf) {
+            require_agreement_of_pages(file, bytes);
+            signing::Verification alone;
+            alone.kind = "dcc";
+            for (const signing::Bytes& attachment : verification.attachments) {
+                if (!identities_in(attachment, file.string(), alone).empty()) {
+                    require_agreement_of_dcc(file, attachment);
+                }
+            }
+        } else {
+            require_agreement_of_dcc(file, bytes);
         }
         return document;
     }
-    const bool is_pdf = bytes.starts_with("%PDF-");
-    if (!is_pdf && !start.starts_with('<') && !start.starts_with("\xEF\xBB\xBF<")) {
-        refuse_document(file, "is neither a PDF, nor a digital certificate, nor HTML",
-                        "an archive keeps records and the documents that are made of them",
-                        "name the documents that gumcert run or gumcert render has written");
-    }
-    const signing::Verification verification = signing::verify_signatures(
-        document.bytes, file.string(), checks.trusted.value_or(std::vector<signing::Bytes>()), checks.now);
-    if (is_pdf) {
-        document.media_type = "application/pdf";
-        if (reports::printable(verification.pdf_keywords) != number) {
-            refuse_as_other(file, verification.pdf_keywords, number);
+
+    /// Files that one command wrote together are not mixed with others.
+    static void require_as_written(const fs::path& file, std::string_view bytes, CheckFindings& findings) {
+        std::vector<gum::Diagnostic> doubts = doubts_about_set(file, bytes);
+        for (gum::Diagnostic& doubt : doubts) {
+            doubt.severity = gum::Severity::error;
         }
-        check_pdf_signatures(verification, checks.trusted.has_value(), findings);
-    } else {
-        document.media_type = "application/xml";
-        findings.take(
-            imports::check_certificate(document.bytes, file.string(), {.trusted = checks.trusted, .now = checks.now}));
+        findings.take(std::move(doubts));
     }
-    for (const DocumentIdentity& identity : identities_in(document.bytes, file.string(), verification)) {
-        if (identity.number != number) {
-            refuse_as_other(file, identity.number, number);
-        }
-        if (!identity.state.empty()) {
-            refuse_document(file, "is a " + identity.state, "what is issued are the documents as they are archived",
-                            "mend what the findings of the record say, and make the documents anew");
+
+private:
+    const reports::EvaluationRecord& record_;
+    const ArchiveChecks& checks_;
+    std::string number_;
+    DocumentWords words_;
+    reports::RenderAssets assets_;
+    std::optional<std::string> digital_certificate_;  // as the record gives it now
+
+    static void refuse_disagreement(const fs::path& file, std::string what) {
+        if (!what.empty()) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0038",
+                .where = file.string(),
+                .what = std::move(what),
+                .rule = "a document states what its record states: values, uncertainties, verdicts (ISO/IEC "
+                        "17025:2017, 7.8.1.1)",
+                .action =
+                    "make the documents of this record with gumcert run or gumcert render, and add them together"});
         }
     }
-    return document;
-}
+
+    void require_agreement(const fs::path& file, const PrintedDocument& document) const {
+        if (record_.certificate->tables.empty()) {
+            refuse_disagreement(file,
+                                document.disagreement_with_report(reports::view_of_document(record_, assets_), words_));
+        } else {
+            refuse_disagreement(file, document.disagreement_with(*record_.certificate, words_));
+        }
+    }
+
+    void require_agreement_of_pages(const fs::path& file, std::string_view bytes) const {
+        std::vector<std::string> pages;
+        try {
+            pages = reports::texts_of_pages(bytes);
+        } catch (const std::exception& damaged) {
+            refuse_document(file, std::string("its pages cannot be read: ") + damaged.what(),
+                            "an archive keeps records and the documents that are made of them",
+                            "make the document anew");
+        }
+        const std::string number = reports::without_blanks(number_);
+        const bool on_every_page = std::all_of(pages.begin(), pages.end(), [&](const std::string& page) {
+            return page.find(number) != std::string::npos;
+        });
+        refuse_disagreement(file, pages.empty()    ? "has no pages"
+                                  : !on_every_page ? "does not print \"" + number_ + "\" on every page"
+                                                   : "");
+        require_agreement(file, PrintedDocument(pages));
+    }
+
+    void require_agreement_of_dcc(const fs::path& file, std::string_view bytes) {
+        if (!digital_certificate_) {
+            digital_certificate_ = reports::render_dcc(record_, assets_);
+        }
+        refuse_disagreement(file, disagreement_of_dcc(bytes, file.string(), *digital_certificate_));
+    }
+};
 
 std::string worded(const certificate::LocalisedText& text, const certificate::CertificateData& data) {
     return text.in(data.languages.empty() ? "en" : data.languages.front());
@@ -145,11 +244,13 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
         checked.draft.item += ", " + serial;
     }
     CheckFindings findings;
+    DocumentsOfRecord::require_as_written(record_file, checked.draft.record, findings);
+    DocumentsOfRecord of_record(checked.record, checks);
     for (const fs::path& document : documents) {
         if (checks.progress) {
             checks.progress("checking " + document.filename().string());
         }
-        checked.draft.documents.push_back(checked_document(document, data.number, checks, findings));
+        checked.draft.documents.push_back(of_record.checked(document, findings));
     }
     checked.remarks = std::move(findings).remarks();
     return checked;
@@ -197,6 +298,22 @@ void require_issuable(const std::string& record, const std::string& number, cons
                                              : "has critical findings",
                             .rule = "certificates are issued that nothing blocks, and not ahead of their date",
                             .action = "mend the certificate data or the measurement, and add the new record"});
+    }
+}
+
+void require_authoriser(const std::string& record, const std::string& number, const std::string& person) {
+    const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
+    const std::optional<certificate::Person>& named = read.certificate->data.persons.authorised_by;
+    if (named && !named->name.empty() && !archive::may_be_one_person(named->name, person)) {
+        throw gum::InputError(gum::Diagnostic{
+            .code = "GC-ARCHIVE-0039",
+            .where = number,
+            .what = "prints that " + text::in_quotes(named->name) + " authorises it, and " + text::in_quotes(person) +
+                    " does",
+            .rule =
+                "a certificate identifies who authorises it (ISO/IEC 17025:2017, 7.8.2.1), and the log says the same",
+            .action =
+                "let this person authorise it, or state the other one in the certificate data and add the new record"});
     }
 }
 

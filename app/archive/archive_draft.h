@@ -52,4 +52,9 @@ void state_amendment(CheckedDraft& amendment, const std::string& original);
 /// \throws gum::InputError  GC-ARCHIVE-0030 for a specimen, a certificate that findings block, or one dated ahead
 void require_issuable(const std::string& record, const std::string& number, const std::string& day);
 
+/// Whether a record names the person who authorises it (ISO/IEC 17025:2017, 7.8.2.1): documents print who it was.
+/// \param person  of the log
+/// \throws gum::InputError  GC-ARCHIVE-0039 where it names another person
+void require_authoriser(const std::string& record, const std::string& number, const std::string& person);
+
 }  // namespace gumcert::app

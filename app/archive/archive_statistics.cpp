@@ -46,8 +46,9 @@ public:
         count(found_.by_kind, text_of(record, "kind"));
         count(found_.by_method, method);
         if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
-            count(found_.by_month, text_of(dates, "issued").substr(0, 7));
-            count(found_.by_authoriser, text_of(part_of(part_of(data, "persons"), "authorised_by"), "name"));
+            const archive::CertificateLife& life = lives_.at(certificate.number);
+            count(found_.by_month, life.issued_at.substr(0, 7));
+            count(found_.by_authoriser, life.authorised_by);
         }
         found_.amendments += part_of(data, "amendment").is_object() ? 1U : 0U;
         const std::string done = text_of(dates, "performed_to");
@@ -55,14 +56,21 @@ public:
         take_scores(certificate.number, day, part_of(record, "comparison"));
         take_readings(certificate.number, day, method, part_of(record, "readings"));
     }
-    void count_state(const std::string& state) { count(found_.by_state, state); }
+    void begin(const std::map<std::string, archive::CertificateLife>& lives) {
+        lives_ = lives;
+        for (const auto& [number, life] : lives_) {
+            count(found_.by_state, life.state);
+        }
+    }
 
     ArchiveStatistics finish() && {
         std::sort(found_.scores.begin(), found_.scores.end(), [](const ArchivedScores& a, const ArchivedScores& b) {
             return std::tie(a.day, a.number) < std::tie(b.day, b.number);
         });
         for (auto& [key, scatters] : scatters_) {
-            std::sort(scatters.begin(), scatters.end(), [](const ArchivedScatter& x, const ArchivedScatter& y) {
+            const double usual = usual_scatter(scatters);
+            const auto value_of = [&](const ArchivedScatter& one) { return size_of(one, usual); };
+            std::sort(scatters.begin(), scatters.end(), [&](const ArchivedScatter& x, const ArchivedScatter& y) {
                 return std::tuple(value_of(x), x.day, x.number) < std::tuple(value_of(y), y.day, y.number);
             });
             for (auto first = scatters.begin(); first != scatters.end();) {
@@ -70,7 +78,11 @@ public:
                     return value_of(one) > k_near * value_of(*first);
                 });
                 if (last - first > 1) {
-                    found_.charts.push_back(chart_of(key, {first, last}));
+                    found_.charts.push_back(chart_of(key, value_of(*first), {first, last}));
+                } else {
+                    UnchartedScatter alone{.scatter = *first};
+                    std::tie(alone.method, alone.input, alone.unit) = key;
+                    found_.uncharted.push_back(std::move(alone));
                 }
                 first = last;
             }
@@ -82,21 +94,33 @@ private:
     using ChartKey = std::tuple<std::string, std::string, std::string>;
     static constexpr double k_near = 1.05;
     ArchiveStatistics found_;
+    std::map<std::string, archive::CertificateLife> lives_;  // as the log says
     std::map<ChartKey, std::vector<ArchivedScatter>> scatters_;
 
     static bool by_day(const ArchivedScatter& a, const ArchivedScatter& b) {
         return std::tie(a.day, a.number) < std::tie(b.day, b.number);
     }
-    /// By which sets of readings are compared with each other.
-    static double value_of(const ArchivedScatter& one) {
-        constexpr double k_away = 10.0;  // standard deviations
-        const double size = std::abs(one.mean);
-        return size > k_away * one.standard_deviation ? size : 0.0;
+    /// The median standard deviation of all sets of an input, of two the smaller one. A set that is out of control, and has a
+    /// larger one, stays among those with its mean: its own scatter does not choose with what it is compared.
+    static double usual_scatter(const std::vector<ArchivedScatter>& scatters) {
+        std::vector<double> all;
+        for (const ArchivedScatter& one : scatters) {
+            all.push_back(one.standard_deviation);
+        }
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>((all.size() - 1) / 2);
+        std::nth_element(all.begin(), middle, all.end());
+        return *middle;
     }
-    static RepeatabilityChart chart_of(const ChartKey& key, std::vector<ArchivedScatter> scatters) {
+    /// By which sets of readings are compared with each other.
+    static double size_of(const ArchivedScatter& one, double usual) {
+        constexpr double k_away = 10.0;  // usual standard deviations
+        const double size = std::abs(one.mean);
+        return size > k_away * usual ? size : 0.0;
+    }
+    static RepeatabilityChart chart_of(const ChartKey& key, double near, std::vector<ArchivedScatter> scatters) {
         RepeatabilityChart chart;
         std::tie(chart.method, chart.input, chart.unit) = key;
-        chart.near = value_of(scatters.front());
+        chart.near = near;
         std::sort(scatters.begin(), scatters.end(), by_day);
         double sum = 0.0;
         for (const ArchivedScatter& one : scatters) {
@@ -187,15 +211,10 @@ std::string place_of(const RepeatabilityChart& chart) {
 
 ArchiveStatistics statistics_of(archive::Archive& archive) {
     StatisticsOfRecords all;
-    archive.each_record(
-        [&](const std::vector<archive::ListedCertificate>& certificates) {
-            for (const archive::ListedCertificate& one : certificates) {
-                all.count_state(one.state);
-            }
-        },
-        [&](const archive::ListedCertificate& certificate, const std::string& bytes) {
-            all.look_at(certificate, bytes);
-        });
+    archive.each_record([&](const std::map<std::string, archive::CertificateLife>& lives) { all.begin(lives); },
+                        [&](const archive::ListedCertificate& certificate, const std::string& bytes) {
+                            all.look_at(certificate, bytes);
+                        });
     return std::move(all).finish();
 }
 
@@ -223,6 +242,14 @@ std::string statistics_text(const ArchiveStatistics& statistics) {
                         digits(one.limit) + "\n";
             }
         }
+    }
+    for (const UnchartedScatter& one : statistics.uncharted) {
+        text += &one == statistics.uncharted.data() ? "In no chart, because no other readings are near them\n" : "";
+        text += "  " + text::visible(one.method.empty() ? "(no method)" : one.method, 60) + ", " +
+                text::visible(one.input, 60) + ": " + text::visible(one.scatter.number, 40) + "  " +
+                text::visible(one.scatter.day, 20) + "  " + digits(one.scatter.standard_deviation) + " of " +
+                std::to_string(one.scatter.n) + " readings near " + digits(one.scatter.mean) + " " +
+                text::visible(one.unit, 20) + "\n";
     }
     for (const std::string& number : statistics.not_read) {
         text += "Not read: the record of " + text::visible(number, 80) + "\n";
@@ -259,6 +286,17 @@ std::string statistics_json(const ArchiveStatistics& statistics) {
                           {"degrees_of_freedom", chart.degrees_of_freedom},
                           {"values", std::move(values)}});
     }
+    json uncharted = json::array();
+    for (const UnchartedScatter& one : statistics.uncharted) {
+        uncharted.push_back({{"method", one.method},
+                             {"input", one.input},
+                             {"unit", one.unit},
+                             {"number", one.scatter.number},
+                             {"day", one.scatter.day},
+                             {"mean", one.scatter.mean},
+                             {"standard_deviation", one.scatter.standard_deviation},
+                             {"n", one.scatter.n}});
+    }
     return gumcert::json::canonical_json({{"schema", "gumcert/archive-statistics/1"},
                                           {"by_state", statistics.by_state},
                                           {"by_month", statistics.by_month},
@@ -268,7 +306,8 @@ std::string statistics_json(const ArchiveStatistics& statistics) {
                                           {"amendments", statistics.amendments},
                                           {"not_read", statistics.not_read},
                                           {"scores", std::move(scores)},
-                                          {"charts", std::move(charts)}});
+                                          {"charts", std::move(charts)},
+                                          {"uncharted", std::move(uncharted)}});
 }
 
 }  // namespace gumcert::app

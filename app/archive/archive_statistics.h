@@ -22,13 +22,20 @@ struct ArchivedScatter {
 };
 
 /// A control chart of standard deviations: readings of the same input of the same method near the same value. Near is
-/// within 5 % of the smallest one; readings whose mean is less than ten standard deviations away from 0 are near 0.
+/// within 5 % of the smallest one; readings whose mean is less than ten usual standard deviations away from 0 are near 0.
+/// Usual is the median of all sets of this input: what a set is compared with does not depend on its own scatter.
 struct RepeatabilityChart {
     std::string method, input, unit;
     double near = 0.0;                       ///< the mean of the readings that is next to 0, [unit]; 0: near 0
     double pooled_standard_deviation = 0.0;  ///< √(Σ ν s² / Σ ν), [unit]
     std::int64_t degrees_of_freedom = 0;     ///< Σ ν
     std::vector<ArchivedScatter> scatters;   ///< by day, then by number
+};
+
+/// Readings that no chart has, because no others are near them: nobody can say whether they are in control.
+struct UnchartedScatter {
+    std::string method = {}, input = {}, unit = {};
+    ArchivedScatter scatter;
 };
 
 /// E_n scores of one certificate or report of a comparison.
@@ -41,12 +48,13 @@ struct ArchivedScores {
 /// What an archive says of the work of a laboratory. Numbers and drafts that have no record yet are counted by state only.
 struct ArchiveStatistics {
     std::map<std::string, std::size_t> by_state, by_kind, by_method;
-    std::map<std::string, std::size_t> by_month;       ///< of issue, "2026-11"; certificates that were issued
-    std::map<std::string, std::size_t> by_authoriser;  ///< person that the certificate names; those that were issued
+    std::map<std::string, std::size_t> by_month;  ///< of issue by the log, "2026-11"; certificates that were issued
+    std::map<std::string, std::size_t> by_authoriser;  ///< person of the log; certificates that were issued
     std::size_t amendments = 0;                        ///< certificates that amend or replace another one
     std::vector<std::string> not_read;                 ///< certificates whose records cannot be read
     std::vector<ArchivedScores> scores;                ///< by day, then by number
     std::vector<RepeatabilityChart> charts;            ///< of two sets of readings or more, by method, input, value
+    std::vector<UnchartedScatter> uncharted;           ///< by method, input and unit, then by value
 };
 
 /// Reads all records of an archive. Withdrawn certificates are counted by state only.

@@ -66,7 +66,11 @@ struct Action {
 constexpr std::size_t k_any = 100'000;
 
 archive::Request request_of(const ArchiveOptions& options) {
-    return {.actor = options.by, .at = time_now(), .request_key = options.request_key, .why = options.why};
+    return {.actor = options.by,
+            .at = time_now(),
+            .request_key = options.request_key,
+            .why = options.why,
+            .confirmed_day = options.today};
 }
 
 std::unique_ptr<archive::Store> opened(const ArchiveOptions& options, archive::Access access) {
@@ -199,10 +203,18 @@ ExitCode amend_certificate(const ArchiveOptions& options, const CommonOptions& c
 ExitCode advance(const ArchiveOptions& options, const CommonOptions& common, const std::string& kind) {
     const auto store = opened(options, archive::Access::read_and_write);
     archive::Archive archive(*store);
-    if (kind == "issued" && !archive.life(options.named.front()).record.empty()) {
-        app::require_issuable(archive.record_of(options.named.front()), options.named.front(), today());
-    }
-    return told(archive.advance(options.named.front(), kind, request_of(options)), options, common);
+    const std::string& number = options.named.front();
+    const auto judge = [&](const std::string& record, const archive::CertificateLife& life) {
+        if (kind == "authorised") {
+            app::require_authoriser(record, number, options.by);
+        } else if (kind == "issued") {
+            app::require_issuable(record, number, today());
+            if (!life.authorised_by.empty()) {
+                app::require_authoriser(record, number, life.authorised_by);
+            }
+        }
+    };
+    return told(archive.advance(number, kind, request_of(options), judge), options, common);
 }
 
 ExitCode review_certificate(const ArchiveOptions& options, const CommonOptions& common) {
@@ -553,10 +565,12 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
                                                 .rule = "a backup is verified before it counts as one",
                                                 .action = "see what gumcert archive verify says of the archive"});
     }
+    // Where the entry is refused, the copy goes.
+    const archive::Written written =
+        archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options));
     fs::rename(part, file);
     app::synchronise_folder(place);
-    return told(archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options)),
-                options, common);
+    return told(written, options, common);
 }
 
 ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
@@ -644,7 +658,7 @@ std::vector<std::pair<std::string, std::string>> records_to_replay(archive::Arch
         records.emplace_back(number, archive.life(number).record);
     }
     if (options.named.empty()) {
-        for (const archive::ListedCertificate& one : archive.list()) {
+        for (const archive::ListedCertificate& one : archive.certificates()) {
             if (!one.record.empty()) {
                 records.emplace_back(one.number, one.record);
             }
@@ -799,7 +813,10 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     const auto tell = [&](const std::string& text) { progress(text); };
     const app::WrongStandard standard{.name = options.source, .since = options.since, .until = options.until};
     const auto threads = static_cast<unsigned>(common.threads);
-    std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell);
+    std::vector<gum::Diagnostic> remarks;
+    std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell, &remarks);
+    progress.clear();
+    print_messages(remarks, common);
     std::string work;
     if (!options.register_folder.empty()) {
         const app::Correction correction{
@@ -836,21 +853,21 @@ ExitCode show_statistics(const ArchiveOptions& options, const CommonOptions&) {
 
 constexpr std::array<Action, 20> k_actions = {{
     {"init", 0, 0, "nothing more", " store by why format numbering person four ", init_archive},
-    {"settings", 0, 0, "nothing more", " store by why key format numbering person four ", change_settings},
-    {"number", 0, 0, "nothing more", " store by why key format amend ", take_number},
-    {"add", 1, k_any, "a record and its documents", " store by why key format trust ", add_certificate},
-    {"review", 1, 1, "the number of a certificate", " store by why key format ", review_certificate},
-    {"authorise", 1, 1, "the number of a certificate", " store by why key format ", authorise_certificate},
-    {"issue", 1, 1, "the number of a certificate", " store by why key format ", issue_certificate},
-    {"amend", 1, k_any, "the record of the amendment and its documents", " store by why key format trust ",
+    {"settings", 0, 0, "nothing more", " store by why today key format numbering person four ", change_settings},
+    {"number", 0, 0, "nothing more", " store by why today key format amend ", take_number},
+    {"add", 1, k_any, "a record and its documents", " store by why today key format trust ", add_certificate},
+    {"review", 1, 1, "the number of a certificate", " store by why today key format ", review_certificate},
+    {"authorise", 1, 1, "the number of a certificate", " store by why today key format ", authorise_certificate},
+    {"issue", 1, 1, "the number of a certificate", " store by why today key format ", issue_certificate},
+    {"amend", 1, k_any, "the record of the amendment and its documents", " store by why today key format trust ",
      amend_certificate},
-    {"withdraw", 1, 1, "the number of a certificate", " store by why key format ", withdraw_certificate},
+    {"withdraw", 1, 1, "the number of a certificate", " store by why today key format ", withdraw_certificate},
     {"list", 0, k_any, "words to search for, or nothing for all", " store format ", list_certificates},
     {"show", 1, 1, "the number of a certificate", " store format ", show_certificate},
     {"export", 1, 1, "the number of a certificate", " store output sign since ", export_certificate},
     {"head", 0, 0, "nothing more", " store output sign since ", write_head},
     {"verify", 0, k_any, "files of evidence, or --store", " store format head trust ", verify_archive},
-    {"backup", 0, 0, "nothing more", " store by why key format output ", back_up},
+    {"backup", 0, 0, "nothing more", " store by why today key format output ", back_up},
     {"migrate", 0, 0, "nothing more", " store to format ", migrate},
     {"replay", 0, k_any, "numbers of certificates, or nothing for all", " store format shared ", replay},
     {"worker", 0, 0, "nothing more", " store wait ", work_for_others},
@@ -866,7 +883,7 @@ struct GivenOption {
 };
 
 void require_options(const Action& action, const ArchiveOptions& o) {
-    const std::array<GivenOption, 21> given = {{{"store", "--store", !o.store.empty()},
+    const std::array<GivenOption, 22> given = {{{"store", "--store", !o.store.empty()},
                                                 {"to", "--to", !o.to.empty()},
                                                 {"by", "--by", !o.by.empty()},
                                                 {"why", "--why", !o.why.empty()},
@@ -886,6 +903,7 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                                                 {"until", "--until", !o.until.empty()},
                                                 {"register", "--register", !o.register_folder.empty()},
                                                 {"shared", "--shared", o.shared},
+                                                {"today", "--today", !o.today.empty()},
                                                 {"wait", "--wait-for-work", o.wait}}};
     const auto takes = [&](const char* word) {
         return action.takes.find(" " + std::string(word) + " ") != std::string_view::npos;

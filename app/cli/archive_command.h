@@ -12,6 +12,7 @@ struct ArchiveOptions {
     std::string action;              ///< "init", "add" …
     std::vector<std::string> named;  ///< numbers of certificates, or files
     std::string store, to, by, why, request_key, format, output, numbering, sign, trust, share;
+    std::string today;                                  ///< the day, by who asks for an entry
     std::string amend;                                  ///< of number: the certificate that is amended
     std::string source, since, until, register_folder;  ///< of affected
     std::vector<std::string> heads, persons;

@@ -342,6 +342,12 @@ void add_archive(CLI::App& program, Arguments& a) {
                     "A text of your own that makes the request one: asked again with it, nothing happens twice")
         ->type_name("KEY");
     command
+        .add_option(
+            "--today", o.today,
+            "The day by the calendar, 2026-11-24: needed where the last entry is more than a week old, because a "
+            "clock that is wrong once in the future stops the archive")
+        ->type_name("DAY");
+    command
         .add_option("--format", o.format,
                     "text (for people), json (for programs) or, of affected, csv (for tables). Default: text")
         ->type_name("FORM")

@@ -126,11 +126,6 @@ public:
         return connection_.query("SELECT 1 FROM gumcert_archive.content WHERE sha256 = $1", {{sha256}}).size() > 0;
     }
 
-    [[nodiscard]] std::optional<std::string> content(const std::string& sha256) override {
-        const Rows rows = connection_.query("SELECT bytes FROM gumcert_archive.content WHERE sha256 = $1", {{sha256}});
-        return rows.size() > 0 ? std::optional(rows.column(0, 0)) : std::nullopt;
-    }
-
     [[nodiscard]] std::optional<LogEntry> last_entry() override { return first_of("ORDER BY seq DESC LIMIT 1", {}); }
 
     [[nodiscard]] std::optional<LogEntry> entry_of_request(const std::string& request_key) override {
@@ -264,6 +259,11 @@ public:
 
 private:
     PostgresqlConnection connection_;
+
+    [[nodiscard]] std::optional<std::string> stored_bytes(const std::string& sha256) override {
+        const Rows rows = connection_.query("SELECT bytes FROM gumcert_archive.content WHERE sha256 = $1", {{sha256}});
+        return rows.size() > 0 ? std::optional(rows.column(0, 0)) : std::nullopt;
+    }
 
     std::vector<LogEntry> all_of(const std::string& rest, const std::vector<Value>& values) {
         const Rows rows = connection_.query(k_columns + rest, values);

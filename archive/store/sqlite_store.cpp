@@ -203,11 +203,6 @@ public:
         return row.text(sha256).next();
     }
 
-    [[nodiscard]] std::optional<std::string> content(const std::string& sha256) override {
-        Statement row = statement("SELECT bytes FROM content WHERE sha256 = ?1");
-        return row.text(sha256).next() ? std::optional(row.column(0)) : std::nullopt;
-    }
-
     [[nodiscard]] std::optional<LogEntry> last_entry() override {
         Statement row = statement(select_entries("ORDER BY seq DESC LIMIT 1"));
         return row.next() ? std::optional(entry_of(row)) : std::nullopt;
@@ -264,6 +259,11 @@ public:
 private:
     fs::path file_;
     Database database_;
+
+    [[nodiscard]] std::optional<std::string> stored_bytes(const std::string& sha256) override {
+        Statement row = statement("SELECT bytes FROM content WHERE sha256 = ?1");
+        return row.text(sha256).next() ? std::optional(row.column(0)) : std::nullopt;
+    }
 
     [[nodiscard]] std::vector<std::string> integrity_lines();
     [[nodiscard]] std::vector<std::string> integrity_problems();

@@ -53,7 +53,9 @@ public:
     virtual void list(const ListedCertificate& certificate) = 0;
 
     [[nodiscard]] virtual bool has(const std::string& sha256) = 0;
-    [[nodiscard]] virtual std::optional<std::string> content(const std::string& sha256) = 0;
+    /// Bytes under their hash, which is computed again: nobody goes on with others.
+    /// \throws gum::StorageError  GC-ARCHIVE-0012 where the bytes have another hash
+    [[nodiscard]] std::optional<std::string> content(const std::string& sha256);
     [[nodiscard]] virtual std::optional<LogEntry> last_entry() = 0;
     [[nodiscard]] virtual std::optional<LogEntry> entry_of_request(const std::string& request_key) = 0;
     /// Of one certificate, the oldest first.
@@ -71,6 +73,10 @@ public:
     /// A copy as it is at one moment, while others write.
     /// \param file  a name that is not there yet
     virtual void copy_to(const std::filesystem::path& file) = 0;
+
+private:
+    /// As they are stored.
+    [[nodiscard]] virtual std::optional<std::string> stored_bytes(const std::string& sha256) = 0;
 };
 
 /// Adds entries and contents to a store that is being made.

@@ -277,6 +277,10 @@ private:
 
 }  // namespace
 
+std::string without_blanks(const std::string& text) {
+    return bare(text);
+}
+
 std::vector<std::string> texts_of_pages(std::string_view bytes) {
     QPDF pdf;
     pdf.setSuppressWarnings(true);

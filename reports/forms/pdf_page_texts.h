@@ -15,6 +15,9 @@ namespace gumcert::reports {
 /// \throws std::exception of the reader if the file is no PDF
 [[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
 
+/// A text without blanks and hyphens, as texts_of_pages() gives it.
+[[nodiscard]] std::string without_blanks(const std::string& text);
+
 /// Whether each text stands on every page: the number of a certificate, the mark of a draft or a specimen, the digest of
 /// templates that were changed. A template of a laboratory can forget them; then there is no document.
 /// \param pages  as of texts_of_pages()

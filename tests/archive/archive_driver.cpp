@@ -89,8 +89,11 @@ int write(const std::vector<std::string>& words) {
     for (int i = 0; i < std::stoi(words.at(3)); ++i) {
         const std::string number = words[2] + "-" + std::to_string(i);
         const Written written =
-            archive.draft(test::sample_draft(number, std::to_string(i)),
-                          {.actor = words[2], .at = "2026-11-24T12:00:00Z", .request_key = number, .why = ""});
+            archive.draft(test::sample_draft(number, std::to_string(i)), {.actor = words[2],
+                                                                          .at = "2026-11-24T12:00:00Z",
+                                                                          .request_key = number,
+                                                                          .why = "",
+                                                                          .confirmed_day = "2026-11-24"});
         std::cout << number << ' ' << written.entry.seq << ' ' << written.entry.record << std::endl;  // NOLINT
     }
     return 0;
@@ -109,7 +112,8 @@ int number(const std::vector<std::string>& words) {
         const Written written = archive.take_number({.actor = words[2],
                                                      .at = "2026-11-24T12:00:00Z",
                                                      .request_key = words[2] + "-" + std::to_string(i),
-                                                     .why = ""});
+                                                     .why = "",
+                                                     .confirmed_day = "2026-11-24"});
         std::cout << written.entry.certificate << std::endl;  // NOLINT(performance-avoid-endl)
     }
     return 0;

@@ -231,6 +231,17 @@ def four_eyes_broken(rng, db):
     rewrite(db, log)
 
 
+def four_eyes_spelled(rng, db):
+    """The same person with other capitals and blanks."""
+    four_eyes_broken(rng, db)
+    log = entries(db)
+    drafted = {(e["certificate"], e["actor"]) for e in log if e["kind"] == "drafted"}
+    for entry in log:
+        if entry["kind"] == "reviewed" and (entry["certificate"], entry["actor"]) in drafted:
+            entry["actor"] = rng.choice((str.upper, str.lower))(entry["actor"]).replace(" ", rng.choice(("  ", "\u00a0", " \u202f")))
+    rewrite(db, log)
+
+
 def truncate(rng, db):
     """Cuts off the end, with the contents that nobody names any more."""
     last = db.execute("SELECT max(seq) FROM log").fetchone()[0]
@@ -282,7 +293,8 @@ GRAMMARS = [another_grammar(text) for text in (
     r'"\ud800"', r'"\u0000"', "1e999", "9" * 400, str(2**53 + 1), "NaN", "[" * 150 + "]" * 150, '"' + "a" * 3_000_000 + '"', '1, "x": 2')]
 ATTACKS = [edit_body, edit_time, edit_person, edit_number, edit_content, swap_contents, delete_content, add_content, edit_list, take_from_list,
            add_to_list, delete_entry,
-           delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken, *GRAMMARS]
+           delete_and_renumber, swap_entries, move_between_fields, replace_entry, forged_state, four_eyes_broken,
+           four_eyes_spelled, *GRAMMARS]
 ATTACKS_ON_THE_END = [truncate, recompute, rewritten_from_the_start]  # without a head nobody can know
 
 

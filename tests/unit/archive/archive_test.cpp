@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "archive/store/open_store.h"
 #include "archive/verification.h"
@@ -95,6 +98,228 @@ TYPED_TEST(ArchiveLaws, NumbersAmendmentsWithoutGapOrDouble) {
     this->lead_to_issue(number + "/A1");
     EXPECT_EQ(code_of([&] { (void)next(); }), "GC-ARCHIVE-0031") << "it is amended already";
     EXPECT_TRUE(verify_store(*this->store_).sound());
+}
+
+TYPED_TEST(ArchiveLaws, TellsPersonsAndNumbersApart) {
+    const std::string number = this->archive_->take_number(this->by("René Lin")).entry.certificate;
+    (void)this->archive_->draft(sample_draft(number), this->by("René Lin"));
+    const auto reviewed = [&](const std::string& who) {
+        return code_of([&] { (void)this->archive_->advance(number, "reviewed", this->by(who)); });
+    };
+    for (const char* const hidden : {"René Lin ", "René  Lin", "Rene\u0301 Lin", "R\u0435né Lin", "René\u200BLin"}) {
+        EXPECT_EQ(reviewed(hidden), "GC-ARCHIVE-0033") << hidden;
+    }
+    for (const char* const same : {"René Lin", "rené lin", "RENÉ LIN", "Rene Lin", "René-Lin"}) {
+        EXPECT_EQ(reviewed(same), "GC-ARCHIVE-0022") << same;
+    }
+    const Settings free{.four_eyes = true, .numbering = ""};
+    (void)this->archive_->change_settings(free, this->by("K. Keeper", "numbers come from elsewhere"));
+    const auto drafted = [&](const std::string& other) {
+        return code_of([&] { (void)this->archive_->draft(sample_draft(other), this->by("A. Author")); });
+    };
+    EXPECT_EQ(drafted("X-1"), "");
+    for (const char* const alike : {"x-1", "\u0425-1", "X\u20111"}) {
+        EXPECT_EQ(drafted(alike), "GC-ARCHIVE-0024") << alike;
+    }
+    EXPECT_EQ(drafted("X-1\u200B"), "GC-ARCHIVE-0033");
+    EXPECT_EQ(drafted("X-11"), "");
+    const auto settled = [&](const std::map<std::string, std::set<std::string>>& persons) {
+        Settings settings = free;
+        settings.persons = persons;
+        return code_of([&] { (void)this->archive_->change_settings(settings, this->by("K. Keeper", "persons")); });
+    };
+    EXPECT_EQ(settled({{"R. Lin", {"author"}}}), "GC-ARCHIVE-0033") << "nobody is a keeper";
+    EXPECT_EQ(settled({{"K. Keeper", {"keeper"}}, {"R. Lin", {"author"}}, {"r. lin", {"authoriser"}}}),
+              "GC-ARCHIVE-0033");
+    EXPECT_EQ(settled({{"K. Keeper", {"keeper"}}, {"R. Lin ", {"reviewer"}}}), "GC-ARCHIVE-0033");
+    EXPECT_EQ(settled({{"K. Keeper", {"keeper"}}, {"R. Lin", {"author"}}}), "");
+    EXPECT_TRUE(verify_store(*this->store_).sound());
+}
+
+/// An entry with a time in the future stops the archive until then: a person confirms the day.
+TYPED_TEST(ArchiveLaws, AsksForTheDayAfterAWeek) {
+    const std::string last = this->archive_->take_number(this->by("A. Author")).entry.at;
+    ASSERT_EQ(last.substr(0, 10), "2026-01-01");
+    const auto taken = [&](const std::string& at, const std::string& day) {
+        Request request = this->by("A. Author");
+        request.at = at;
+        request.confirmed_day = day;
+        return code_of([&] { (void)this->archive_->take_number(request); });
+    };
+    EXPECT_EQ(taken("2026-01-09T00:00:00Z", ""), "GC-ARCHIVE-0065");
+    EXPECT_EQ(taken("2036-01-01T00:00:00Z", ""), "GC-ARCHIVE-0065");
+    EXPECT_EQ(taken("2036-01-01T00:00:00Z", "2026-01-01"), "GC-ARCHIVE-0065");
+    EXPECT_EQ(taken("2026-01-08T23:59:59Z", ""), "");
+    EXPECT_EQ(taken("2026-03-01T00:00:00Z", "2026-03-01"), "");
+    EXPECT_EQ(taken("2026-03-01T00:00:01Z", ""), "");
+}
+
+/// Every request that writes, once with a key and once more with each of its parts changed.
+TYPED_TEST(ArchiveLaws, AKeyBelongsToOneRequest) {
+    const std::string number = this->issued();
+    const std::string other = this->issued();
+    const std::string draft = this->archive_->take_number(this->by("A. Author")).entry.certificate;
+    using Ask = std::function<Written(const Request&)>;
+    struct Case {
+        const char* name;
+        Ask ask;
+        std::vector<Ask> others;
+    };
+    const auto with = [](Draft changed, const std::function<void(Draft&)>& change) {
+        change(changed);
+        return changed;
+    };
+    const Draft whole = sample_draft(draft);
+    const auto drafted = [&](const std::function<void(Draft&)>& change) -> Ask {
+        return [&, change](const Request& request) { return this->archive_->draft(with(whole, change), request); };
+    };
+    const auto advanced = [&](const std::string& certificate, const std::string& kind) -> Ask {
+        return [&, certificate, kind](const Request& request) {
+            return this->archive_->advance(certificate, kind, request);
+        };
+    };
+    const auto numbered = [&](const std::string& original) -> Ask {
+        return [&, original](const Request& request) {
+            return original.empty() ? this->archive_->take_number(request)
+                                    : this->archive_->take_amendment_number(original, request);
+        };
+    };
+    const auto settled = [&](bool four_eyes) -> Ask {
+        return [&, four_eyes](const Request& request) {
+            return this->archive_->change_settings({.four_eyes = four_eyes, .numbering = "EX-YYYY-###"}, request);
+        };
+    };
+    const auto backed_up = [&](const std::string& file) -> Ask {
+        return [&, file, head = this->archive_->head()](const Request& request) {
+            return this->archive_->note_backup(file, head, request);
+        };
+    };
+    const std::vector<Case> cases = {
+        {"number", numbered(""), {numbered(number), advanced(draft, "withdrawn")}},
+        {"amendment", numbered(number), {numbered(""), numbered(other)}},
+        {"draft",
+         drafted([](Draft&) {}),
+         {drafted([](Draft& d) {
+              d.documents.push_back({"more.xml", "application/xml", "<more/>"});
+          }),
+          drafted([](Draft& d) { d.documents.pop_back(); }), drafted([](Draft& d) { d.item = "another"; }),
+          drafted([](Draft& d) { d.record += " "; }), drafted([](Draft& d) { d.documents[0].name = "other.pdf"; }),
+          drafted([&](Draft& d) {
+              d.amends = Draft::Amends{.number = number, .kind = "amended", .changes = {{"U", "l", "1", "2"}}};
+          })}},
+        {"withdraw", advanced(other, "withdrawn"), {advanced(number, "withdrawn")}},
+        {"settings", settled(false), {settled(true)}},
+        {"backup", backed_up("a"), {backed_up("b")}}};
+    for (const Case& one : cases) {
+        const Request request = this->by("R. Reviewer", "a reason", one.name);
+        const Written first = one.ask(request);
+        EXPECT_FALSE(first.repeated) << one.name;
+        Request again = request;
+        again.at = this->clock_.next();
+        const Written repeated = one.ask(again);
+        EXPECT_TRUE(repeated.repeated) << one.name;
+        EXPECT_EQ(repeated.entry, first.entry) << one.name;
+        const Head before = this->archive_->head();
+        for (const Ask& ask : one.others) {
+            EXPECT_EQ(code_of([&] { (void)ask(again); }), "GC-ARCHIVE-0027")
+                << one.name << ' ' << &ask - one.others.data();
+        }
+        again.why = "another reason";
+        EXPECT_EQ(code_of([&] { (void)one.ask(again); }), "GC-ARCHIVE-0027") << one.name;
+        again = request;
+        again.actor = "N. Obody";
+        EXPECT_EQ(code_of([&] { (void)one.ask(again); }), "GC-ARCHIVE-0027") << one.name;
+        EXPECT_EQ(this->archive_->head(), before) << one.name;
+    }
+    EXPECT_TRUE(verify_store(*this->store_).sound());
+}
+
+TYPED_TEST(ArchiveLaws, AReviewWithAKeyIsOfOneDraft) {
+    const std::string number = this->archive_->take_number(this->by("A. Author")).entry.certificate;
+    (void)this->archive_->draft(sample_draft(number), this->by("A. Author"));
+    const Request review = this->by("R. Reviewer", "", "key");
+    (void)this->archive_->advance(number, "reviewed", review);
+    EXPECT_TRUE(this->archive_->advance(number, "reviewed", review).repeated);
+    (void)this->archive_->draft(sample_draft(number, "2"), this->by("A. Author"));
+    EXPECT_EQ(code_of([&] { (void)this->archive_->advance(number, "reviewed", review); }), "GC-ARCHIVE-0027");
+}
+
+/// What an earlier version wrote has no digest of its request: what is there is compared.
+TYPED_TEST(ArchiveLaws, AKeyOfAnEarlierVersionIsComparedAsFarAsItCanBe) {
+    const std::string number = this->issued();
+    LogEntry entry{.seq = 0,
+                   .at = this->clock_.next(),
+                   .actor = "R. Reviewer",
+                   .kind = "withdrawn",
+                   .certificate = number,
+                   .record = this->archive_->life(number).record,
+                   .request_key = "old",
+                   .body = R"({"new":{"state":"withdrawn"},"old":{"state":"issued"},"why":"a reason"})",
+                   .prev = {},
+                   .hash = {}};
+    this->store_->write([&] {
+        const LogEntry last = *this->store_->last_entry();
+        entry.seq = last.seq + 1;
+        entry.prev = last.hash;
+        entry.hash = entry_hash(entry);
+        this->store_->append(entry);
+    });
+    const auto asked = [&](const std::string& why) {
+        return this->archive_->advance(number, "withdrawn", this->by("R. Reviewer", why, "old"));
+    };
+    EXPECT_EQ(asked("a reason").entry, entry);
+    EXPECT_EQ(code_of([&] { (void)asked("another"); }), "GC-ARCHIVE-0027");
+}
+
+/// What decides is the log: a table of lists that was edited changes nothing.
+TYPED_TEST(ArchiveLaws, RecordsAreThoseOfTheLogWhateverListsSay) {
+    const std::string first = this->issued();
+    const std::string second = this->issued();
+    const std::vector<ListedCertificate> before = this->archive_->certificates();
+    EXPECT_EQ(before, this->archive_->list());
+    this->store_->write([&] {
+        ListedCertificate edited = before[0];
+        edited.state = "withdrawn";
+        edited.record = before[1].record;
+        this->store_->list(edited);
+        edited.number = "EX-2026-999";
+        this->store_->list(edited);
+    });
+    EXPECT_NE(this->archive_->list(), before);
+    EXPECT_EQ(this->archive_->certificates(), before);
+    std::vector<std::string> records;
+    this->archive_->each_record([&](const auto& certificates) { EXPECT_EQ(certificates.size(), 2U); },
+                                [&](const ListedCertificate& one, const std::string& bytes) {
+                                    EXPECT_EQ(one.state, "issued");
+                                    records.push_back(bytes);
+                                });
+    EXPECT_EQ(records, (std::vector<std::string>{sample_draft(first).record, sample_draft(second).record}));
+}
+
+/// Bytes that have another hash than their name are read by nobody.
+TYPED_TEST(ArchiveLaws, GoesOnWithNoBytesOfAnotherHash) {
+    const std::string number = this->archive_->take_number(this->by("A. Author")).entry.certificate;
+    const Draft draft = sample_draft(number);
+    const std::string sha256 = encoding::sha256(draft.documents[1].bytes);
+    this->store_->write([&] { this->store_->put({sha256, "something else"}); });
+    EXPECT_EQ(code_of([&] { (void)this->archive_->content(sha256); }), "GC-ARCHIVE-0012");
+    EXPECT_EQ(code_of([&] { (void)this->archive_->draft(draft, this->by("A. Author")); }), "GC-ARCHIVE-0012");
+}
+
+/// The judge of a record is asked inside of the transaction: what he refuses is not written.
+TYPED_TEST(ArchiveLaws, AJudgeSeesTheRecordThatCounts) {
+    const std::string number = this->archive_->take_number(this->by("A. Author")).entry.certificate;
+    (void)this->archive_->draft(sample_draft(number), this->by("A. Author"));
+    const Head before = this->archive_->head();
+    const auto refuse = [&](const std::string& record, const CertificateLife& life) {
+        EXPECT_EQ(record, sample_draft(number).record);
+        EXPECT_EQ(life.state, "drafted");
+        throw gum::InputError(
+            gum::Diagnostic{.code = "GC-ARCHIVE-0030", .where = "", .what = "", .rule = "", .action = ""});
+    };
+    EXPECT_EQ(code_of([&] { (void)this->archive_->advance(number, "reviewed", this->by("R. Reviewer"), refuse); }),
+              "GC-ARCHIVE-0030");
+    EXPECT_EQ(this->archive_->head(), before);
 }
 
 TYPED_TEST(ArchiveLaws, RefusesWithTheCodeOfTheRule) {

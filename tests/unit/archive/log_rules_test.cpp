@@ -127,6 +127,10 @@ TEST(FourEyes, AreThoseOfAnother) {
     EXPECT_EQ(log.step("C", "authorised", "A. Author"), rule);
     EXPECT_EQ(log.step("C", "authorised"), "");
     EXPECT_EQ(log.step("C", "issued", "A. Author"), "");
+    EXPECT_EQ(log.draft("D"), "");
+    for (const char* const spelled : {"a. author", "A.  AUTHOR", " A. Author", "A. Author ", "A.\u00A0Author"}) {
+        EXPECT_EQ(log.step("D", "reviewed", spelled), rule) << spelled;
+    }
     ToldLog alone(Settings{.four_eyes = false, .numbering = ""});
     EXPECT_EQ(alone.draft("C"), "");
     EXPECT_EQ(alone.step("C", "reviewed", "A. Author"), "");
@@ -190,6 +194,23 @@ TEST(Amendments, EndTheirOriginal) {
     EXPECT_EQ(log.rules.life("C/A1")->amends, "C");
     EXPECT_EQ(log.draft("C/A2", log.amends("C")),
               "an amendment amends or replaces a certificate that is issued and holds");
+}
+
+/// A number that was taken for an amendment of one certificate is that of no other one, and of no ordinary certificate.
+TEST(Amendments, HaveTheNumberOfTheirOriginal) {
+    constexpr const char* rule = "a number that was taken for an amendment is one of its original";
+    ToldLog log;
+    log.issue("C");
+    log.issue("D");
+    for (int ordinal = 1; ordinal <= 3; ++ordinal) {
+        const json now = {{"state", "numbered"}, {"amends", "C"}, {"ordinal", ordinal}, {"series", "C/A"}};
+        EXPECT_EQ(log.tell("numbered", "C/A" + std::to_string(ordinal), {{"old", {{"state", ""}}}, {"new", now}}), "");
+    }
+    EXPECT_EQ(log.draft("C/A1", log.amends("D")), rule);
+    EXPECT_EQ(log.draft("C/A1"), rule);
+    EXPECT_EQ(log.draft("C/A1", log.amends("C")), "");
+    EXPECT_EQ(log.draft("C/A1", log.amends("D")), rule) << "in a later draft neither";
+    EXPECT_EQ(log.draft("C/A9", log.amends("C")), "") << "one that was chosen by hand";
 }
 
 TEST(Amendments, StateKindReasonAndChanges) {

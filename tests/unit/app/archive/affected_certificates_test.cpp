@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -196,6 +197,67 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
     EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
               std::string::npos);
+}
+
+/// A result that rests on more than the standard is moved by less of its own U than the standard by its.
+TEST_F(ArchiveOfStandards, AreRankedByWhatTheCertificateStates) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const std::string job = read_file(folder / "end_gauge.json");
+    const auto record_with = [&](const char* u) {
+        std::string text = job;
+        text.replace(text.find("\"u\": 5.8"), 8, std::string("\"u\": ") + u);
+        std::ofstream(folder / "end_gauge.json") << text;
+        return evaluate_job(folder / "end_gauge.json", CovarianceFile::none, 1, k_affected_tree / "templates").record;
+    };
+    std::map<std::string, double> U;
+    for (const auto& [number, u] : {std::pair("R-1", "320"), std::pair("R-2", "5.8")}) {
+        const std::optional<reports::EvaluationRecord> record = record_with(u);
+        U[number] = *record->certificate->tables.at(0).columns.at(0).values.at(0).U;
+        add(number, reports::to_canonical_json(*record));
+    }
+    ASSERT_GT(U["R-1"], 5 * U["R-2"]);
+    std::string corrected = read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    corrected.replace(corrected.find("50.000623"), 9, "50.000643");  // 20 nm
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    recalculate(
+        affected, archive_,
+        {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"}, 1);
+    ASSERT_EQ(affected.size(), 2U);
+    EXPECT_EQ(affected[0].certificate.number, "R-2");
+    for (const AffectedCertificate& one : affected) {
+        // The standard drifts: between its calibrations a part of the 20 nm counts, the same for both.
+        EXPECT_NEAR(one.recalculated->shift * U[one.certificate.number], affected[0].recalculated->shift * U["R-2"],
+                    0.5)
+            << one.certificate.number;
+        EXPECT_LT(one.recalculated->shift * U[one.certificate.number], 20.5);
+    }
+}
+
+/// A standard is found by its letters: what only looks like its name is told, and so is a name that nothing has.
+TEST_F(ArchiveOfStandards, AreToldWhereTheirNamesOnlyLookAlike) {
+    add("EX-1", R"({"source": "STD-017"})");
+    add("EX-2", R"({"source": "std-017, certificate 12"})");
+    add("EX-3", R"({"source": "STD\u2011017"})");
+    add("EX-4", R"({"source": "STD-0171, and STD-117"})");
+    const auto remarks = [&](const std::string& name) {
+        std::vector<gum::Diagnostic> told;
+        (void)find_affected(archive_, {name, "2026-01-01", ""}, 1, {}, &told);
+        std::string all;
+        for (const gum::Diagnostic& one : told) {
+            EXPECT_EQ(one.code, "GC-ARCHIVE-0064");
+            all += one.what + '\n';
+        }
+        return all;
+    };
+    const std::string alike = remarks("STD-017");
+    EXPECT_NE(alike.find("\"std-017, certificate 12\""), std::string::npos) << alike;
+    EXPECT_NE(alike.find("\"STD\u2011017\""), std::string::npos) << alike;
+    EXPECT_EQ(alike.find("STD-0171"), std::string::npos) << alike;
+    EXPECT_EQ(alike.find("no record names it"), std::string::npos) << alike;
+    EXPECT_EQ(remarks("STD-999"), "no record names it\n");
+    EXPECT_EQ(remarks("STD-0171"), "");
 }
 
 TEST_F(ArchiveOfStandards, GiveTheSameDraftsWithAnyNumberOfThreads) {

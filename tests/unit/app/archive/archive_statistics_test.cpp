@@ -62,13 +62,13 @@ TEST_F(StatisticsOfAnArchive, CountsCertificates) {
     const ArchiveStatistics found = statistics_of(archive_);
     using Counts = std::map<std::string, std::size_t>;
     EXPECT_EQ(found.by_state, (Counts{{"issued", 2}, {"reviewed", 1}, {"withdrawn", 1}, {"drafted", 1}}));
-    EXPECT_EQ(found.by_month, (Counts{{"2026-10", 1}, {"2026-11", 1}}));
-    EXPECT_EQ(found.by_authoriser, (Counts{{"M. Weber", 2}}));
+    EXPECT_EQ(found.by_month, (Counts{{"2026-01", 2}})) << "of the entry, whatever the record says";
+    EXPECT_EQ(found.by_authoriser, (Counts{{"R. Reviewer", 2}})) << "of the log";
     EXPECT_EQ(found.by_method, (Counts{{"CP-01", 2}, {"CP-02", 1}}));
     EXPECT_EQ(found.by_kind, (Counts{{"budget", 3}}));
     EXPECT_EQ(found.not_read, std::vector<std::string>{"C-5"});
     EXPECT_NE(statistics_text(found).find("Not read: the record of C-5"), std::string::npos);
-    EXPECT_EQ(json::parse(statistics_json(found))["by_month"]["2026-11"], 1);
+    EXPECT_EQ(json::parse(statistics_json(found))["by_month"]["2026-01"], 2);
 }
 
 TEST_F(StatisticsOfAnArchive, ListsScoresOfComparisons) {
@@ -106,6 +106,54 @@ TEST_F(StatisticsOfAnArchive, ChartsStandardDeviations) {
         EXPECT_EQ(one.is_above(), one.number == "C-107");
     }
     EXPECT_NE(statistics_text(found).find("ABOVE THE LIMIT: C-107"), std::string::npos);
+}
+
+/// A set that is out of control has a mean that is less than ten of its own standard deviations away from 0: it stays beside
+/// those with its mean. s_p² = (7.6² + 8.36² + 6.84² + 7.6² + 22.8²)/5, √(χ²(9; 0.99865)/9) = 1.7347.
+TEST_F(StatisticsOfAnArchive, ChartASetBesideThoseOfItsMeanWhateverItsScatter) {
+    const std::array<double, 5> s = {7.6, 8.36, 6.84, 7.6, 22.8};
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        json one = record("CP-01", "2026-11-1" + std::to_string(i), "M. Weber");
+        one["readings"] = {readings(215.0, s.at(i), 10)};
+        add("C-" + std::to_string(i), one);
+    }
+    const ArchiveStatistics found = statistics_of(archive_);
+    ASSERT_EQ(found.charts.size(), 1U);
+    EXPECT_EQ(found.charts[0].scatters.size(), 5U);
+    EXPECT_EQ(found.charts[0].degrees_of_freedom, 45);
+    EXPECT_NEAR(found.charts[0].pooled_standard_deviation, 12.264, 0.0005);
+    EXPECT_NEAR(found.charts[0].scatters[4].limit, 21.28, 0.005);
+    EXPECT_TRUE(found.charts[0].scatters[4].is_above());
+    EXPECT_NE(statistics_text(found).find("ABOVE THE LIMIT: C-4"), std::string::npos);
+    EXPECT_TRUE(found.uncharted.empty());
+}
+
+/// Law: whatever scatters how much, sets with one mean are in one chart, and every set is in a chart or told to be in none.
+TEST_F(StatisticsOfAnArchive, LoseNoSet) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> exponent(-3.0, 3.0);
+    json one = record("CP-01", "2026-11-05", "M. Weber");
+    one["readings"] = json::array();
+    constexpr std::size_t k_sets = 60;
+    for (std::size_t i = 0; i < k_sets; ++i) {
+        one["readings"].push_back(
+            readings(i % 2 == 0 ? 3.0 : std::pow(10.0, 2.0 * exponent(random)), std::pow(10.0, exponent(random)), 4));
+    }
+    add("C-1", one);
+    const ArchiveStatistics found = statistics_of(archive_);
+    std::size_t sets = found.uncharted.size();
+    std::size_t charts_of_three = 0;
+    for (const RepeatabilityChart& chart : found.charts) {
+        sets += chart.scatters.size();
+        const auto threes = std::count_if(chart.scatters.begin(), chart.scatters.end(),
+                                          [](const ArchivedScatter& scatter) { return scatter.mean == 3.0; });
+        charts_of_three += threes > 0 ? 1U : 0U;
+    }
+    EXPECT_EQ(sets, k_sets);
+    EXPECT_EQ(charts_of_three, 1U);
+    EXPECT_FALSE(found.uncharted.empty());
+    EXPECT_NE(statistics_text(found).find("In no chart, because no other readings are near them"), std::string::npos);
+    EXPECT_EQ(json::parse(statistics_json(found))["uncharted"].size(), found.uncharted.size());
 }
 
 /// Of readings that are in control about one in 740 is above its limit.
