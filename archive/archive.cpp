@@ -102,16 +102,17 @@ std::int64_t day_number(std::string_view at) {
     return std::chrono::sys_days(day).time_since_epoch().count();
 }
 
-/// Nobody can tell a holiday from a wrong clock but a person with a calendar.
+/// A machine whose clock is years ahead would close the archive until then. Nobody can tell a long pause from a wrong
+/// clock but a person with a calendar.
 void require_no_jump(const std::string& last, const Request& request) {
-    constexpr std::int64_t k_week = 7;
+    constexpr std::int64_t k_year = 366;
     const std::string day = request.at.substr(0, 10);
     const std::int64_t days = day_number(request.at) - day_number(last);
-    if (days > k_week && request.confirmed_day != day) {
+    if (days > k_year && request.confirmed_day != day) {
         refuse_request(
             "GC-ARCHIVE-0065", "the clock of this machine",
             "says " + request.at + ", " + std::to_string(days) + " days after the last entry, " + last,
-            "an entry more than a week after the last one states the day by hand, because no later entry may "
+            "an entry more than a year after the last one states the day by hand, because no later entry may "
             "be earlier",
             "look at a calendar: set the clock right, or add --today " + day);
     }

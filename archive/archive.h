@@ -22,7 +22,7 @@ struct Request {
     std::string at;           ///< UTC, "2026-11-24T18:52:52Z"
     std::string request_key;  ///< the same key gives the same entry: a client may ask again after a crash; "" without
     std::string why;
-    /// "2026-11-24": the person has looked at a calendar. An entry more than a week after the last one needs it, because a
+    /// "2026-11-24": the person has looked at a calendar. An entry more than a year after the last one needs it, because a
     /// clock that is wrong once in the future stops the archive: no later entry may be earlier.
     std::string confirmed_day = {};
 };

@@ -344,7 +344,7 @@ void add_archive(CLI::App& program, Arguments& a) {
     command
         .add_option(
             "--today", o.today,
-            "The day by the calendar, 2026-11-24: needed where the last entry is more than a week old, because a "
+            "The day by the calendar, 2026-11-24: needed where the last entry is more than a year old, because a "
             "clock that is wrong once in the future stops the archive")
         ->type_name("DAY");
     command
