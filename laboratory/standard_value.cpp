@@ -24,8 +24,24 @@ constexpr double k_infinity = std::numeric_limits<double>::infinity();
                                           .action = std::move(action)});
 }
 
+/// In which the nominal value of a line stands, and its limits.
+const std::string& nominal_unit_of(const CalibrationResult& line) {
+    return line.nominal_unit.empty() ? line.unit : line.nominal_unit;
+}
+
+/// 10 V and 10000 mV are one nominal value, 10 V and 10 mV are two.
 bool is_same_nominal(const CalibrationResult& a, const CalibrationResult& b) {
-    return a.nominal.has_value() == b.nominal.has_value() && (!a.nominal || is_same_value(*a.nominal, *b.nominal));
+    if (!a.nominal || !b.nominal) {
+        return a.nominal.has_value() == b.nominal.has_value();
+    }
+    if (nominal_unit_of(a) == nominal_unit_of(b)) {
+        return is_same_value(*a.nominal, *b.nominal);
+    }
+    const gum::Unit of_a = gum::Unit::parse(nominal_unit_of(a));
+    const gum::Unit of_b = gum::Unit::parse(nominal_unit_of(b));
+    // °C and K count from different zeros, and to_si() does not tell them apart.
+    return of_a.dimension() == of_b.dimension() && of_a.is_celsius_temperature() == of_b.is_celsius_temperature() &&
+           is_same_value(of_a.to_si(*a.nominal), of_b.to_si(*b.nominal));
 }
 
 const CalibrationResult* same_line(const Calibration& calibration, const CalibrationResult& line) {
@@ -214,10 +230,23 @@ StandardValue value_of_standard(const StandardRecord& record, const StandardUse&
         return of_line(record, calibration, *found.results.front(), days);
     }
     const double at = *use.at;
+    const CalibrationResult* exact = nullptr;
     for (const CalibrationResult* line : found.results) {
-        if (line->nominal && is_same_value(*line->nominal, at)) {
-            return of_line(record, calibration, *line, days);
+        if (!line->nominal || !is_same_value(*line->nominal, at)) {
+            continue;
         }
+        // "at" is a number without a unit: which of 10 V and 10 mV it means is not for the order of the lines to say.
+        if (exact != nullptr && !is_same_nominal(*exact, *line)) {
+            refuse_use("GC-LAB-0014", record,
+                       text::shortest_plain(at) + " " + nominal_unit_of(*exact) + " and " + text::shortest_plain(at) +
+                           " " + nominal_unit_of(*line) + " are lines of its certificate",
+                       "an input takes the value of one line of a certificate",
+                       "state \"quantity\", \"range\" or \"mode\" beside \"at\"");
+        }
+        exact = exact == nullptr ? line : exact;
+    }
+    if (exact != nullptr) {
+        return of_line(record, calibration, *exact, days);
     }
     for (const CalibrationResult* line : found.results) {
         if (line->low && line->high && *line->low <= at && at <= *line->high) {

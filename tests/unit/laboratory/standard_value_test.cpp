@@ -72,6 +72,49 @@ TEST(StandardValueTest, HistoryIsInOneUnit) {
     EXPECT_EQ(drift_of(record, last, last.results.front(), 10.0).u, 0.0);
 }
 
+TEST(StandardValueTest, LinesAreTheSameByTheirNominalValueWithItsUnit) {
+    struct Case {
+        double earlier;
+        const char* earlier_unit;
+        double last;
+        const char* last_unit;
+        bool same;
+    };
+    // An empty unit is that of the value, V.
+    for (const Case& c :
+         {Case{10000.0, "mV", 10.0, "", true}, Case{10.0, "V", 10.0, "", true}, Case{0.01, "kV", 10000.0, "mV", true},
+          Case{10.0, "mV", 10.0, "V", false}, Case{10.0, "mV", 10.0, "", false}, Case{10.0, "A", 10.0, "V", false},
+          Case{68.0, "°F", 20.0, "°C", true}, Case{20.0, "°C", 20.0, "K", false}, Case{0.0, "mV", 0.0, "V", true},
+          Case{0.1, "mm", 100.0, "µm", true}}) {
+        StandardRecord record = test::three_calibrations();
+        record.calibrations.erase(record.calibrations.begin());
+        CalibrationResult& earlier = record.calibrations.front().results.front();
+        CalibrationResult& last = record.calibrations.back().results.front();
+        earlier.nominal = c.earlier;
+        earlier.nominal_unit = c.earlier_unit;
+        last.nominal = c.last;
+        last.nominal_unit = c.last_unit;
+        const Calibration& calibration = record.calibrations.back();
+        EXPECT_EQ(history_of(record, calibration, last).size(), c.same ? 2U : 1U)
+            << c.earlier << " " << c.earlier_unit << " and " << c.last << " " << c.last_unit;
+        record.drift = {DriftKind::last_difference, "", 0.0, "", false};
+        EXPECT_EQ(code_of(record, {.date = k_day}), c.same ? "" : "GC-LAB-0011");
+    }
+}
+
+TEST(StandardValueTest, AValueInTwoUnitsIsNotChosenByTheOrderOfTheLines) {
+    StandardRecord record = curve();
+    CalibrationResult small = test::line_at(10.0, 0.0101, 0.0002);
+    small.nominal_unit = "mV";
+    record.calibrations.back().results.push_back(small);
+    EXPECT_EQ(code_of(record, {.at = 10.0, .date = k_day}), "GC-LAB-0014");
+    record.calibrations.back().results.back().range = "100 mV";
+    EXPECT_EQ(value_of_standard(record, {.range = "100 mV", .at = 10.0, .date = k_day}).value, 0.0101);
+    record.calibrations.back().results.back() = test::line_at(10.0, 10.1, 0.4);
+    record.calibrations.back().results.back().nominal_unit = "V";
+    EXPECT_EQ(code_of(record, {.at = 10.0, .date = k_day}), "") << "V in both";
+}
+
 TEST(StandardValueTest, NearestHasTheDifferenceToItsNeighbour) {
     StandardRecord record = curve();
     record.interpolation = Interpolation::nearest;
