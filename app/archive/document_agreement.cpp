@@ -138,6 +138,7 @@ struct PrintedDocument::Row {
     std::size_t verdicts = 1;                 ///< of so many that follow, one is this
     std::vector<std::string> otherwise = {};  ///< in place of `numbers` in another layout
     std::vector<std::size_t> gaps = {};       ///< before each of `numbers`, in place of largest_gap
+    std::vector<std::size_t> blocks = {};     ///< where the cells of each result begin: a table may be divided there
 };
 
 PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_(pages) {
@@ -239,6 +240,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
         std::set<bool> outside;  // values outside of the accreditation may stand in a table of their own
         Row whole{.numbers = {}, .largest_gap = k_gap_in_rows};
         bool is_next = false;  // nothing else is printed between this cell and the one before
+        std::string block;     // the result whose cells were last
         const auto add_cell = [&](std::string digits, const std::string& cell) {
             if (!digits.empty()) {
                 whole.gaps.push_back(is_next ? 0U : k_gap_in_rows);
@@ -248,6 +250,11 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
             is_next = cell.find_first_of("eE") == std::string::npos;  // no power of ten behind it
         };
         for (const certificate::ShownColumn& shown : table.layout->shown) {
+            const bool of_points = shown.show == "point" || shown.show == "column";
+            if (of_points ? !block.empty() : shown.of != block) {
+                whole.blocks.push_back(whole.numbers.size());
+            }
+            block = of_points ? "" : shown.of;
             const auto result = std::find_if(table.columns.begin(), table.columns.end(),
                                              [&](const CertifiedColumn& c) { return c.result == shown.of; });
             const auto point = std::find_if(table.layout->columns.begin(), table.layout->columns.end(),
@@ -338,6 +345,50 @@ bool PrintedDocument::has(const Row& row, const std::vector<std::string>& number
     return false;
 }
 
+/// Whether a row stands in a table that was divided by its results: the cells that all results share, or the first of them,
+/// and right behind them those of some results, in each table.
+bool PrintedDocument::has_in_parts(const Row& row, const DocumentWords& words) const {
+    constexpr std::size_t k_gap_of_power = 5;  // as in row_of()
+    if (row.blocks.empty() || row.blocks.front() == 0) {
+        return false;
+    }
+    const auto has_part = [&](std::size_t shared, std::size_t begin, std::size_t end) {
+        Row part{.numbers = {}, .largest_gap = row.largest_gap};
+        const auto take = [&](std::size_t i, std::size_t gap) {
+            part.numbers.push_back(row.numbers[i]);
+            part.gaps.push_back(gap);
+        };
+        for (std::size_t i = 0; i < shared; ++i) {
+            take(i, row.gaps[i]);
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            take(i, i == begin ? k_gap_of_power : row.gaps[i]);
+        }
+        std::size_t from = 0;
+        return has(part, part.numbers, words, from);
+    };
+    // The last cells before the first result may be its own, such as its indication.
+    for (std::size_t first = row.blocks.front(); first > 0; --first) {
+        std::vector<std::size_t> ends(row.blocks.begin() + 1, row.blocks.end());
+        ends.push_back(row.numbers.size());
+        std::size_t begin = first;
+        while (begin < row.numbers.size()) {
+            const auto fits = [&](std::size_t end) {
+                return end > begin && (has_part(first, begin, end) || has_part(1, begin, end));
+            };
+            const auto end = std::find_if(ends.rbegin(), ends.rend(), fits);
+            if (end == ends.rend()) {
+                break;
+            }
+            begin = *end;
+        }
+        if (begin == row.numbers.size()) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::string PrintedDocument::disagreement_with(const certificate::Certificate& certificate,
                                                const DocumentWords& words) const {
     if (is_marked(words)) {
@@ -346,8 +397,9 @@ std::string PrintedDocument::disagreement_with(const certificate::Certificate& c
     std::size_t from = 0;
     for (const CertifiedTable& table : certificate.tables) {
         for (const Row& row : rows_of(table)) {
-            const bool is_printed =
-                has(row, row.numbers, words, from) || (!row.otherwise.empty() && has(row, row.otherwise, words, from));
+            const bool is_printed = has(row, row.numbers, words, from) ||
+                                    (!row.otherwise.empty() && has(row, row.otherwise, words, from)) ||
+                                    has_in_parts(row, words);
             if (!is_printed) {
                 return "does not print \"" + row.shown + "\" of the record";
             }

@@ -47,6 +47,7 @@ private:
     [[nodiscard]] bool is_marked(const DocumentWords& words) const;
     [[nodiscard]] bool has(const Row& row, const std::vector<std::string>& numbers, const DocumentWords& words,
                            std::size_t& from) const;
+    [[nodiscard]] bool has_in_parts(const Row& row, const DocumentWords& words) const;
     [[nodiscard]] static Row row_of(const std::string& name, const std::vector<std::string>& cells, std::size_t gap);
     [[nodiscard]] static std::vector<Row> rows_of(const certificate::CertifiedTable& table);
     [[nodiscard]] bool is_followed_by(std::size_t digit, const Row& row, const DocumentWords& words) const;

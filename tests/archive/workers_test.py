@@ -8,7 +8,6 @@ log: the answers and the drafts are the same bytes.
 """
 
 import argparse
-import datetime
 import pathlib
 import random
 import shutil
@@ -31,9 +30,8 @@ def verified_by_the_second(archive, driver, address, folder):
     verifier = ROOT / "tools" / "verify_archive.py"
     copy, head, evidence = folder / "copy.archive", folder / "head.json", folder / "evidence.json"
     subprocess.run(archive("head", "--store", address, "-o", head, "-q"), check=True)
-    today = datetime.datetime.now(datetime.timezone.utc).date().isoformat()  # the archive was made with times of long ago
-    subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "-o", copy, "-q", "--today", today), check=True)
-    subprocess.run(archive("export", "L-7", "--store", address, "-o", evidence, "-q"), check=True)
+    subprocess.run(archive("backup", "--store", address, "--by", "K. Keeper", "-o", copy, "-q"), check=True)
+    subprocess.run(archive("export", "L-7", "--store", address, "--since", head, "-o", evidence, "-q"), check=True)
     faults = []
     for words in ([copy, "--head", head], [evidence, "--head", head]):
         done = subprocess.run([sys.executable, "-B", verifier, *words], stdout=subprocess.PIPE, text=True, check=False)

@@ -162,20 +162,20 @@ TEST_F(EvidenceOfCertificates, ProvesThatItExtendsOtherHeads) {
     Archive archive(*store_);
     const Head early = archive.head();
     (void)archive.change_settings({},
-                                  {.actor = "K. Keeper", .at = "2099-01-01T00:00:00Z", .request_key = "", .why = "x"});
+                                  {.actor = "K. Keeper", .at = "2026-06-01T00:00:00Z", .request_key = "", .why = "x"});
     const Evidence plain = evidence_of(*store_, drafted());
     EXPECT_EQ(verify_evidence(plain, {early}).findings.front().code, "GC-ARCHIVE-0051");
     const Evidence since = evidence_from_json(to_json(evidence_of(*store_, drafted(), early)), "evidence.json");
     EXPECT_TRUE(verify_evidence(since, {early}).findings.empty());
     (void)archive.change_settings({},
-                                  {.actor = "K. Keeper", .at = "2099-01-02T00:00:00Z", .request_key = "", .why = "x"});
+                                  {.actor = "K. Keeper", .at = "2026-06-02T00:00:00Z", .request_key = "", .why = "x"});
     EXPECT_EQ(verify_evidence(plain, {archive.head()}).findings.front().code, "GC-ARCHIVE-0051");
     EXPECT_TRUE(verify_evidence(plain, {archive.head_since(plain.head)}).findings.empty());
     Head other = early;
     other.root[0] ^= 1;
     EXPECT_EQ(code_of([&] { (void)evidence_of(*store_, drafted(), other); }), "GC-ARCHIVE-0036");
     other = plain.head;
-    other.at = "2099-01-01T00:00:01Z";
+    other.at = "2026-06-01T00:00:01Z";
     EXPECT_EQ(verify_evidence(plain, {other}).findings.front().code, "GC-ARCHIVE-0045") << "a time that nobody signed";
 }
 
