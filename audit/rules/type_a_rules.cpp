@@ -76,7 +76,19 @@ std::optional<double> k_of_few(const AuditedBudget& budget) {
     student.kind = CoverageRule::Kind::student_t;
     student.probability = budget.claims.coverage_probability.value_or(student.probability);
     try {
-        const double k = evaluate(budget, student).k;
+        double k = 0.0;
+        if (budget.correlations.empty() && budget.correlation_variance == 0.0) {
+            k = evaluate(budget, student).k;
+        } else {
+            // The formula of Welch and Satterthwaite is one of independent rows (JCGM 100:2008, G.4.1): of correlated ones
+            // it gives a ν_eff far below that of any row. What is stated holds, else the fewest of a row.
+            double nu = std::numeric_limits<double>::infinity();
+            for (const AuditedRow& row : budget.rows) {
+                nu = std::min(nu, row.used_nu);
+            }
+            nu = budget.claims.nu_eff ? budget.claims.nu_eff->value : nu;
+            k = student_factors(student, {nu, nu}).high;
+        }
         return budget.coverage.k * budget.k_over_rows < (1.0 - k_smaller) * k ? std::optional(k) : std::nullopt;
     } catch (const gum::DiagnosedError&) {
         return std::nullopt;

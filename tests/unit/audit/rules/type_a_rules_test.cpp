@@ -54,6 +54,26 @@ TEST(TypeARules, U02IsMinorWhereNuAndKAccountForFewReadings) {
     EXPECT_TRUE(findings_of("U02", subject_of(ten)).empty());
 }
 
+/// Readings taken together: ν_eff of correlated rows does not follow from the formula for independent ones.
+TEST(TypeARules, U02TakesNuOfCorrelatedRowsAsStated) {
+    const double u = k_s_of_five / std::sqrt(5.0);
+    AuditedBudget budget = budget_of({row_of_readings("V", k_five, u), row_of_readings("I", k_five, u)});
+    for (const double r : {-0.98, -0.5, 0.5, 0.98}) {
+        budget.correlations = {RowCorrelation{.first = 0, .second = 1, .r = r}};
+        for (const bool stated : {true, false}) {
+            budget.claims.nu_eff = stated ? std::optional(exact_number(4.0, "")) : std::nullopt;
+            for (const double k : {2.0, 2.8693}) {  // t of 95.45 % for 4 degrees of freedom
+                budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = k, .probability = 0.9545};
+                for (const AuditFinding& finding : findings_of("U02", subject_of(budget))) {
+                    const std::string said = finding.what.english();
+                    EXPECT_NE(said.find(k < 2.5 ? "t_p(ν_eff) is 2.869" : "ν and k account for it"), std::string::npos)
+                        << r << ' ' << k << ": " << said;
+                }
+            }
+        }
+    }
+}
+
 TEST(TypeARules, U02AsksWhetherTheFixedKIsThatOfNu) {
     // k = 2 beside rows of any size: it accounts for ν_eff where t_p(ν_eff) is no more than 1 % larger.
     for (const double beside : {0.001, 0.01, 0.05, 0.2, 1.0, 5.0}) {
