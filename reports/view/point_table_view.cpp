@@ -5,6 +5,7 @@
 #include "reports/result_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -256,8 +257,15 @@ constexpr std::size_t k_longest_part = 11;  // letters of a word that is hyphena
 constexpr double k_uneven_parts = 1.15;
 constexpr double k_second_language = 0.85;
 
-/// Of the letter that begins with a byte, in em; 0 within a letter. Classes of letters are enough, their widths are those
-/// of the wider ones of a class.
+// Advance widths of Libertinus Serif Bold, from the blank to the tilde, in thousandths of an em: digits as in tables.
+constexpr std::array<int, 95> k_advance = {
+    250, 266, 376, 514, 514, 637, 729, 215, 315, 315, 433, 537, 244, 358, 244, 316, 514, 514,  514,
+    514, 514, 514, 514, 514, 514, 514, 256, 256, 512, 551, 512, 430, 988, 740, 654, 706, 734,  609,
+    545, 732, 817, 367, 373, 736, 577, 899, 740, 730, 614, 730, 716, 504, 652, 732, 700, 1028, 718,
+    624, 624, 397, 307, 397, 518, 486, 392, 506, 542, 456, 561, 489, 391, 521, 619, 322, 312,  613,
+    325, 905, 616, 551, 581, 573, 428, 427, 358, 598, 529, 777, 561, 558, 452, 307, 220, 307,  473};
+
+/// Of the letter that begins with a byte, in em; 0 within a letter. Of letters with accents those of the wider ones.
 double width_of_letter(char first) {
     const auto byte = static_cast<unsigned char>(first);
     if ((byte & 0xC0U) == 0x80U) {
@@ -266,15 +274,9 @@ double width_of_letter(char first) {
     if (byte >= 0xE3U) {
         return 1.0;  // U+3000 and above: as wide as high
     }
-    constexpr std::string_view k_narrow = "ijlft.,:;'|()/ ";
-    constexpr std::string_view k_wide = "mwMW%";
-    if (k_narrow.find(first) != std::string_view::npos) {
-        return 0.36;
-    }
-    if (k_wide.find(first) != std::string_view::npos) {
-        return 0.88;
-    }
-    return first >= 'A' && first <= 'Z' ? 0.72 : 0.54;
+    constexpr double k_other = 0.62;
+    const std::size_t place = byte - std::size_t{' '};
+    return place < k_advance.size() ? 1e-3 * k_advance[place] : k_other;
 }
 
 double width_of(std::string_view text) {
