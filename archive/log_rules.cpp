@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "archive/head.h"
 #include "archive/names.h"
 #include "encoding/sha2.h"
 #include "json/strict_parser.h"
@@ -35,16 +36,6 @@ bool is_plain(std::string_view text) {
                const auto byte = static_cast<unsigned char>(c);
                return byte < 0x20 || byte == 0x7F;
            });
-}
-
-/// "2026-11-24T18:52:52Z".
-bool is_time(std::string_view text) {
-    constexpr std::string_view k_form = "dddd-dd-ddTdd:dd:ddZ";
-    bool is = text.size() == k_form.size();
-    for (std::size_t i = 0; is && i < text.size(); ++i) {
-        is = k_form[i] == 'd' ? text[i] >= '0' && text[i] <= '9' : text[i] == k_form[i];
-    }
-    return is;
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -173,7 +164,7 @@ std::optional<Breach> LogRules::breach_of(const LogEntry& entry, const json& bod
     if (entry.actor.empty()) {
         return form("nobody is named", "an entry says who");
     }
-    if (!is_time(entry.at)) {
+    if (!is_utc_time(entry.at)) {
         return form("the time is \"" + entry.at + "\"", "an entry says when, such as 2026-11-24T18:52:52Z");
     }
     if (!entry.record.empty() && !encoding::is_sha256(entry.record)) {

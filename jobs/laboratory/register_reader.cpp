@@ -144,7 +144,7 @@ private:
 
     void read_results(const JsonObject& object, Calibration& calibration) {
         (void)object.require("results");
-        std::set<std::tuple<std::string, std::string, std::string, bool, double>> lines;
+        std::set<std::tuple<std::string, std::string, std::string, bool, double, std::string>> lines;
         objects_.each<CalibrationResult>(object, "results", [&](const JsonObject& line) {
             CalibrationResult& result = calibration.results.emplace_back();
             JobReader(line).read(result);
@@ -162,7 +162,8 @@ private:
             }
             if (!lines
                      .emplace(result.quantity, result.range, result.mode, result.nominal.has_value(),
-                              result.nominal.value_or(0.0))
+                              result.nominal.value_or(0.0),
+                              result.nominal_unit.empty() ? result.unit : result.nominal_unit)  // 10 V is not 10 mV
                      .second) {
                 line.refuse(k_certificate_repeated, "value", "the line stands here for the second time",
                             "quantity, range, mode and nominal value tell the lines of a certificate apart",

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "jobs/certificate/certificate_codes.h"
 #include "jobs/laboratory/laboratory_codes.h"
 #include "tests/fuzz/register_target.h"
 #include "tests/support/file_content.h"
@@ -59,6 +60,20 @@ TEST(RegisterReader, ReadsWhatAStandardStates) {
     EXPECT_EQ(record->drift.kind, laboratory::DriftKind::limit_per_year);
     EXPECT_EQ(record->drift.unit, "mV");
     EXPECT_EQ(record->drift.limit, 0.5);
+}
+
+/// Lines of one certificate are told apart by their nominal values, and these by their units as well.
+TEST(RegisterReader, TellsNominalValuesApartByTheirUnits) {
+    const auto codes_of_lines = [](const char* first, const char* second) {
+        json file = sample_standard();
+        json& results = file["/calibrations/0/results"_json_pointer];
+        results = json::array({results.front(), results.front()});
+        results[0]["nominal_unit"] = first;
+        results[1]["nominal_unit"] = second;
+        return codes_of(file, true);
+    };
+    EXPECT_THAT(codes_of_lines("V", "V"), testing::ElementsAre(k_certificate_repeated.code));
+    EXPECT_THAT(codes_of_lines("V", "mV"), testing::IsEmpty());
 }
 
 TEST(RegisterReader, RefusesWhatCannotBe) {
