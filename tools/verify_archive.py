@@ -869,7 +869,7 @@ def main():
     parser.add_argument("document", nargs="*", help="a file that should be a document of the evidence")
     parser.add_argument("--head", action="append", default=[], help="an earlier head (JSON)")
     parser.add_argument("--public-key", default="", help="Ed25519 key that heads must be signed with, 64 hexadecimal digits")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     key, told, verdict = arguments.public_key.lower(), [], {}
     if key and not DIGEST.fullmatch(key):
         parser.error("--public-key has 64 hexadecimal digits")
