@@ -39,9 +39,11 @@ std::string without_references(std::string_view text) {
     constexpr std::size_t k_longest = 10;
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = text[at] == '&' ? text.find(';', at) : std::string_view::npos;
+        // Looked for no further than a reference may be long: a page of nothing but "&" is read once, not once a sign.
+        const std::size_t length = text[at] == '&' ? text.substr(at, k_longest + 1).find(';') : std::string_view::npos;
+        const std::size_t end = at + length;
         const std::string character =
-            end != std::string_view::npos && end - at <= k_longest ? referred(text.substr(at + 1, end - at - 1)) : "";
+            length != std::string_view::npos ? referred(text.substr(at + 1, length - 1)) : std::string();
         out += character.empty() ? std::string(1, text[at]) : character;
         at = character.empty() ? at + 1 : end + 1;
     }

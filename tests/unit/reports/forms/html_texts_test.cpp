@@ -28,5 +28,11 @@ TEST(TextsOfHtml, AreWhatAReaderSees) {
     }
 }
 
+TEST(TextsOfHtml, OfSignsThatEndNowhereAreThoseSigns) {
+    const std::string signs(3'000'000,
+                            '&');  // each one looks for its ';' as far as a reference is long, and no further
+    EXPECT_EQ(text_of_html(signs), signs);
+}
+
 }  // namespace
 }  // namespace gumcert::reports
