@@ -18,6 +18,8 @@ namespace gumcert::app {
 
 namespace {
 
+constexpr std::size_t k_gap_of_power = 5;  // "10" and an exponent
+
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
@@ -159,7 +161,6 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_
 /// The cells of some row that stand before and behind each other, with how far they may be apart.
 PrintedDocument::Row PrintedDocument::row_of(const std::string& name, const std::vector<std::string>& cells,
                                              std::size_t gap) {
-    constexpr std::size_t k_gap_of_power = 5;  // "10" and an exponent
     Row row{.numbers = {}, .largest_gap = gap};
     for (const std::string& cell : cells) {
         if (std::string digits = mantissa_digits(cell); !digits.empty()) {
@@ -348,7 +349,6 @@ bool PrintedDocument::has(const Row& row, const std::vector<std::string>& number
 /// Whether a row stands in a table that was divided by its results: the cells that all results share, or the first of them,
 /// and right behind them those of some results, in each table.
 bool PrintedDocument::has_in_parts(const Row& row, const DocumentWords& words) const {
-    constexpr std::size_t k_gap_of_power = 5;  // as in row_of()
     if (row.blocks.empty() || row.blocks.front() == 0) {
         return false;
     }

@@ -1,13 +1,8 @@
 #include "archive/store/entry.h"
 
-#include <cstddef>
-#include <string_view>
-
 #include "encoding/sha2.h"
 
 namespace gumcert::archive {
-
-namespace {
 
 void append_field(std::string& bytes, std::string_view field) {
     constexpr unsigned k_length_bytes = 8;
@@ -17,8 +12,6 @@ void append_field(std::string& bytes, std::string_view field) {
     }
     bytes += field;
 }
-
-}  // namespace
 
 std::string canonical_bytes(const LogEntry& entry) {
     std::string bytes;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace gumcert::archive {
 
@@ -21,9 +22,12 @@ struct LogEntry {
     friend bool operator==(const LogEntry&, const LogEntry&) = default;
 };
 
+/// Appends a field of what is hashed or signed, with its length in front (8 bytes, the highest first): moving bytes from one
+/// field to the next changes them.
+void append_field(std::string& bytes, std::string_view field);
+
 /// The bytes that are hashed: the tag "gumcert/archive/entry/1", then prev, seq as decimal digits, at, actor, kind,
-/// certificate, record, request_key and body, each with its length in front (8 bytes, the highest first): moving bytes
-/// from one field to the next changes them. (docs/adr/0053-the-archive.md)
+/// certificate, record, request_key and body, each by append_field(). (docs/adr/0053-the-archive.md)
 [[nodiscard]] std::string canonical_bytes(const LogEntry& entry);
 
 /// SHA-256 of canonical_bytes(), 32 bytes.
