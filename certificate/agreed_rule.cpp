@@ -34,16 +34,12 @@ AgreedRule in_unit_of_results(const AgreedSpecification& from, const std::string
     const auto value = [&](double v) { return same ? v : column.from_si(stated.to_si(v)); };
     const auto difference = [&](double v) { return same ? v : column.difference_from_si(stated.difference_to_si(v)); };
     out.limits = {.lower = mapped(from.lower, value), .upper = mapped(from.upper, value)};
-    out.parameters.guard_factor = from.rule.guard_factor;
-    out.parameters.guard_band = mapped(from.rule.guard_band, difference);
-    out.parameters.probability = from.rule.probability;
-    out.parameters.test_uncertainty_ratio = from.rule.test_uncertainty_ratio;
-    out.parameters.largest_U = mapped(from.rule.largest_U, difference);
-    out.parameters.alternative = gum::decision_rule_from_id(from.rule.alternative);
-    out.parameters.population_reliability = from.rule.population_reliability;
-    out.parameters.population_deviation = mapped(from.rule.population_deviation, difference);
-    out.parameters.population_centre = mapped(from.rule.population_centre, value);
-    out.parameters.method = from.rule.method;
+    out.parameters = stated_parameters(from.rule);
+    for (std::optional<double>* const width :
+         {&out.parameters.guard_band, &out.parameters.largest_U, &out.parameters.population_deviation}) {
+        *width = mapped(*width, difference);
+    }
+    out.parameters.population_centre = mapped(out.parameters.population_centre, value);
     return out;
 }
 
@@ -57,6 +53,21 @@ AgreedRule checked(AgreedRule rule) {
 }
 
 }  // namespace
+
+gum::DecisionRuleParameters stated_parameters(const AgreedSpecification::Rule& rule) {
+    gum::DecisionRuleParameters parameters;
+    parameters.guard_factor = rule.guard_factor;
+    parameters.guard_band = rule.guard_band;
+    parameters.probability = rule.probability;
+    parameters.test_uncertainty_ratio = rule.test_uncertainty_ratio;
+    parameters.largest_U = rule.largest_U;
+    parameters.alternative = gum::decision_rule_from_id(rule.alternative);
+    parameters.population_reliability = rule.population_reliability;
+    parameters.population_deviation = rule.population_deviation;
+    parameters.population_centre = rule.population_centre;
+    parameters.method = rule.method;
+    return parameters;
+}
 
 AgreedRule agreed_rule(const AgreedSpecification& specification, const std::string& unit) {
     return checked(in_unit_of_results(specification, unit));

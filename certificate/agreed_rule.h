@@ -17,6 +17,9 @@ struct AgreedRule {
     std::string problem;                     ///< English: why it cannot be applied; "" where it can
 };
 
+/// The parameters of a rule as a specification states them, in its unit.
+[[nodiscard]] gum::DecisionRuleParameters stated_parameters(const AgreedSpecification::Rule& rule);
+
 /// \param unit  of the results, as jobs state it: "um"
 [[nodiscard]] AgreedRule agreed_rule(const AgreedSpecification& specification, const std::string& unit);
 

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "certificate/agreed_rule.h"
 #include "certificate/capability.h"
 #include "gum/conformity/conformity.h"
 #include "gum/quantity/unit.h"
@@ -50,21 +51,6 @@ private:
     std::set<std::string> names_;
 };
 
-gum::DecisionRuleParameters parameters_of(const certificate::AgreedSpecification::Rule& rule) {
-    gum::DecisionRuleParameters p;
-    p.guard_factor = rule.guard_factor;
-    p.guard_band = rule.guard_band;
-    p.probability = rule.probability;
-    p.test_uncertainty_ratio = rule.test_uncertainty_ratio;
-    p.largest_U = rule.largest_U;
-    p.alternative = gum::decision_rule_from_id(rule.alternative);
-    p.population_reliability = rule.population_reliability;
-    p.population_deviation = rule.population_deviation;
-    p.population_centre = rule.population_centre;
-    p.method = rule.method;
-    return p;
-}
-
 void check_rule(const certificate::AgreedSpecification& s, const CertificatePlace& place) {
     const std::optional<gum::DecisionRule> rule = gum::decision_rule_from_id(s.rule.id);
     if (!rule) {
@@ -73,7 +59,8 @@ void check_rule(const certificate::AgreedSpecification& s, const CertificatePlac
     // Limits of points lie on both sides of a value; those in columns may miss one side, which no rule depends on.
     const gum::ToleranceLimits limits{.lower = s.limits ? std::optional(-1.0) : s.lower,
                                       .upper = s.limits ? std::optional(1.0) : s.upper};
-    for (const std::string& sentence : gum::check_decision_rule(*rule, parameters_of(s.rule), limits)) {
+    for (const std::string& sentence :
+         gum::check_decision_rule(*rule, certificate::stated_parameters(s.rule), limits)) {
         place.below("/rule").refuse(k_certificate_rule_incomplete, sentence,
                                     "a rule is applied with the parameters that it has, and with no others",
                                     "correct the decision rule as it was agreed with the customer");
