@@ -5,6 +5,7 @@
 #include <set>
 
 #include "certificate/dates.h"
+#include "laboratory/outlook.h"
 #include "text/numbers.h"
 
 namespace gumcert::laboratory {
@@ -72,11 +73,16 @@ void by_date(const StandardRecord& record, const StandardUse& use, Candidates& f
     }
     if (use.date.empty()) {
         put(found.verdict, Answer::unknown, "the day of use is not stated");
-    } else if (found.calibration->valid_to.empty()) {
+        return;
+    }
+    const std::string& valid_to = found.calibration->valid_to;
+    const std::string last_day = valid_to.empty() ? calibration_outlook(record, use.date).last_day : valid_to;
+    if (last_day.empty()) {
         put(found.verdict, Answer::unknown, "the register does not say until when its calibration is valid");
-    } else if (certificate::is_after(use.date, found.calibration->valid_to)) {
+    } else if (certificate::is_after(use.date, last_day)) {
         put(found.verdict, Answer::no,
-            "its calibration was valid to " + found.calibration->valid_to + ", and it was used on " + use.date);
+            (valid_to.empty() ? "by its plan its calibration was due on " : "its calibration was valid to ") +
+                last_day + ", and it was used on " + use.date);
     }
 }
 

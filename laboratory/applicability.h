@@ -35,7 +35,8 @@ struct Candidates {
 
 /// By date, then quantity, range and mode, and then the value. The first "no" is the answer; else the first "unknown".
 ///
-/// date: no day stated: unknown. No calibration up to the day: no. Day after valid_to: no; valid_to not stated: unknown.
+/// date: no day stated: unknown. No calibration up to the day: no. Day after valid_to, or where none is stated
+/// after the next calibration by the plan: no; neither is known: unknown.
 /// quantity: none stated, and the certificate has several: unknown; none of its lines has it: no.
 /// range, mode: stated, and no line has it: no, or unknown where lines say nothing of it (these are left then); not stated,
 /// and the lines have several: unknown.

@@ -86,13 +86,15 @@ CalibrationOutlook calibration_outlook(const StandardRecord& record, std::string
     }
     propose(out, record, day);
     const std::string& valid_to = out.last->valid_to;
+    // A laboratory that plans the next calibration has said until when it uses the last one.
+    out.last_day = valid_to.empty() ? out.next : valid_to;
     if (certificate::is_after(day, valid_to)) {
         out.state = CalibrationState::overdue;
         out.because = "valid until " + valid_to;
     } else if (certificate::is_after(day, out.next)) {
         out.state = CalibrationState::overdue;
         out.because = "by its plan due on " + out.next;
-    } else if (!valid_to.empty() || !out.next.empty()) {
+    } else if (!out.last_day.empty()) {
         out.state = CalibrationState::valid;
     } else {
         out.because = "the register states no last day of use, and no day follows from a plan";

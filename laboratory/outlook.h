@@ -16,7 +16,8 @@ struct CalibrationOutlook {
     std::string next;                   ///< day of the next calibration by the plan of the record; "": none can be said
     std::string why;                    ///< the method behind `next`, or why there is none
     CalibrationState state = CalibrationState::unknown;
-    std::string because;  ///< of the state
+    std::string because;   ///< of the state
+    std::string last_day;  ///< of use: valid_to, or where the register states none the next calibration by the plan; ""
 };
 
 /// By the calibrations up to the day. The next calibration is the earliest one that next_calibration() proposes for a line of

@@ -95,6 +95,11 @@ std::vector<const CalibrationResult*> by_nominal(std::vector<const CalibrationRe
     return lines;
 }
 
+/// An error or a correction stands beside its nominal value, and does not follow it: 0.003 V at 10 V and 0.004 V at 20 V.
+bool stands_beside_nominal(const CalibrationResult& below, const CalibrationResult& above) {
+    return std::abs(above.value - below.value) < std::abs(correction(above) - correction(below));
+}
+
 /// \param upper  position of the line above `at`
 StandardValue nearest(const StandardRecord& record, const Calibration& calibration,
                       const std::vector<const CalibrationResult*>& lines, std::size_t upper, double at, double days) {
@@ -102,11 +107,14 @@ StandardValue nearest(const StandardRecord& record, const Calibration& calibrati
     const CalibrationResult& above = *lines[upper];
     const CalibrationResult& near = at - *below.nominal <= *above.nominal - at ? below : above;
     StandardValue out = of_line(record, calibration, near, days);
-    out.value = base_at(near, at) + correction(near);
-    // The correction is taken from the nearer point; how far it may have changed on the way grows with the distance, up
-    // to the whole difference at the other point.
-    out.interpolation_half_width = std::abs(correction(above) - correction(below)) * std::abs(at - *near.nominal) /
-                                   (*above.nominal - *below.nominal);
+    double change = above.value - below.value;
+    if (!stands_beside_nominal(below, above)) {
+        out.value = base_at(near, at) + correction(near);
+        change = correction(above) - correction(below);
+    }
+    // What is taken from the nearer point may have changed on the way, the more the farther, up to the whole difference
+    // at the other point.
+    out.interpolation_half_width = std::abs(change) * std::abs(at - *near.nominal) / (*above.nominal - *below.nominal);
     return out;
 }
 

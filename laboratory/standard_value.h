@@ -39,7 +39,7 @@ struct StandardValue {
 ///
 /// At a calibrated value, or within the limits of a line: the line. Between two calibrated values x0 < x < x1, with c the
 /// value less its nominal value (the value itself where the two have different units):
-/// nearest: c of the nearer one; uniform within ±|c1 − c0|·d/(x1 − x0), d the distance to it.
+/// nearest: c of the nearer one (the value itself where values change less from one to the other than c: an error); uniform within ±|c1 − c0|·d/(x1 − x0), d the distance to it.
 /// linear: c = (1 − λ)c0 + λc1, u = (1 − λ)u0 + λu1 as the lines of one certificate have their errors in common; uniform
 /// within ±|(x − x0)(x − x1)|·M, the remainder of linear interpolation, with M the larger one of the second divided
 /// differences of c with the neighbours.

@@ -923,7 +923,8 @@ json LaboratoryUse::row_of(const StandardRecord& record, const std::string& day)
     set_if_stated(row, "issuer_accreditation", last.issuer_accreditation);
     set_if_stated(row, "route", last.route);
     set_if_stated(row, "evidence", last.evidence);
-    set_if_stated(row, "valid_to", last.valid_to);
+    set_if_stated(row, "valid_to",
+                  calibration != nullptr ? laboratory::calibration_outlook(record, day).last_day : last.valid_to);
     set_if_stated(row, "sha256", last.sha256);
     const auto used = lines_of_.find(record.id);
     put_uncertainty(row, used != lines_of_.end() ? used->second : std::vector{&last.results.front()});

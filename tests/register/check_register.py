@@ -61,6 +61,7 @@ def made_lines(rng):
 def made_standard(rng, number):
     lines = made_lines(rng)
     nominal_unit = rng.choice([None, None, "V", "mm"])
+    beside = rng.random() < 0.2  # values are errors, beside their nominal values
     count = rng.choice([1, 2, 3, 3, 4, 5, 8, 12])
     date = later("2005-01-01", rng.randint(0, 3000))
     scale = 10 ** rng.uniform(-3, 1)
@@ -75,7 +76,7 @@ def made_standard(rng, number):
             if i < count - 1 and rng.random() < 0.1:
                 continue  # was not calibrated then
             elapsed = (day(date) - start).days
-            value = line.get("nominal", 3.0) + scale * rng.gauss(0, 0.1) + slope * elapsed + rng.gauss(0, 1) * scatter
+            value = (0.0 if beside else line.get("nominal", 3.0)) + scale * rng.gauss(0, 0.1) + slope * elapsed + rng.gauss(0, 1) * scatter
             U = scale * rng.choice([0.05, 0.1, 0.5]) * rng.uniform(0.8, 1.2)
             result = {**line, "value": value / FACTORS[unit], "unit": unit, "U": U / FACTORS[unit]}
             if nominal_unit and ("nominal" in line or "low" in line):
@@ -198,9 +199,10 @@ def lines_for(standard, use):
     calibration = calibration_for(standard, date)
     if calibration is None:
         return None, [], ["no"], True
-    if not date or "valid_to" not in calibration:
+    last_day = calibration.get("valid_to") or (planned_day(standard, calibration, date) if date else None)
+    if not date or not last_day:
         said.append("unknown")
-    elif date > calibration["valid_to"]:
+    elif date > last_day:
         said.append("no")
     left = calibration["results"]
     wanted = use.get("quantity", "")
@@ -338,6 +340,8 @@ def worth(standard, use):
     h = b["nominal"] - a["nominal"]
     base = at if one_unit else 0.0
     if how == "nearest":
+        if one_unit and abs(b["value"] - a["value"]) < abs(c[id(b)] - c[id(a)]):
+            base, c = 0.0, {id(r): r["value"] for r in points}
         near = a if at - a["nominal"] <= b["nominal"] - at else b
         moved = drift(standard, calibration, near, days)
         if isinstance(moved, str):
@@ -372,13 +376,27 @@ def answer(value, u, interpolation, moved, unit):
             "drift_half_width": half, "drift_nu": moved[3]}
 
 
-def interval(standard):
+def planned_day(standard, calibration, date):
+    """The next calibration as it was known on a day: the earliest of those of the lines; None where none can be said."""
+    plan = standard.get("interval")
+    is_last = calibration is standard["calibrations"][-1]
+    if plan is None or not (is_last or plan["method"] == "control_chart"):
+        return None
+    then = {**standard, "calibrations": [c for c in standard["calibrations"]
+                                         if c["calibrated"] <= calibration["calibrated"]]}
+    if "readings" in plan:
+        then["interval"] = {**plan, "readings": [r for r in plan["readings"] if r["date"] <= date]}
+    days = [found["due"] for found, _ in (interval(then, line) for line in calibration["results"]) if "due" in found]
+    return min((d for d in days if d), default=None)
+
+
+def interval(standard, line=None):
     """(days, due), the code of what cannot be said, or None. With it how near the decision was."""
     plan = standard.get("interval")
     if plan is None:
         return None, 1.0
     last = standard["calibrations"][-1]
-    line = last["results"][0]
+    line = line or last["results"][0]
     least, most = plan.get("least_days", 1), plan.get("most_days", 3653)
     if plan["method"] == "in_use_time":
         readings = plan.get("readings", [])
@@ -389,7 +407,7 @@ def interval(standard):
         since = (day(readings[-1]["date"]) - day(last["calibrated"])).days
         if used <= 0 or since <= 0:
             return {"days": 0, "due": ""}, 1.0
-        left = (plan["hours"] - used) * since / used
+        left = min(max((plan["hours"] - used) * since / used, -1e6), 1e6)  # no day beyond what a calendar has
         days = since + math.floor(left)
         return {"days": days, "due": later(last["calibrated"], days)}, abs(left - round(left))
     limit = plan["limit"] * FACTORS[plan["unit"]]

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "laboratory/outlook.h"
+#include "laboratory/recalibration.h"
 #include "tests/support/sample_standard.h"
 
 namespace gumcert::laboratory {
@@ -32,6 +34,33 @@ TEST(ApplicabilityTest, DaysAreThoseOfTheCalibration) {
     EXPECT_EQ(answer_of(record, {}), Answer::unknown);
     record.calibrations.back().valid_to.clear();
     EXPECT_EQ(answer_of(record, {.date = "2028-01-01"}), Answer::unknown);
+}
+
+TEST(ApplicabilityTest, AgreesWithTheOverviewOnEveryDay) {
+    // Overview and gate speak of one standard: what the one calls valid the other does not call unknown.
+    for (const bool has_plan : {false, true}) {
+        for (const char* valid_to : {"", "2026-09-30", "2028-09-30"}) {
+            StandardRecord record = test::three_calibrations();
+            record.calibrations.back().valid_to = valid_to;
+            record.interval.reset();
+            if (has_plan) {
+                IntervalPlan& plan = record.interval.emplace();
+                plan.method = IntervalMethod::staircase;
+                plan.present_days = 500;
+                plan.limit = 1000.0;
+                plan.unit = record.calibrations.back().results.front().unit;
+            }
+            for (long day = 0; day < 2000; day += 7) {
+                const std::string date = days_after(record.calibrations.back().calibrated, day);
+                const CalibrationState state = calibration_outlook(record, date).state;
+                const Answer answer = answer_of(record, {.date = date});
+                EXPECT_EQ(answer == Answer::unknown, state == CalibrationState::unknown) << valid_to << " " << date;
+                if (*valid_to == '\0' || !has_plan) {  // with both, a plan that is overdue is a finding of its own
+                    EXPECT_EQ(answer == Answer::no, state == CalibrationState::overdue) << valid_to << " " << date;
+                }
+            }
+        }
+    }
 }
 
 TEST(ApplicabilityTest, QuantityRangeAndModeNarrowTheLines) {

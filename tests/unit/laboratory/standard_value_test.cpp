@@ -125,6 +125,17 @@ TEST(StandardValueTest, NearestHasTheDifferenceToItsNeighbour) {
     EXPECT_EQ(value.result, &record.calibrations.back().results[1]);
 }
 
+TEST(StandardValueTest, AnErrorOfTheNearerPointIsNotMoved) {
+    StandardRecord record = curve();
+    record.interpolation = Interpolation::nearest;
+    for (CalibrationResult& line : record.calibrations.back().results) {
+        line.value -= *line.nominal;  // 0, 0.1 and 0.4 V at 0, 10 and 20 V
+    }
+    const StandardValue value = value_of_standard(record, {.at = 14.0, .date = k_day});
+    EXPECT_NEAR(value.value, 0.1, 1e-12);  // 4.1 V would be the distance to its neighbour, and no error
+    EXPECT_NEAR(value.interpolation_half_width, 0.3 * 4.0 / 10.0, 1e-12);
+}
+
 TEST(StandardValueTest, LinearHasTheRemainderOfTheChord) {
     StandardRecord record = curve();
     record.interpolation = Interpolation::linear;
