@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gumcert::reports {
 
@@ -141,8 +142,15 @@ void draw_series(Drawing& drawing, const PlotSeries& series, const PlotFrame& fr
     }
 }
 
+/// Where a text stands, in drawing units.
+struct TextBox {
+    double left, right, upper, lower;
+};
+
 /// The label of a limit, at the end of its line where nothing is in the way: else on its other side, or further left.
-void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit& limit, const PlotFrame& frame) {
+/// \param labels  those that stand already; this one is added
+void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit& limit, const PlotFrame& frame,
+                      std::vector<TextBox>& labels) {
     struct Place {
         double x, y;
         const char* anchor;
@@ -159,6 +167,11 @@ void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit&
         for (const PlotLimit& other : panel.limits) {
             const double y = frame.py(other.y);
             count += y > upper && y < lower ? k_outside : 0;
+        }
+        for (const TextBox& label : labels) {
+            const bool apart = label.right < place.left || label.left > place.left + width || label.lower < upper ||
+                               label.upper > lower;
+            count += apart ? 0 : k_outside;
         }
         for (const PlotSeries& series : panel.series) {
             for (const PlotPoint& p : series.points) {
@@ -193,6 +206,7 @@ void draw_limit_label(Drawing& drawing, const PlotPanel& panel, const PlotLimit&
         }
     }
     drawing.text(best->x, best->y, limit.label, best->anchor, k_size);
+    labels.push_back({best->left, best->left + width, best->y - 0.8 * k_size, best->y + 0.2 * k_size});
 }
 
 void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame, bool with_axis) {
@@ -209,12 +223,13 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame
         drawing.line(frame.x, frame.py(0.0), frame.x + frame.width, frame.py(0.0),
                      "stroke=\"#000000\" stroke-width=\"0.7\"");
     }
+    std::vector<TextBox> labels;
     for (const PlotLimit& limit : panel.limits) {
         const double y = frame.py(limit.y);
         drawing.line(frame.x, y, frame.x + frame.width, y,
                      limit.dotted ? "stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"1.2 2.4\""
                                   : "stroke=\"#000000\" stroke-width=\"1\" stroke-dasharray=\"6 3\"");
-        draw_limit_label(drawing, panel, limit, frame);
+        draw_limit_label(drawing, panel, limit, frame, labels);
     }
     for (const PlotSeries& series : panel.series) {
         if (series.bars == PlotBars::band) {

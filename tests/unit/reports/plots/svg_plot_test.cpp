@@ -1,13 +1,16 @@
 #include "reports/plots/svg_plot.h"
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/plots/plot_frame.h"
 #include "reports/plots/polar_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -41,6 +44,45 @@ TEST(SvgPlot, KeepsTheRulesForEveryRenderer) {
     EXPECT_THAT(text, HasSubstr("stroke-dasharray"));
     for (const char* part : {"currentColor", "<use", "<tspan", "e-0", "nan", "inf", "\"-0\""}) {
         EXPECT_THAT(text, Not(HasSubstr(part)));
+    }
+}
+
+/// Left and upper end, width and height of the texts whose words are given.
+std::vector<std::array<double, 4>> boxes_of(const std::string& drawing, const std::string& words) {
+    std::vector<std::array<double, 4>> boxes;
+    const std::regex form(
+        "<text x=\"([^\"]*)\" y=\"([^\"]*)\" font-size=\"10\" text-anchor=\"([a-z]*)\"[^>]*>([^<]*)<");
+    for (std::sregex_iterator found(drawing.begin(), drawing.end(), form); found != std::sregex_iterator(); ++found) {
+        const std::string text = (*found)[4];
+        if (text.find(words) == std::string::npos) {
+            continue;
+        }
+        const double width = label_width(text, 10.0);
+        const std::string anchor = (*found)[3];
+        const double x = std::stod((*found)[1]) - (anchor == "end" ? width : anchor == "middle" ? 0.5 * width : 0.0);
+        boxes.push_back({x, std::stod((*found)[2]) - 8.0, width, 10.0});
+    }
+    return boxes;
+}
+
+TEST(SvgPlot, LabelsOfLimitsDoNotCoverEachOther) {
+    // A guard band is narrow or wide: limits of acceptance come as near to those of the tolerance as they like.
+    for (double band = 1e-6; band < 1.0; band *= 1.3) {
+        Plot plot = one_panel(-1.5, 1.5);
+        plot.panels[0].limits = {{-1.0, "a limit of the tolerance"},
+                                 {1.0, "a limit of the tolerance"},
+                                 {-1.0 + band, "a limit of acceptance", true},
+                                 {1.0 - band, "a limit of acceptance", true}};
+        const std::vector<std::array<double, 4>> boxes = boxes_of(svg(plot), "a limit");
+        ASSERT_EQ(boxes.size(), 4U) << band;
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const auto& a = boxes[i];
+                const auto& b = boxes[j];
+                EXPECT_TRUE(a[0] + a[2] <= b[0] || b[0] + b[2] <= a[0] || a[1] + a[3] <= b[1] || b[1] + b[3] <= a[1])
+                    << "labels " << i << " and " << j << " with a band of " << band;
+            }
+        }
     }
 }
 
