@@ -91,7 +91,8 @@ inline void readings_section(reports::CertificateBuilder& builder, const reports
                              const reports::EvaluationRecord& record) {
     builder.section("readings", "Readings of the toy");
     reports::Rows rows;
-    for (const nlohmann::json& reading : nlohmann::json::parse(record.job_json)["readings_mm"]) {
+    const nlohmann::json job = nlohmann::json::parse(record.job_json);
+    for (const nlohmann::json& reading : job["readings_mm"]) {
         rows.push_back({reports::plain(reading.get<double>())});
     }
     builder.table("readings", "As they were read.", {{"reading", "mm", true}}, rows);

@@ -97,7 +97,8 @@ TEST(AuditOfAnEvaluation, NoCertificateIsIssuedAgainstItsOwnAudit) {
     for (int i = 0; i < 60; ++i) {
         const Evaluation one = evaluated(job_with(0.3 * std::pow(10.0, exponent(random)), json::array()));
         bool critical = false;
-        for (const json& finding : json::parse(one.record.audit_json).at("findings")) {
+        const json audit = json::parse(one.record.audit_json);
+        for (const json& finding : audit.at("findings")) {
             critical = critical || (finding.at("severity") == "critical" && !finding.contains("waiver"));
         }
         EXPECT_TRUE(!critical || one.record.certificate->blocked);
