@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "gum/argument_check.h"
 #include "gum/distribution_quantile.h"
@@ -93,15 +94,15 @@ double crossing(const Dispersion& dispersion, const ToleranceLimits& limits, dou
                         std::max(from, to));
 }
 
-/// A value between two others whose risk is not above a level: the middle of the tolerance, where there is one at all.
-/// Only a given distribution that is not symmetric with one peak may have another; then the best of some is tried.
+/// A value between two others whose risk is as small as any that is tried: y itself where it is accepted.
 double good_value(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double low, double high,
-                  bool one_peak) {
-    // With one peak and symmetry the risk is least in the middle of the tolerance and grows to both sides, so that it
-    // crosses the level once on each.
+                  double y) {
+    if (dispersion.risk(y, limits) <= level) {
+        return y;
+    }
     double best = std::clamp(0.5 * (*limits.lower + *limits.upper), low, high);
     double least = dispersion.risk(best, limits);
-    for (int i = 0; !one_peak && least > level && i <= k_scan; ++i) {
+    for (int i = 0; i <= k_scan; ++i) {
         const double s = low + (high - low) * i / k_scan;
         if (const double risk = dispersion.risk(s, limits); risk < least) {
             least = risk;
@@ -109,6 +110,28 @@ double good_value(const Dispersion& dispersion, const ToleranceLimits& limits, d
         }
     }
     return best;
+}
+
+/// The value between `accepted` and an end where a risk first crosses a level.
+double first_crossing(const std::function<double(double)>& risk, double level, double accepted, double end,
+                      double tested) {
+    std::vector<double> tried;
+    for (int i = 1; i <= k_scan; ++i) {
+        tried.push_back(accepted + (end - accepted) * i / k_scan);
+    }
+    if ((tested - accepted) * (end - tested) > 0.0) {
+        tried.push_back(tested);
+        std::sort(tried.begin(), tried.end(),
+                  [&](double a, double b) { return std::abs(a - accepted) < std::abs(b - accepted); });
+    }
+    double before = accepted;
+    for (const double s : tried) {
+        if (risk(s) > level) {
+            return root_between([&](double x) { return risk(x) - level; }, std::min(before, s), std::max(before, s));
+        }
+        before = s;
+    }
+    return end;
 }
 
 }  // namespace
@@ -194,7 +217,15 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     if (low > high) {
         return std::nullopt;
     }
-    const double best = good_value(dispersion, limits, risk, low, high, !y.distribution);
+    if (y.distribution) {
+        const auto of_value = [&](double s) { return dispersion.risk(s, limits); };
+        const double best = good_value(dispersion, limits, risk, low, high, y.value);
+        return of_value(best) > risk ? std::nullopt
+                                     : std::optional(accepted_around(of_value, risk, best, low, high, y.value));
+    }
+    // With one peak and symmetry the risk is least in the middle of the tolerance and grows to both sides, so that it
+    // crosses the level once on each.
+    const double best = std::clamp(0.5 * (*limits.lower + *limits.upper), low, high);
     if (dispersion.risk(best, limits) > risk) {
         return std::nullopt;
     }
@@ -206,6 +237,12 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
         accepted.upper = crossing(dispersion, limits, risk, best, high);
     }
     return accepted;
+}
+
+ToleranceLimits accepted_around(const std::function<double(double)>& risk, double level, double accepted, double low,
+                                double high, double tested) {
+    return {.lower = first_crossing(risk, level, accepted, std::min(low, accepted), tested),
+            .upper = first_crossing(risk, level, accepted, std::max(high, accepted), tested)};
 }
 
 ToleranceLimits rejection_limits_for_probability(const MeasuredValue& y, const ToleranceLimits& limits,

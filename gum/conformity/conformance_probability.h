@@ -18,6 +18,8 @@ struct MeasuredValue {
     std::function<double(double)> distribution = {};
     /// P(Y < x) where single values have a probability of their own, as those of trials and samples; empty: P(Y ≤ x)
     std::function<double(double)> distribution_below = {};
+    /// Trials that `distribution` counts: its probabilities scatter by their number. 0: it has no scatter
+    double trials = 0.0;
 };
 
 /// \throws InputError  GC-GUM-0081 if a number is out of range
@@ -45,11 +47,19 @@ void require_measured_value(const MeasuredValue& y);
 /// Limits of the measured values for which the probability of nonconformity is not above a risk.
 ///
 /// Both tails count. Where the tolerance is wide against u, each limit is a one-sided quantile away from the tolerance
-/// limit (1.645 u for a normal distribution and a risk of 5 %).
+/// limit (1.645 u for a normal distribution and a risk of 5 %). Where the distribution has several peaks, the values that
+/// are accepted may have gaps: the limits are then those around y, where y is accepted, else around the best value.
 /// \param risk  0 < risk ≤ 0.5
 /// \return nothing where no value has so small a risk
 [[nodiscard]] std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y,
                                                                         const ToleranceLimits& limits, double risk);
+
+/// The measured values around an accepted one, up to where a risk first crosses a level on either side.
+/// \param risk  of a measured value; not above the level at `accepted`
+/// \param low, high  where the search ends
+/// \param tested  a value of which the risk is known to matter: no crossing between it and `accepted` is overlooked
+[[nodiscard]] ToleranceLimits accepted_around(const std::function<double(double)>& risk, double level, double accepted,
+                                              double low, double high, double tested);
 
 /// Limits of the measured values beyond which nonconformity has at least a given probability: they lie outside of the
 /// tolerance.

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "gum/argument_check.h"
+#include "gum/conformity/posterior_risk.h"
+#include "gum/distribution_quantile.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 
@@ -62,9 +64,10 @@ private:
     void explain();
 
     [[nodiscard]] bool nonconformity_is_proven();
-    [[nodiscard]] bool proven_on_one_side(const MeasuredValue& y, double probability) const;
-    [[nodiscard]] double weight_of_measurement() const;
-    [[nodiscard]] MeasuredValue posterior_at(double value) const;
+    [[nodiscard]] bool proven_on_one_side(double probability) const;
+    [[nodiscard]] std::optional<ToleranceLimits> posterior_zone(const std::optional<ToleranceLimits>& normal) const;
+    [[nodiscard]] bool trials_leave_open(double risk) const;
+    [[nodiscard]] double width_of_normal(double risk) const;
     [[nodiscard]] bool at_most(double a, double b) const;
     [[nodiscard]] bool inside(const ToleranceLimits& zone) const;
     [[nodiscard]] bool beyond(const ToleranceLimits& zone) const;
@@ -81,7 +84,9 @@ private:
     Zones zones_ = Zones::two;
     double largest_risk_ = 0.0;  // of by_risk and by_proof
     bool with_prior_ = false;
-    std::string reason_;  // why the rule cannot be applied, or no value can pass
+    MeasuredValue measured_;                  // with_prior_: what is combined with the population
+    std::optional<PosteriorRisk> posterior_;  // with_prior_
+    std::string reason_;                      // why the rule cannot be applied, or no value can pass
     ConformityDecision decision_;
 };
 
@@ -95,6 +100,10 @@ std::string acceptance_text(const ToleranceLimits& limits, const std::string& gu
         text += (text.empty() ? "" : ", ") + side("AU", "TU", outwards ? " + " : " − ");
     }
     return text;
+}
+
+void add_sentence(std::string& text, std::string_view sentence) {
+    text += (text.empty() ? "" : " ") + std::string(sentence);
 }
 
 bool Application::at_most(double a, double b) const {
@@ -184,40 +193,65 @@ void Application::prove(double probability) {
                         " ≤ 1 − p; else undetermined; p = " + text::shortest(probability);
 }
 
-/// DR-09, method 4: of the measured value against the centre of the population.
-double Application::weight_of_measurement() const {
-    const double u = y_.standard_uncertainty;
-    const double s0 = population_->deviation;
-    return s0 * s0 / (s0 * s0 + u * u);
+/// The standard deviation of a normal distribution whose quantiles for a risk are as far out as the farther one of the
+/// measurement; at least u.
+double Application::width_of_normal(double risk) const {
+    constexpr double k_largest_risk = 0.3;  // beyond it a quantile says little of the width
+    if (risk >= k_largest_risk) {
+        return y_.standard_uncertainty;
+    }
+    MeasuredValue about_zero = y_;  // a value that is large against u would cost the digits of the quantile
+    about_zero.value = 0.0;
+    if (y_.distribution) {
+        about_zero.distribution = [this](double x) { return y_.distribution(y_.value + x); };
+    }
+    // What one limit alone keeps off a tolerance limit is the quantile.
+    const double above = -*acceptance_limits_for_risk(about_zero, {.upper = 0.0}, risk)->upper;
+    const double below = *acceptance_limits_for_risk(about_zero, {.lower = 0.0}, risk)->lower;
+    const double width = std::max(above, below) / upper_quantile(Distribution::normal(0.0, 1.0), risk);
+    constexpr double k_widest = 1e6;  // [u]: the digits of the value are spent
+    return width < k_widest * y_.standard_uncertainty ? std::max(y_.standard_uncertainty, width)
+                                                      : y_.standard_uncertainty;
 }
 
-/// DR-09, method 4: what is known after a measurement that gave some value.
-MeasuredValue Application::posterior_at(double value) const {
-    const double weight = weight_of_measurement();
-    // Product of two normal densities: 1/u'² = 1/s0² + 1/u², so u'² = w u² with w = s0²/(s0² + u²), and the value moves
-    // towards the centre of the population by the same weight.
-    return {.value = population_->centre + weight * (value - population_->centre),
-            .standard_uncertainty = y_.standard_uncertainty * std::sqrt(weight),
-            .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
-}
-
-/// DR-09, method 4: the specific risk of this value, with the population as prior. Prior and measurement are normal,
-/// and so is what is known after both: its value is a weighted mean.
+/// DR-09, method 4: the specific risk of this value, with the population as prior.
 void Application::posterior() {
-    const double weight = weight_of_measurement();
     with_prior_ = true;
     zones_ = Zones::by_risk;
     largest_risk_ = p_.probability.value_or(k_z540_3_risk);
-    const MeasuredValue after = posterior_at(y_.value);
-    if (auto solved = acceptance_limits_for_risk(after, limits_, largest_risk_)) {
-        const auto measured = [&](std::optional<double>& limit) {
-            if (limit) {
-                // Limits of what is known after the measurement, taken back to values that a measurement shows.
-                limit = population_->centre + (*limit - population_->centre) / weight;
+    measured_ = y_;
+    if (std::isfinite(y_.degrees_of_freedom) || has_long_tails(y_)) {
+        // Tails that fall off more slowly than those of the population let it speak for any value far outside of the
+        // limits. The normal distribution that is as wide at the risk of the rule does not.
+        measured_ = {.value = y_.value,
+                     .standard_uncertainty = width_of_normal(largest_risk_),
+                     .expanded_uncertainty = y_.expanded_uncertainty};
+        add_sentence(
+            decision_.note,
+            "The measurement is taken as normally distributed, as wide as its own distribution at the risk of the "
+            "rule.");
+    }
+    posterior_.emplace(measured_, limits_, *population_);
+    // Prior and normal measurement give a normal distribution whose value is a weighted mean: its limits, taken back to
+    // values that a measurement shows. Of another measurement they say where to look.
+    const double u = measured_.standard_uncertainty;
+    const double s0 = population_->deviation;
+    const double weight = s0 * s0 / (s0 * s0 + u * u);
+    const MeasuredValue after{.value = population_->centre + weight * (y_.value - population_->centre),
+                              .standard_uncertainty = u * std::sqrt(weight),
+                              .expanded_uncertainty = y_.expanded_uncertainty * std::sqrt(weight)};
+    std::optional<ToleranceLimits> solved = acceptance_limits_for_risk(after, limits_, largest_risk_);
+    if (solved) {
+        for (std::optional<double>* limit : {&solved->lower, &solved->upper}) {
+            if (*limit) {
+                **limit = population_->centre + (**limit - population_->centre) / weight;
             }
-        };
-        measured(solved->lower);
-        measured(solved->upper);
+        }
+    }
+    if (measured_.distribution) {
+        solved = posterior_zone(solved);
+    }
+    if (solved) {
         decision_.acceptance = *solved;
         decision_.guard_band =
             std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
@@ -225,6 +259,36 @@ void Application::posterior() {
     }
     decision_.formula =
         "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+}
+
+/// DR-09, method 4, of a measurement that is not normal: the accepted values around y, or around the best one.
+/// \param normal  limits that a normal measurement with the same u would have
+std::optional<ToleranceLimits> Application::posterior_zone(const std::optional<ToleranceLimits>& normal) const {
+    const double u = y_.standard_uncertainty;
+    const double low = std::min(limits_.lower.value_or(*limits_.upper - 8.0 * u),
+                                normal && normal->lower ? *normal->lower : std::numeric_limits<double>::infinity()) -
+                       4.0 * u;
+    const double high = std::max(limits_.upper.value_or(*limits_.lower + 8.0 * u),
+                                 normal && normal->upper ? *normal->upper : -std::numeric_limits<double>::infinity()) +
+                        4.0 * u;
+    double best = y_.value;
+    double least = risk_of(best);
+    constexpr int k_tried = 32;
+    for (int i = 0; least > largest_risk_ && i <= k_tried; ++i) {
+        const double s = low + (high - low) * i / k_tried;
+        if (const double risk = risk_of(s); risk < least) {
+            least = risk;
+            best = s;
+        }
+    }
+    if (least > largest_risk_) {
+        return std::nullopt;
+    }
+    ToleranceLimits zone =
+        accepted_around([&](double s) { return risk_of(s); }, largest_risk_, best, low, high, y_.value);
+    zone.lower = limits_.lower ? zone.lower : std::nullopt;
+    zone.upper = limits_.upper ? zone.upper : std::nullopt;
+    return zone;
 }
 
 void Application::z540_3() {
@@ -349,8 +413,7 @@ void Application::set_zones() {
 }
 
 double Application::risk_of(double value) const {
-    return with_prior_ ? nonconformance_probability(posterior_at(value), limits_)
-                       : nonconformance_probability_at(value, y_, limits_);
+    return with_prior_ ? posterior_->at(value).both() : nonconformance_probability_at(value, y_, limits_);
 }
 
 void Application::probabilities() {
@@ -370,21 +433,33 @@ void Application::probabilities() {
 
 /// Whether the item lies beyond one of the limits with a probability. Both tails together say nothing where the
 /// tolerance is narrow: each value has a small probability of conformity then, also the best one.
-bool Application::proven_on_one_side(const MeasuredValue& y, double probability) const {
+bool Application::proven_on_one_side(double probability) const {
     const double least = probability * (1.0 - k_noise_of_a_risk);
-    return (limits_.lower && probability_below(y, *limits_.lower) >= least) ||
-           (limits_.upper && 1.0 - distribution_function(y, *limits_.upper) >= least);
+    if (with_prior_) {
+        const OutsideProbabilities outside = posterior_->at(y_.value);
+        return outside.below >= least || outside.above >= least;
+    }
+    return (limits_.lower && probability_below(y_, *limits_.lower) >= least) ||
+           (limits_.upper && 1.0 - distribution_function(y_, *limits_.upper) >= least);
+}
+
+/// Whether a risk that is counted lies so near to the one of the rule that other trials could decide otherwise.
+bool Application::trials_leave_open(double risk) const {
+    if (!(y_.trials > 0.0)) {
+        return false;
+    }
+    constexpr double k_sure = 3.0;  // standard uncertainties of a count: 0.3 % of sound decisions stay open
+    const double scatter = k_sure * std::sqrt(largest_risk_ * (1.0 - largest_risk_) / y_.trials);
+    return std::abs(risk - largest_risk_) < scatter ||
+           (zones_ == Zones::by_proof && std::abs(risk - (1.0 - largest_risk_)) < scatter);
 }
 
 /// Whether a value fails although none can pass, or the rule cannot be applied: nonconformity needs no zone of
 /// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
 /// y ± U lies outside of the tolerance.
 bool Application::nonconformity_is_proven() {
-    if (zones_ == Zones::by_proof) {
-        return proven_on_one_side(y_, 1.0 - largest_risk_);
-    }
-    if (with_prior_) {
-        return proven_on_one_side(posterior_at(y_.value), 1.0 - largest_risk_);
+    if (zones_ == Zones::by_proof || with_prior_) {
+        return proven_on_one_side(1.0 - largest_risk_);
     }
     if (!decision_.rejection.lower && !decision_.rejection.upper) {
         decision_.rejection = guarded_limits(limits_, -y_.expanded_uncertainty);
@@ -408,6 +483,13 @@ void Application::verdict() {
     }
     if (!applies()) {
         decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;
+    } else if (by_risk && trials_leave_open(risk)) {
+        // A verdict must not depend on the seed of the trials.
+        decision_.verdict = zones_ == Zones::by_proof ? undetermined : not_applicable;
+        add_sentence(
+            decision_.note,
+            "The Monte Carlo trials do not decide: the probability is as near to that of the rule as their number "
+            "lets it scatter. More trials may decide.");
     } else if (passes) {
         decision_.verdict = pass;
     } else if (zones_ == Zones::two || zones_ == Zones::by_risk) {
@@ -421,10 +503,6 @@ void Application::verdict() {
     } else {
         decision_.verdict = inside(limits_) ? conditional_pass : conditional_fail;
     }
-}
-
-void add_sentence(std::string& text, std::string_view sentence) {
-    text += (text.empty() ? "" : " ") + std::string(sentence);
 }
 
 void Application::global_risks() {

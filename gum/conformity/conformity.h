@@ -45,7 +45,9 @@ struct ConformityDecision {
 /// on it: with T_U = 0.3 and U = 0.1, y = 0.2 passes DR-03. Where A_L > A_U, or the rule cannot be applied, no value
 /// can pass; the verdict is not_applicable then, because an item does not fail for a poor measurement, and fail where
 /// nonconformity is proven: y beyond the limits by more than U, or where the rule itself begins to reject (DR-05,
-/// DR-06, DR-08, DR-09 by method 4). So far out every rule says fail.
+/// DR-06, DR-08, DR-09 by method 4). So far out every rule says fail. Where the probability of a rule by risk is counted
+/// from trials and lies within three standard uncertainties of the count from that of the rule, nothing is decided:
+/// undetermined with DR-08, else not_applicable.
 /// \throws InputError  GC-GUM-0080 limits, GC-GUM-0081 measured value, GC-GUM-0082 every fault that
 ///     `check_decision_rule` finds with the rule
 /// Accuracy: probabilities and acceptance limits within 1e-11 relative where the distribution is normal or t

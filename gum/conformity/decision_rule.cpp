@@ -397,6 +397,11 @@ std::optional<Population> stated_population(const DecisionRuleParameters& parame
     return deviation ? std::optional(Population{centre, *deviation}) : std::nullopt;
 }
 
+bool decides_by_probability(DecisionRule rule, const DecisionRuleParameters& parameters) {
+    return rule == DecisionRule::specific_risk || (rule == DecisionRule::iso_14253_1 && !parameters.guard_factor) ||
+           (rule == DecisionRule::z540_3 && parameters.method == "4");
+}
+
 std::vector<std::string> check_decision_rule(DecisionRule rule, const DecisionRuleParameters& parameters,
                                              const ToleranceLimits& limits) {
     return Check(rule, parameters, limits).run();

@@ -53,6 +53,10 @@ struct DecisionRuleParameters {
     std::string method = {};                            ///< DR-09: "1" … "6", "rds", "rp10"
 };
 
+/// Whether the rule holds a probability of the measurand against a limit, so that its verdict needs the distribution and not
+/// U alone: DR-07, DR-08 without a factor, DR-09 by method 4.
+[[nodiscard]] bool decides_by_probability(DecisionRule rule, const DecisionRuleParameters& parameters);
+
 /// What is missing, not used or contradictory, as English sentences that name the keys; empty: the rule can be applied.
 [[nodiscard]] std::vector<std::string> check_decision_rule(DecisionRule rule, const DecisionRuleParameters& parameters,
                                                            const ToleranceLimits& limits);

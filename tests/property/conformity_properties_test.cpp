@@ -321,6 +321,67 @@ TEST(ConformityProperties, OnePlaceOneScaleAndOneSideAreAsGoodAsAnother) {
     });
 }
 
+/// An exponential, or two peaks, about y.
+std::function<double(double)> skew_distribution(Random& random, double y, double u) {
+    if (random.whole(2) == 0) {
+        const double side = random.whole(2) == 0 ? 1.0 : -1.0;
+        const double blur = u * random.uniform(0.001, 0.3);
+        return [=](double x) {
+            const double t = side * (x - y) / u + 1.0;
+            const double P = t > 0.0 ? 1.0 - std::exp(-t) : 0.0;
+            return (1.0 - blur / u) * (side > 0.0 ? P : 1.0 - P) +
+                   blur / u * 0.5 * std::erfc(-(x - y) / (blur * std::sqrt(2.0)));
+        };
+    }
+    const double share = random.uniform(0.02, 0.98);
+    const double apart = u * random.uniform(0.5, 6.0);
+    const double width = u * random.uniform(0.05, 1.0);
+    return [=](double x) {
+        const auto P = [&](double middle) { return 0.5 * std::erfc(-(x - middle) / (width * std::sqrt(2.0))); };
+        return share * P(y - (1.0 - share) * apart) + (1.0 - share) * P(y + share * apart);
+    };
+}
+
+// What is printed beside a verdict by risk agrees with it: limits in their order, around a value that passes.
+TEST(ConformityProperties, LimitsOfAcceptanceEncloseWhatPassesWhateverTheDistribution) {
+    Random random(1014);
+    int passed = 0, failed = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double y = random.uniform(-1.5, 1.5);
+        const double u = random.log_uniform(0.01, 1.0);
+        const MeasuredValue value{.value = y,
+                                  .standard_uncertainty = u,
+                                  .expanded_uncertainty = 2.0 * u,
+                                  .distribution = skew_distribution(random, y, u)};
+        const double risk = random.uniform(0.005, 0.4);
+        const bool by_risk = random.whole(2) == 0;
+        const ConformityDecision decision =
+            by_risk ? decide_conformity(DecisionRule::specific_risk, {.probability = risk},
+                                        {.lower = -1.0, .upper = 1.0}, value)
+                    : decide_conformity(DecisionRule::iso_14253_1, {.probability = 1.0 - risk},
+                                        {.lower = -1.0, .upper = 1.0}, value);
+        const ToleranceLimits& accepted = decision.acceptance;
+        SCOPED_TRACE(i);
+        if (accepted.lower && accepted.upper) {
+            ASSERT_LE(*accepted.lower, *accepted.upper);
+            const double noise = 1e-9;
+            const bool inside = *accepted.lower - noise <= y && y <= *accepted.upper + noise;
+            const bool well_inside = *accepted.lower + noise < y && y < *accepted.upper - noise;
+            if (decision.verdict == ConformityVerdict::pass) {
+                ASSERT_TRUE(inside);
+                ++passed;
+            } else {
+                ASSERT_FALSE(well_inside);
+                ++failed;
+            }
+        } else {
+            ASSERT_NE(decision.verdict, ConformityVerdict::pass);
+        }
+    }
+    EXPECT_GT(passed, 300);
+    EXPECT_GT(failed, 300);
+}
+
 // A limit belongs to the tolerance: what lies exactly on it conforms, at the lower limit as at the upper one.
 TEST(ConformityProperties, ValuesOnALimitConform) {
     Random random(98);

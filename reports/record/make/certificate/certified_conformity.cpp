@@ -84,6 +84,7 @@ std::optional<DecisionNumbers> numbers_of(const CertifiedValue& from, const Know
                     return function(centre + (x - value) * stretch);
                 };
             };
+            numbers.trials = static_cast<double>(known.trials);
             numbers.distribution = as_it_is ? known.function : stretched(known.function);
             if (known.below) {
                 numbers.distribution_below = as_it_is ? known.below : stretched(known.below);

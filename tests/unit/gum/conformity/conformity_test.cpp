@@ -404,6 +404,61 @@ TEST(DecideConformity, Dr09PosteriorOfOneValue) {
     EXPECT_TRUE(agrees(1.0 - moved.conformance_probability, 0.122464389118019, 1e-12));
 }
 
+TEST(DecideConformity, Dr09PosteriorOfAMeasurementThatIsNotNormal) {
+    const Parameters parameters{.population_deviation = 0.05, .population_centre = 10.0, .method = "4"};
+    const ToleranceLimits limits{.lower = 9.9, .upper = 10.1};
+    const Distribution rectangle = Distribution::uniform(10.0739, 0.03);
+    const double u = standard_deviation(rectangle);
+    const MeasuredValue y{
+        .value = 10.0739, .standard_uncertainty = u, .expanded_uncertainty = 1.65 * u, .distribution = [&](double x) {
+            return lower_tail_probability(rectangle, x);
+        }};
+    const ConformityDecision decision = decide_conformity(DecisionRule::z540_3, parameters, limits, y);
+    EXPECT_EQ(decision.verdict, fail) << "1.9 % would be the risk of a normal distribution";
+    EXPECT_TRUE(prints_as(100.0 * (1.0 - decision.conformance_probability), "2.276"));
+    ASSERT_TRUE(decision.acceptance.upper);
+    EXPECT_LT(*decision.acceptance.upper, y.value);
+    EXPECT_NEAR(*decision.largest_specific_risk, 0.02, 1e-4);
+    // With 3 degrees of freedom: as wide at 2 % as a normal distribution of u·3.48/2.05. The risk is 0.78 % by
+    // quadrature, 1.5 % of that normal one, and 0.2 % of one with u.
+    const MeasuredValue few{
+        .value = 10.064, .standard_uncertainty = 0.015, .expanded_uncertainty = 0.05, .degrees_of_freedom = 3.0};
+    const ConformityDecision wide = decide_conformity(DecisionRule::z540_3, parameters, limits, few);
+    EXPECT_EQ(wide.verdict, pass);
+    EXPECT_NEAR(1.0 - wide.conformance_probability, 0.015, 0.001);
+    EXPECT_NE(wide.note.find("taken as normally distributed"), std::string::npos);
+}
+
+TEST(DecideConformity, TrialsDecideOnlyWhereTheirNumberDoes) {
+    // P(Y > 10) is 5 % to within the scatter of 10 000 trials: 3·√(0.05·0.95/10⁴) = 0.65 %.
+    const auto value_with_risk = [](double risk, double trials) {
+        const MeasuredValue normal = normal_value(10.0 - upper_quantile(Distribution::normal(0.0, 0.05), risk), 0.05);
+        MeasuredValue counted = normal;
+        counted.distribution = [normal](double x) { return distribution_function(normal, x); };
+        counted.trials = trials;
+        return counted;
+    };
+    for (const double risk : {0.044, 0.0499, 0.0501, 0.056}) {
+        for (const auto& [rule, open] : {std::pair(DecisionRule::specific_risk, not_applicable),
+                                         std::pair(DecisionRule::iso_14253_1, undetermined)}) {
+            const Parameters parameters{.probability = rule == DecisionRule::specific_risk ? 0.05 : 0.95};
+            const ConformityDecision counted =
+                decide_conformity(rule, parameters, k_upper, value_with_risk(risk, 10000.0));
+            EXPECT_EQ(counted.verdict, open) << risk;
+            EXPECT_NE(counted.note.find("do not decide"), std::string::npos);
+            const ConformityDecision sure = decide_conformity(rule, parameters, k_upper, value_with_risk(risk, 1e8));
+            EXPECT_EQ(sure.verdict == pass, risk < 0.05) << risk;
+            EXPECT_EQ(sure.note, "");
+        }
+    }
+    EXPECT_EQ(
+        decide_conformity(DecisionRule::specific_risk, {.probability = 0.05}, k_upper, value_with_risk(0.043, 10000.0))
+            .verdict,
+        pass);
+    EXPECT_EQ(decide_conformity(DecisionRule::guard_band_u, {}, k_upper, value_with_risk(0.05, 10.0)).note, "")
+        << "a rule with U does not ask for the probability";
+}
+
 TEST(DecideConformity, Dr09RatioWhereARiskIsImpracticable) {
     EXPECT_EQ(z540_3({.test_uncertainty_ratio = 4.0}, 4.0, 1.0).verdict, pass);
     EXPECT_EQ(z540_3({.test_uncertainty_ratio = 4.0}, 4.0, 1.01).verdict, fail);
