@@ -194,6 +194,8 @@ struct AuditedBudget {
     /// Evaluated by this program from its measurement model: sensitivities, sum and k come from there and need no second
     /// look; what was stated of the inputs does.
     bool evaluated_here = false;
+    /// False: the result comes from trials that are not at hand, so that no probability can be computed again.
+    bool has_known_distribution = true;
     std::optional<double> value;
     /// Calibration and measurement capability at this point: U is never stated below it (ILAC-P14:09/2020, 5.4).
     std::optional<double> capability;

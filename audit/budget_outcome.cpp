@@ -111,19 +111,28 @@ double remembered_half_width(const std::vector<gum::ConvolutionTerm>& terms, dou
     return remembered(known, std::move(key), [&] { return gum::convolution_half_width(terms, probability); });
 }
 
+std::vector<gum::ConvolutionTerm> terms_of(const AuditedBudget& budget) {
+    std::vector<gum::ConvolutionTerm> terms;
+    for (const AuditedRow& row : budget.rows) {
+        if (contribution_of(row) > 0.0) {
+            terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
+        }
+    }
+    return terms;
+}
+
+/// A convolution is the distribution of a sum of independent quantities.
+bool is_convolution(const AuditedBudget& budget, const CoverageRule& coverage) {
+    return coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty();
+}
+
 double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
     if (coverage.kind == CoverageRule::Kind::fixed) {
         return coverage.k;
     }
-    // A convolution is the distribution of a sum of independent quantities; with correlations t_p(ν_eff) is taken.
-    if (coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
-        std::vector<gum::ConvolutionTerm> terms;
-        for (const AuditedRow& row : budget.rows) {
-            if (contribution_of(row) > 0.0) {
-                terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
-            }
-        }
-        return remembered_half_width(terms, coverage.probability) / u_c;
+    // With correlations t_p(ν_eff) is taken.
+    if (is_convolution(budget, coverage)) {
+        return remembered_half_width(terms_of(budget), coverage.probability) / u_c;
     }
     return student_factor(coverage, nu);
 }
@@ -132,14 +141,26 @@ bool has_limits(const gum::ToleranceLimits& limits) {
     return limits.lower.has_value() || limits.upper.has_value();
 }
 
-void decide(const AuditedBudget& budget, BudgetOutcome& outcome) {
+void decide(const AuditedBudget& budget, const CoverageRule& coverage, BudgetOutcome& outcome) {
     if (!budget.rule || !has_limits(budget.limits) || !outcome.value || !(outcome.U > 0.0)) {
         return;
     }
-    const gum::MeasuredValue y{.value = *outcome.value,
-                               .standard_uncertainty = outcome.u_c,
-                               .expanded_uncertainty = outcome.U,
-                               .degrees_of_freedom = outcome.nu_eff};
+    const bool by_probability = gum::decides_by_probability(*budget.rule, budget.rule_parameters);
+    if (by_probability && !budget.has_known_distribution) {
+        return;
+    }
+    gum::MeasuredValue y{.value = *outcome.value,
+                         .standard_uncertainty = outcome.u_c,
+                         .expanded_uncertainty = outcome.U,
+                         .degrees_of_freedom = outcome.nu_eff};
+    if (by_probability && is_convolution(budget, coverage)) {
+        // As wide as the U that is stated: k and p hold for it as they do for that of the rows.
+        const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
+        const double stretch = remembered_half_width(terms, coverage.probability) / outcome.U;
+        y.distribution = [sum = gum::ConvolutionDistribution(terms), value = y.value, stretch](double x) {
+            return sum((x - value) * stretch);
+        };
+    }
     try {
         outcome.verdict =
             gum::verdict_name(gum::decide_conformity(*budget.rule, budget.rule_parameters, budget.limits, y).verdict);
@@ -212,7 +233,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         gum::round_to_uncertainty(outcome.value.value_or(0.0), outcome.U, budget.digits, budget.rounding);
     outcome.printed_value = outcome.value ? printed.value : "";
     outcome.printed_U = printed.U;
-    decide(budget, outcome);
+    decide(budget, coverage, outcome);
     compare(budget, outcome);
     return outcome;
 }

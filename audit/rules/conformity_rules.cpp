@@ -82,6 +82,9 @@ Sentence decided_in_words(const std::string& verdict) {
 void verdict_does_not_follow(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
+        if (budget.evaluated_here && !budget.claims.U) {
+            continue;  // an interval is stated: no U decides
+        }
         const std::optional<BudgetOutcome> printed = outcome_of_claims(budget), unrounded = outcome_or_none(budget);
         if (!printed || !unrounded || printed->verdict.empty() || printed->verdict == k_no_decision) {
             continue;

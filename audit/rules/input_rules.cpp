@@ -565,6 +565,10 @@ void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector&
             row.contributor == Contributor::item_resolution || row.contributor == Contributor::reference_resolution) {
             return;
         }
+        // The standard deviation of these is their mean, or follows from a count: JCGM 101:2008, 6.4.10 and 6.4.11.
+        if (row.shape_text == "exponential" || row.shape_text == "gamma") {
+            return;
+        }
         const double x = std::abs(row.estimate->value);
         const bool copied = row.stated ? row.stated->value == x
                                        : is_about(row.used_u, x, 1e-4) || is_about(row.used_u, x / k_root_3, 1e-4);

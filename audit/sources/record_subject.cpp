@@ -323,6 +323,12 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.correlation_variance = std::abs(u * u - variance) > 1e-9 * u * u ? u * u - variance : 0.0;
     const std::optional<double> k = by_trials ? reported.k : result.k;
     state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability);
+    const bool is_convolved = result.coverage == "convolution";
+    const bool is_of_rows = budget.coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty() &&
+                            std::none_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
+                                return row.shape == Shape::other && contribution_of(row) > 0.0;
+                            });
+    budget.has_known_distribution = !by_trials && (!is_convolved || is_of_rows);
     Claims& claims = budget.claims;
     claims.value = exact_number(reported.value, budget.place);
     claims.value->text = reported.printed.value;

@@ -44,20 +44,26 @@ protected:
         data_["accreditation"]["scope"][0]["capability"] = {{"form", "value"}, {"unit", "nm"}, {"U", 50}};
     }
     [[nodiscard]] Evaluation evaluated(const json& data, double u = 0.1, const std::string& profile = "{}") const {
+        return evaluated_with(data, {{"unit", "um"}, {"u", u}}, json::object(), profile);
+    }
+    /// \param d     what the job says of the offset
+    /// \param more  keys of the job
+    [[nodiscard]] Evaluation evaluated_with(const json& data, const json& d_stated, const json& more,
+                                            const std::string& profile = "{}") const {
         json points = json::array();
         for (const double d : {-1.5, -1.05, -0.95, -0.5, 0.0, 0.5, 0.85, 0.95, 1.05, 1.5}) {
             points.push_back({{"d", d}});
         }
-        const json job = {
-            {"schema", "gumcert/job/1"},
-            {"kind", "budget"},
-            {"title", "Length"},
-            {"coverage_probability", 0.9545},
-            {"model", {"l = n + d"}},
-            {"inputs", {{"n", {{"value", 10}, {"unit", "mm"}, {"constant", true}}}, {"d", {{"unit", "um"}, {"u", u}}}}},
-            {"outputs", {{"l", {{"unit", "um"}}}}},
-            {"points", points},
-            {"certificate", data}};
+        json job = {{"schema", "gumcert/job/1"},
+                    {"kind", "budget"},
+                    {"title", "Length"},
+                    {"coverage_probability", 0.9545},
+                    {"model", {"l = n + d"}},
+                    {"inputs", {{"n", {{"value", 10}, {"unit", "mm"}, {"constant", true}}}, {"d", d_stated}}},
+                    {"outputs", {{"l", {{"unit", "um"}}}}},
+                    {"points", points},
+                    {"certificate", data}};
+        job.update(more);
         const jobs::MemoryFileSource files({{"job.json", job.dump()}, {"symbol.png", symbol_}, {"own.json", profile}});
         return evaluate_job(files, "job.json", CovarianceFile::none, 1, k_tree / "templates");
     }
@@ -112,6 +118,42 @@ std::optional<json> rule_of_a_job(gum::DecisionRule rule, std::optional<gum::Dec
         }
     }
     return std::nullopt;
+}
+
+TEST_F(GateAndAudit, DecideAlikeWhateverTheDistribution) {
+    const json shapes = {{{"unit", "um"}, {"half_width", 0.17}},
+                         {{"unit", "um"}, {"half_width", 0.14}, {"distribution", "arcsine"}},
+                         {{"unit", "um"}, {"half_width", 0.24}, {"distribution", "triangular"}},
+                         {{"unit", "um"}, {"u", 0.1}, {"nu", 3}}};
+    const json rules = {{{"id", "DR-03"}},
+                        {{"id", "DR-07"}, {"probability", 0.05}},
+                        {{"id", "DR-08"}},
+                        {{"id", "DR-09"}, {"method", "4"}, {"population_deviation", 0.0005}}};
+    std::size_t decided = 0;
+    for (const json& rule : rules) {
+        for (const json& shape : shapes) {
+            for (const bool by_trials : {false, true}) {
+                SCOPED_TRACE(rule.dump() + shape.dump() + (by_trials ? " by trials" : ""));
+                json data = data_;
+                data["specifications"][0]["rule"] = rule;
+                data["annexes"] = "none";
+                const json trials = {{"coverage", "monte_carlo"}, {"monte_carlo", {{"trials", 20000}, {"seed", 7}}}};
+                const Evaluation evaluation = evaluated_with(data, shape, by_trials ? trials : json::object());
+                EXPECT_EQ(blocking(evaluation, "audit-D"), "");
+                for (const auto& value : evaluation.record.certificate->tables.at(0).columns.at(0).values) {
+                    ASSERT_TRUE(value.verdict);
+                    const certificate::Verdict& v = *value.verdict;
+                    const bool passes = v.verdict == "pass";
+                    decided += passes || v.verdict == "fail" ? 1U : 0U;
+                    if (passes && v.acceptance_lower && v.acceptance_upper) {
+                        EXPECT_LE(*v.acceptance_lower, value.value);
+                        EXPECT_GE(*v.acceptance_upper, value.value);
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(decided, 200U);
 }
 
 TEST_F(GateAndAudit, DecideAlikeByEveryRuleWithEveryAlternative) {

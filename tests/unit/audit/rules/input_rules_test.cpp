@@ -355,6 +355,10 @@ TEST(InputRules, U23FindsAValueThatIsItsOwnUncertainty) {
     EXPECT_FALSE(fires("U23", one));
     one.stated.reset();
     EXPECT_TRUE(fires("U23", one));
+    one.shape_text = "exponential";  // its mean is its standard deviation
+    EXPECT_FALSE(fires("U23", one));
+    one.shape_text = "rectangular";
+    EXPECT_TRUE(fires("U23", one));
     one.origin_value = 11.5e-6;  // a column of limits
     EXPECT_FALSE(fires("U23", one));
 }
