@@ -10,6 +10,7 @@
 
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/distribution_shape.h"
+#include "gum/turned_angles.h"
 
 namespace gumcert::gum {
 
@@ -142,6 +143,11 @@ double moved_ends(const Eigen::VectorXd& values, const Eigen::VectorXd& tangent,
     return std::max(std::abs(f[beyond] - t[beyond]), std::abs(f[last] - t[last]));
 }
 
+/// Values in rad, each with the number of full turns that brings it nearest to another one.
+Eigen::VectorXd nearest_turns(const Eigen::VectorXd& values, const Eigen::VectorXd& to) {
+    return values.binaryExpr(to, [](double angle, double near) { return nearest_turn(angle, near); });
+}
+
 }  // namespace
 
 std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const Propagation& propagation,
@@ -207,9 +213,9 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         ((scatter.rowwise() - x.transpose()) * propagation.jacobian.transpose()).rowwise() +
         propagation.value.transpose();
 
-    std::vector<LinearityCheck> checks(static_cast<std::size_t>(m));
-    for (Eigen::Index k = 0; k < m; ++k) {
-        LinearityCheck& check = checks[static_cast<std::size_t>(k)];
+    /// \param f, f_scatter  values of the output at the probes, and as the inputs scatter
+    const auto checked = [&](Eigen::Index k, const Eigen::VectorXd& f, const Eigen::VectorXd& f_scatter) {
+        LinearityCheck check;
         const double u = propagation.standard_uncertainty(k);
         double size = std::abs(propagation.value(k));
         for (Eigen::Index i = 0; i < n; ++i) {
@@ -225,14 +231,14 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         for (Eigen::Index row = 0; row < 2 * k_pairs; row += 2) {
             // Pairs x ± δ count only with both points. In the mean of a pair all odd terms cancel, the tangent first of
             // all; a single point would leave its own.
-            if (!std::isfinite(y(row, k)) || !std::isfinite(y(row + 1, k))) {
+            if (!std::isfinite(f(row)) || !std::isfinite(f(row + 1))) {
                 continue;
             }
             for (Eigen::Index one = row; one < row + 2; ++one) {
-                const double residual = y(one, k) - tangent(one, k);
+                const double residual = f(one) - tangent(one, k);
                 mean += residual;
                 square += residual * residual;
-                of_model += (y(one, k) - propagation.value(k)) * (y(one, k) - propagation.value(k));
+                of_model += (f(one) - propagation.value(k)) * (f(one) - propagation.value(k));
                 of_tangent += (tangent(one, k) - propagation.value(k)) * (tangent(one, k) - propagation.value(k));
                 count += 1.0;
             }
@@ -249,11 +255,11 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
                              (std::abs(ratio - 1.0) <= k_accepted_dispersion || rms <= rounding);
         }
         if (!(u > 0.0)) {
-            continue;
+            return check;
         }
         for (Eigen::Index s = 0; s < 4; ++s) {
             const Eigen::Index row = 2 * k_pairs + 4 * k + s;
-            const double residual = y(row, k) - tangent(row, k);
+            const double residual = f(row) - tangent(row, k);
             // An end where the model has no value lies outside of its domain: an interval ±U reaches where no measurand
             // is.
             if (!std::isfinite(residual)) {
@@ -263,9 +269,24 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
             }
         }
         const double accepted = k_accepted_end * factor(k) * u + rounding;
-        check.adequate =
-            check.adequate && check.end_deviation <= accepted &&
-            moved_ends(y_scatter.col(k), tangent_scatter.col(k), propagation.coverage_probability) <= accepted;
+        check.adequate = check.adequate && check.end_deviation <= accepted &&
+                         moved_ends(f_scatter, tangent_scatter.col(k), propagation.coverage_probability) <= accepted;
+        return check;
+    };
+    std::vector<LinearityCheck> checks;
+    for (Eigen::Index k = 0; k < m; ++k) {
+        checks.push_back(checked(k, y.col(k), y_scatter.col(k)));
+        if (checks.back().adequate || model.outputs()[static_cast<std::size_t>(k)].unit != "rad") {
+            continue;
+        }
+        // An angle that leaps by a full turn, as atan2 does at ±180°, is the same angle: its values are taken as near to
+        // the tangent as turns bring them. What is not linear then keeps the values of the model.
+        LinearityCheck turned = checked(k, nearest_turns(y.col(k), tangent.col(k)),
+                                        nearest_turns(y_scatter.col(k), tangent_scatter.col(k)));
+        if (turned.adequate) {
+            turned.leaps = true;
+            checks.back() = turned;
+        }
     }
     return checks;
 }

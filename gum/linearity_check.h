@@ -16,6 +16,8 @@ struct LinearityCheck {
     double end_deviation =
         0.0;              ///< larger of |f − tangent| at the two points where the tangent gives y ± U, [unit of y]
     double spread = 0.0;  ///< root mean square of f − y at the probes, [unit of y]
+    /// An angle that leaps by full turns within the uncertainties, as atan2 does at ±180°, and is linear but for that.
+    bool leaps = false;
 };
 
 /// Probes a model at points near its estimates, and compares with the tangent: what second derivatives at one point

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double k_largest_change = 0.05;     // of u by second-order terms
 constexpr double k_largest_shift = 0.1;       // of the estimate by them, in terms of u
-constexpr double k_vanishing = 0.01;          // u of first order beside that of the model itself
+constexpr double k_vanishing = 0.01;          // u of first order beside that of the second
+constexpr double k_vanished = 1e-6;           // u of first order beside the spread of the model itself
 constexpr double k_largest_asymmetry = 0.05;  // shift of the ends by the skewness, in terms of U
 constexpr std::uint64_t k_most_trials = 20'000'000;
 constexpr double k_suspicious_share = 0.005;  // of one deviation in the sum of all squares
@@ -136,7 +137,7 @@ PointPropagation propagate_where_possible(const Budget& budget, const std::optio
     }
 }
 
-std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bool linear_model) {
+std::vector<std::string> evidence_against_law(BudgetPointResult& point, bool linear_model) {
     const std::size_t outputs = point.outputs.size();
     std::vector<std::string> evidence(outputs);
     std::vector<LinearityCheck> checks;
@@ -146,6 +147,9 @@ std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bo
             factors.push_back(output.coverage_factor);
         }
         checks = check_linearity(*point.model, point.propagation, factors);
+        for (const LinearityCheck& check : checks) {
+            point.leaps.push_back(check.leaps);
+        }
     }
     for (std::size_t i = 0; i < outputs; ++i) {
         const auto index = static_cast<Eigen::Index>(i);
@@ -165,7 +169,7 @@ std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bo
         }
         // Derivatives at one point do not see a kink, an inflection or a limit inside of ± U; the model is asked there.
         if (!checks.empty() && !checks[i].adequate) {
-            evidence[i] = u < k_vanishing * checks[i].spread ? "vanishing" : "not_linear";
+            evidence[i] = u < k_vanished * checks[i].spread ? "vanishing" : "not_linear";
             continue;
         }
         if (asymmetry_of(point, i) > k_largest_asymmetry) {

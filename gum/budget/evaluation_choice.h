@@ -37,8 +37,9 @@ struct PointPropagation {
                                                         const std::vector<InputSymbol>& symbols);
 
 /// What speaks against the law of propagation before any trial is drawn, one reason an output; "" where nothing does.
+/// Also notes which outputs are angles that leap by full turns (BudgetPointResult::leaps).
 /// \param linear_model  every output is an affine function of all inputs
-[[nodiscard]] std::vector<std::string> evidence_against_law(const BudgetPointResult& point, bool linear_model);
+[[nodiscard]] std::vector<std::string> evidence_against_law(BudgetPointResult& point, bool linear_model);
 
 /// Whether Monte Carlo has to be run for what is reported of an output.
 [[nodiscard]] bool needs_monte_carlo(CoverageChoice choice, const std::string& evidence);

@@ -40,6 +40,7 @@ public:
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override {
         system_->evaluate_trials(x, y);
     }
+    void unit_of_output(const std::string& unit) { outputs_.front().unit = unit; }
 
 private:
     std::vector<InputGroup> inputs_;
@@ -72,6 +73,20 @@ TEST(LinearityCheck, SeesWhatSecondDerivativesDoNot) {
     EXPECT_FALSE(check("a + 3*tanh(20*b)", {input("a", 0.0, 1.0), input("b", 0.0, 1.0)}).adequate);
     EXPECT_FALSE(check("min(a, 1.5)", {input("a", 0.0, 1.0)}).adequate) << "a kink inside of U";
     EXPECT_TRUE(check("min(a, 3)", {input("a", 0.0, 1.0)}).adequate) << "a kink outside of U";
+}
+
+TEST(LinearityCheck, AnAngleThatLeapsIsTheSameAngle) {
+    const auto check = [](double s, double u, const char* unit) {
+        Model model("atan2(s, c)", {input("s", s, u), input("c", -1.0, u)});
+        model.unit_of_output(unit);
+        return check_linearity(model, propagate(model, 0.9545), {}).front();
+    };
+    EXPECT_TRUE(check(0.001, 0.02, "rad").adequate);
+    EXPECT_TRUE(check(0.001, 0.02, "rad").leaps);
+    EXPECT_FALSE(check(0.001, 0.02, "1").adequate) << "a number does not come round";
+    EXPECT_TRUE(check(0.5, 0.02, "rad").adequate);
+    EXPECT_FALSE(check(0.5, 0.02, "rad").leaps);
+    EXPECT_FALSE(check(0.001, 0.6, "rad").adequate) << "an angle that is not known at all";
 }
 
 TEST(LinearityCheck, StaysInsideOfTheLimitsOfAnInput) {

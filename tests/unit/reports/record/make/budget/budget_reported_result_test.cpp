@@ -316,6 +316,30 @@ TEST(ReportedResult, IsThatOfTheLawForEveryLinearBudgetWithoutOneTrial) {
     }
 }
 
+TEST(ReportedResult, OfADirectionDoesNotDependOnTheDirection) {
+    // atan2 leaps at ±180°, the direction does not: u = 0.02 rad, by the law and by trials.
+    const double u = 0.02 * 180.0 / std::numbers::pi;
+    for (int degrees = -180; degrees < 180; degrees += 9) {
+        SCOPED_TRACE(degrees);
+        const double angle = (degrees + 0.1) * std::numbers::pi / 180.0;
+        const std::string inputs = R"("s": {"value": )" + number(std::sin(angle)) + R"(, "u": 0.02}, "c": {"value": )" +
+                                   number(std::cos(angle)) + R"(, "u": 0.02})";
+        for (const bool by_trials : {false, true}) {
+            const std::string more =
+                std::string(R"(, "outputs": {"y": {"unit": "deg"}})") +
+                (by_trials ? R"(, "coverage": "monte_carlo", "monte_carlo": {"trials": 20000, "seed": 3})" : "");
+            const reports::ReportedResult reported = evaluated(budget("y = atan2(s, c)", inputs, more)).reported();
+            EXPECT_EQ(reported.method, by_trials ? "monte_carlo" : "law_of_propagation");
+            ASSERT_TRUE(reported.u);
+            EXPECT_NEAR(*reported.u, u, by_trials ? 0.02 * u : 1e-3 * u);
+            EXPECT_NEAR(std::remainder(reported.value - (degrees + 0.1), 360.0), 0.0, 0.1 * u);
+            if (by_trials) {
+                EXPECT_LT((*reported.interval)[1] - (*reported.interval)[0], 4.5 * u);
+            }
+        }
+    }
+}
+
 TEST(ReportedResult, SaysWhyItIsThatOfMonteCarlo) {
     const auto because = [](const std::string& model, const std::string& inputs, const std::string& more = "") {
         return evaluated(budget(model, inputs, more)).reported().because;
