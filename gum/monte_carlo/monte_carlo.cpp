@@ -909,6 +909,20 @@ private:
     std::vector<Moments> numbers_;
 };
 
+/// Whether the numerical errors of all numbers that a run states are below the tolerance that it was ended by. A few
+/// sequences may agree by chance where trials are rare at an end of the interval, as between two clusters.
+bool errors_are_within(const MonteCarloResult& result, const std::vector<double>& tolerances) {
+    for (std::size_t j = 0; j < result.outputs.size(); ++j) {
+        const NumericalError& error = result.outputs[j].numerical_error;
+        for (const double one : {error.mean, error.standard_uncertainty, error.symmetric.low, error.symmetric.high}) {
+            if (one > tolerances[j]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& options) {
     const AdaptiveTrials& adaptive = *options.adaptive;
     // JCGM 101:2008, 7.9.4: J is the smallest integer not below 100/(1 − p); 1 − p is rounded, and must not add one.
@@ -926,34 +940,42 @@ MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& opti
     StoppingTest test(options, source.outputs());
     Sums all;
     std::uint64_t sequences = 0;
+    std::uint64_t least = 2;
     bool stable = false;
     // A round has one sequence a thread. The test takes them in their order and ends in the middle of a round where it
     // has to, or the number of trials would depend on the threads.
     const std::uint64_t round = source.workers().size();
     std::vector<SequenceResult> results(static_cast<std::size_t>(round));
-    while (!stable && sequences < most) {
-        const std::uint64_t here = std::min(round, most - sequences);
-        source.workers().run(static_cast<std::size_t>(here), [&](unsigned worker, std::size_t task) {
-            results[task] =
-                evaluate_sequence(source, options, worker, (sequences + task) * sequence_trials, sequence_trials);
-        });
-        // Sequences of this round beyond the one that settles the matter are as if they had not been drawn.
-        for (std::uint64_t task = 0; task < here && !stable; ++task) {
-            ++sequences;
-            const SequenceResult& sequence = results[static_cast<std::size_t>(task)];
-            if (sequence.sums.not_finite > 0) {
-                source.refuse_trial(sequence.sums, sequences * sequence_trials);
+    for (;;) {
+        while (!stable && sequences < most) {
+            const std::uint64_t here = std::min(round, most - sequences);
+            source.workers().run(static_cast<std::size_t>(here), [&](unsigned worker, std::size_t task) {
+                results[task] =
+                    evaluate_sequence(source, options, worker, (sequences + task) * sequence_trials, sequence_trials);
+            });
+            // Sequences of this round beyond the one that settles the matter are as if they had not been drawn.
+            for (std::uint64_t task = 0; task < here && !stable; ++task) {
+                ++sequences;
+                const SequenceResult& sequence = results[static_cast<std::size_t>(task)];
+                if (sequence.sums.not_finite > 0) {
+                    source.refuse_trial(sequence.sums, sequences * sequence_trials);
+                }
+                test.add(sequence);
+                stable = sequences >= least && test.is_stable();
             }
-            test.add(sequence);
-            stable = test.is_stable();
+            report_progress(options, 0.5 * static_cast<double>(sequences) / static_cast<double>(most));
         }
-        report_progress(options, 0.5 * static_cast<double>(sequences) / static_cast<double>(most));
+        FixedRun run(source, options, sequences * sequence_trials, 0.5);
+        MonteCarloResult result = run.run();
+        result.tolerance = test.tolerance();
+        result.stabilised = stable && errors_are_within(result, result.tolerance);
+        if (result.stabilised || sequences >= most) {
+            return result;
+        }
+        // The sequences agree by chance: at least twice as many are looked at before they are believed again.
+        least = std::min(most, 2 * sequences);
+        stable = false;
     }
-    FixedRun run(source, options, sequences * sequence_trials, 0.5);
-    MonteCarloResult result = run.run();
-    result.stabilised = stable;
-    result.tolerance = test.tolerance();
-    return result;
 }
 
 void require_digits(int digits) {

@@ -122,7 +122,8 @@ struct MonteCarloResult {
 ///
 /// Adaptive: sequences of max(J, 10^4) trials, J the smallest integer not below 100/(1 − p); after h ≥ 2 of them stops
 /// when twice the standard deviations of the averages of y, u(y) and both ends of the *symmetric* interval are at most
-/// the numerical tolerance of u(y), for every output (JCGM 101:2008, 7.9.4). With several outputs and `regions` also
+/// the numerical tolerance of u(y), for every output (JCGM 101:2008, 7.9.4), and the numerical error of none of them is
+/// above it: two sequences may agree by chance. With several outputs and `regions` also
 /// those of the largest eigenvalue of the correlation matrix and of the factors k_p and k_q, with the tolerances of
 /// these numbers (JCGM 102:2011, 7.8). The result is then the same as with that number of trials given.
 ///

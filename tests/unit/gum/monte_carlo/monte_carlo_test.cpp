@@ -525,6 +525,30 @@ TEST(MonteCarlo, AnyTrialCanBeDrawnAgain) {
     EXPECT_EQ(calls, 1);
 }
 
+// Two sequences may agree by chance; what a run calls stable has numerical errors that allow it.
+TEST(MonteCarlo, AdaptiveDoesNotBelieveAnAgreementByChance) {
+    // 97.7 % of the trials about 50, the others about 100: the upper end of the interval lies between the clusters.
+    const TrialModel gap = model({Distribution::uniform(0.5, 0.5), Distribution::normal(0.0, 1.0)}, 1,
+                                 [](const Columns& x, Eigen::Ref<Eigen::MatrixXd> y) {
+                                     for (Eigen::Index r = 0; r < x.rows(); ++r) {
+                                         y(r, 0) = (x(r, 0) < 0.9772 ? 50.0 : 100.0) + x(r, 1);
+                                     }
+                                 });
+    int stable = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        MonteCarloOptions o = options(1);
+        o.seed = seed;
+        o.adaptive = AdaptiveTrials{.digits = 2, .most_trials = 400'000};
+        const MonteCarloResult result = run_monte_carlo(gap, o);
+        const NumericalError& error = result.outputs[0].numerical_error;
+        const double largest =
+            std::max({error.mean, error.standard_uncertainty, error.symmetric.low, error.symmetric.high});
+        stable += result.stabilised ? 1 : 0;
+        EXPECT_TRUE(!result.stabilised || largest <= result.tolerance[0]) << seed;
+    }
+    EXPECT_LT(stable, 12);
+}
+
 // The adaptive run is the fixed run with the number of trials at which it stops.
 TEST(MonteCarlo, AdaptiveStopsWhenStable) {
     const TrialModel sum = sum_model(std::vector(4, Distribution::normal(0.0, 1.0)));
