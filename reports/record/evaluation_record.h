@@ -186,6 +186,9 @@ struct VarianceFactor {
 };
 
 /// Two-sided test of chi-square of the adjustment against its distribution.
+/// p-value of a global test below which nobody takes the residuals for chance: they refute the uncertainties.
+inline constexpr double k_refuting_probability = 0.001;
+
 struct GlobalTest {
     double probability = 0.95;             ///< of the region of acceptance
     Shown<double> lower = {}, upper = {};  ///< limits of chi-square

@@ -76,14 +76,28 @@ void overview_table(CertificateBuilder& builder, const Wording& words, const Rot
     }
 }
 
+/// What the global test says: residuals that are beyond what 19 of 20 adjustments have are a doubt, and no refutation, until
+/// they are beyond what chance explains (refuted_by_residuals). Where the weights come from the same residuals, nothing is
+/// tested.
+const char* sentence_of_test(const RotaryTable& r) {
+    const AdjustmentSummary& a = r.adjustment;
+    const bool is_estimated = std::any_of(r.variance_components.begin(), r.variance_components.end(),
+                                          [](const VarianceComponent& c) { return c.used && c.estimated; });
+    if (a.global_test.accepted) {
+        return is_estimated ? "global_test_by_construction" : "global_test_passed";
+    }
+    if (a.chi_square.number < a.global_test.lower.number) {
+        return "global_test_smaller";
+    }
+    return a.p_value.number < k_refuting_probability ? "global_test_failed" : "global_test_larger";
+}
+
 /// What the tests of the evaluation say, one line each.
 void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
     Facts facts;
-    const GlobalTest& test = r.adjustment.global_test;
-    if (!test.lower.text.empty()) {
+    if (!r.adjustment.global_test.lower.text.empty()) {
         facts.emplace_back(words("label", "global_test"),
-                           words.fill(test.accepted ? "global_test_passed" : "global_test_failed",
-                                      {{"p", words.number(r.adjustment.p_value.text)}}));
+                           words.fill(sentence_of_test(r), {{"p", words.number(r.adjustment.p_value.text)}}));
     }
     if (r.group_tests) {
         const auto suspicious = std::count_if(r.group_tests->kinds.begin(), r.group_tests->kinds.end(),

@@ -118,12 +118,21 @@ reports::GlobalTest global_test(const RotaryTableSolution& solution) {
             "freedom by construction: the test confirms the adjustment, not the stated uncertainties.";
     } else if (test.accepted) {
         test.meaning = "The residuals agree with the stated uncertainties.";
+    } else if (solution.chi_square > test.upper.number &&
+               gum::chi_square_upper_tail(solution.chi_square, static_cast<double>(nu)) >=
+                   reports::k_refuting_probability) {
+        test.meaning =
+            "The residuals are larger than those of 39 in 40 adjustments with these uncertainties: chance explains "
+            "that, but "
+            "the uncertainties are in doubt.";
     } else if (solution.chi_square > test.upper.number) {
         test.meaning =
             "The residuals are larger than the stated uncertainties allow: an uncertainty is stated too small, or an "
             "effect is not in the model.";
     } else {
-        test.meaning = "The residuals are smaller than the stated uncertainties: an uncertainty is stated too large.";
+        test.meaning =
+            "The residuals are smaller than the stated uncertainties let expect: an uncertainty may be stated too "
+            "large.";
     }
     return test;
 }

@@ -20,7 +20,6 @@ using reports::AdjustmentSummary;
 using reports::EvaluationRecord;
 using reports::RotaryTable;
 
-constexpr double k_refuted = 0.001;  // p-value below which nobody takes the residuals for chance
 constexpr const char* k_implausible_angle = "GC-ANGLE-0001";
 constexpr const char* k_fixture_component = "fixture CMM";  // as a record names it
 constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
@@ -88,7 +87,7 @@ std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
         }
         const double nu = *c.degrees_of_freedom;
         const double ratio = c.value / *c.stated.number;
-        if (nu <= 0.0 || gum::chi_square_upper_tail(nu * ratio * ratio, nu) >= k_refuted) {
+        if (nu <= 0.0 || gum::chi_square_upper_tail(nu * ratio * ratio, nu) >= k_refuting_probability) {
             continue;
         }
         remarks.push_back(
@@ -115,9 +114,10 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     const RotaryTable& rotary = *record.rotary;
     const AdjustmentSummary& a = rotary.adjustment;
     const auto degrees = static_cast<double>(a.degrees_of_freedom);
-    if (a.degrees_of_freedom > 0 && a.p_value.number < k_refuted) {
+    if (a.degrees_of_freedom > 0 && a.p_value.number < k_refuting_probability) {
         remarks.push_back(refuted(a));
-    } else if (a.degrees_of_freedom > 0 && 1.0 - gum::chi_square_upper_tail(a.chi_square.number, degrees) < k_refuted) {
+    } else if (a.degrees_of_freedom > 0 &&
+               1.0 - gum::chi_square_upper_tail(a.chi_square.number, degrees) < k_refuting_probability) {
         remarks.push_back(overstated(a));
     }
     const auto removed = static_cast<std::size_t>(std::count_if(
