@@ -11,6 +11,7 @@
 #include "certificate/gates/gates.h"
 #include "certificate/waiver.h"
 #include "reports/audit/audit_json.h"
+#include "reports/record/make/certificate/evaluation_findings.h"
 
 namespace gumcert::app {
 
@@ -62,6 +63,9 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
     const std::span<const audit::Rule> rules = audit::all_rules();
     audit::AuditSubject subject = audit::subject_of(evaluation.record, job_file);
     subject.kind = audit::AuditSubject::Kind::job;
+    if (!evaluation.record.certificate) {
+        subject.of_evaluation = reports::evaluation_findings(evaluation.record);
+    }
     if (evaluation.add_nested_budgets) {
         evaluation.add_nested_budgets(subject);
     }

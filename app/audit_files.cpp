@@ -22,6 +22,7 @@
 #include "imports/foreign_certificate.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/record/make/certificate/evaluation_findings.h"
 #include "signing/verify.h"
 #include "text/small_letters.h"
 #include "workbook/read_csv.h"
@@ -269,6 +270,9 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
         case Contents::record: {
             const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
             subject = audit::subject_of(record, name);
+            if (!record.certificate) {
+                subject.of_evaluation = reports::evaluation_findings(record);
+            }
             hold_against_job(record, threads, templates, progress, subject);
             break;
         }

@@ -56,6 +56,8 @@ struct AuditSubject {
     std::string name;                                     ///< of the file
     std::vector<AuditedBudget> budgets;                   ///< one a result and point
     std::optional<certificate::Certificate> certificate;  ///< data, certified tables and findings of the gates
+    /// Of a record without a certificate: what its evaluation found against itself, which no gate has taken.
+    std::vector<certificate::Finding> of_evaluation = {};
     std::optional<AuditedComparison> comparison;
     std::optional<NestedBudgets> nested = {};
     std::shared_ptr<const AuditedWorkbook> workbook;  ///< audit/audited_workbook.h; none where no formulas are known

@@ -139,10 +139,8 @@ bool takes_gate_findings(std::string_view rule) {
 }
 
 void take_gate_findings(const AuditSubject& subject, FindingCollector& findings) {
-    if (!subject.certificate) {
-        return;
-    }
-    for (const certificate::Finding& gate : subject.certificate->findings) {
+    for (const certificate::Finding& gate :
+         subject.certificate ? subject.certificate->findings : subject.of_evaluation) {
         if (rule_of_gate_finding(gate) != findings.rule()) {
             continue;
         }

@@ -15,16 +15,14 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "reports/record/certified_tables.h"
-#include "reports/record/make/budget/budget_findings.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/make/certificate/certified_conformity.h"
 #include "reports/record/make/certificate/certified_scope.h"
 #include "reports/record/make/certificate/certified_traceability.h"
 #include "reports/record/make/certificate/environment_findings.h"
-#include "reports/record/make/circle_closure/circle_closure_findings.h"
+#include "reports/record/make/certificate/evaluation_findings.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/reported_choice.h"
-#include "reports/record/make/rotary_table/rotary_findings.h"
 #include "reports/record/reported_result.h"
 #include "reports/record/stated_values.h"
 
@@ -410,12 +408,8 @@ void certify(EvaluationRecord& record, CertificateData data, Profile profile,
         }
     }
     audit.insert(audit.end(), validation.begin(), validation.end());
-    const std::vector<Finding> budget = budget_findings(record);
-    audit.insert(audit.end(), budget.begin(), budget.end());
-    const std::vector<Finding> adjustment = reports::rotary_findings(record);
-    audit.insert(audit.end(), adjustment.begin(), adjustment.end());
-    const std::vector<Finding> closure = reports::circle_closure_findings(record);
-    audit.insert(audit.end(), closure.begin(), closure.end());
+    const std::vector<Finding> evaluation = evaluation_findings(record);
+    audit.insert(audit.end(), evaluation.begin(), evaluation.end());
     const std::vector<Finding> environment = environment_findings(record);
     audit.insert(audit.end(), environment.begin(), environment.end());
     const std::vector<Finding> traceability = traceability_findings(record);

@@ -54,6 +54,18 @@ TEST(GateFindings, without_a_certificate_there_are_none) {
     EXPECT_EQ(rule_of_gate_finding(gate_finding("Z99", "")), "");
 }
 
+TEST(GateFindings, without_a_certificate_are_those_of_the_evaluation) {
+    AuditSubject subject = test::subject_with({});
+    subject.of_evaluation = {gate_finding("G01", "adjustment")};
+    std::vector<std::string> reported;
+    for (const AuditFinding& finding : audit(subject, all_rules()).findings) {
+        if (finding.of_gate) {
+            reported.push_back(finding.rule + " " + finding.where);
+        }
+    }
+    EXPECT_EQ(reported, std::vector<std::string>{"B06 adjustment"});
+}
+
 TEST(GateFindings, tell_the_reason_of_an_amendment_from_its_reference) {
     EXPECT_EQ(rule_of_gate_finding(gate_finding("R12", "/amendment/reason")), "P02");
     EXPECT_EQ(rule_of_gate_finding(gate_finding("R12", "/amendment/number")), "R12");
