@@ -59,6 +59,9 @@ struct AuditedRow {
     /// Of a row of a job: its input quantity, and which component of it; "" of a table.
     std::string input = {};
     std::size_t component = 0;
+    /// Of a job: the value of a standard, or a quantity with a role in the tables of results. It is measured or compared,
+    /// and no condition of the work.
+    bool is_measured = false;
     std::optional<StatedNumber> estimate;
     std::optional<StatedNumber> stated;   ///< what was divided: half-width, MPE, U of a certificate
     std::optional<StatedNumber> divisor;  ///< k, √3 …

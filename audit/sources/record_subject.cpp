@@ -142,6 +142,13 @@ std::string description_of(const reports::EvaluationRecord& record, const std::s
     return found == record.inputs.end() || found->description.empty() ? "" : found->description.in("en");
 }
 
+/// Whether a row is the value of a standard of the register, or has a role in the tables of results.
+bool is_measured(const reports::BudgetRow& row, const json& statement) {
+    return !row.standard.empty() || statement.contains("role") || statement.contains("standard") ||
+           std::any_of(row.components.begin(), row.components.end(),
+                       [](const reports::BudgetRow& part) { return !part.standard.empty(); });
+}
+
 void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows, const std::string& pointer,
               const reports::EvaluationRecord* record, const JobStatements* job, const std::string& point) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -149,6 +156,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
         const std::string place = pointer + "/" + std::to_string(i);
         const std::string description = record == nullptr ? "" : description_of(*record, stated.input);
         const std::string name = description.empty() ? stated.input : stated.input + ", " + description;
+        const bool measured = is_measured(stated, job == nullptr ? json() : job->of(stated.input, point));
         if (stated.role.empty() && stated.components.size() > 1) {
             for (std::size_t c = 0; c < stated.components.size(); ++c) {
                 const reports::BudgetRow& part = stated.components[c];
@@ -156,6 +164,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
                                              budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
                 budget.rows.back().part_of = budget.rows.back().input = stated.input;
                 budget.rows.back().component = c;
+                budget.rows.back().is_measured = measured;
             }
             continue;
         }
@@ -165,6 +174,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
         }
         budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
         budget.rows.back().input = stated.input;
+        budget.rows.back().is_measured = measured;
     }
 }
 

@@ -115,6 +115,16 @@ TEST(SubjectOfRecord, WhatCorrelationsAddStaysAsItIs) {
     EXPECT_NEAR(evaluate(subject.budgets.front()).u_c, 0.6, 1e-12);
 }
 
+TEST(SubjectOfRecord, KnowsWhatIsMeasured) {
+    reports::EvaluationRecord record = two_rows();
+    EXPECT_FALSE(subject_of(record, "record.json").budgets[0].rows[0].is_measured);
+    record.results[0].budget[0].standard = "TS-2";
+    record.job_json = R"({"inputs": {"b": {"value": 1, "unit": "um", "mpe": 0.7, "role": "indication"}}})";
+    const std::vector<AuditedRow> rows = subject_of(record, "record.json").budgets[0].rows;
+    EXPECT_TRUE(rows[0].is_measured);
+    EXPECT_TRUE(rows[1].is_measured);
+}
+
 /// A comparison at two points, E_n = −0.5 and 0.8; the reference has a budget in a file of the job.
 reports::EvaluationRecord compared() {
     reports::EvaluationRecord record;
