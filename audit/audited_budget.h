@@ -90,6 +90,8 @@ struct AuditedRow {
     double used_sensitivity = 1.0;  ///< [unit of the result / unit of the row]
     double used_nu = std::numeric_limits<double>::infinity();
     double u_half_step = 0.0, sensitivity_half_step = 0.0;  ///< what the printed digits of both leave open
+    /// What corrections have multiplied `used_u` by, so that one error which several rules see is corrected once.
+    std::vector<double> factors_of_u = {};
 
     // What only some rows say. Texts are read by audit/row_facts.h; a reader of columns or jobs may know them itself.
     std::optional<double> relative_uncertainty;  ///< "0.5 % of full scale": 0.005

@@ -1,6 +1,7 @@
 // For rules of worksheets: sheets with formulas that fire, and what must not.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,6 +99,45 @@ TEST(WorksheetFindings, W05SeesTheNumberOfAnotherRow) {
          test::Contents{{"B3", "=0.1*$B$2"}, {"B3", "=B2"}, {"E3", "=(B3+0*$B$2)/C3"}, {"E3", "=B3/C$4"}}) {
         EXPECT_TRUE(of_rule(audited_sheet({{address, formula}}), "W05").empty()) << address << formula;
     }
+}
+
+TEST(WorksheetFindings, TwoFindingsOfOneCellCorrectItOnce) {
+    // s of six readings over √10: U03 reads it of the row, W04 of the formula. Right: over √6.
+    const test::Contents contents = {{"A1", "quantity"},
+                                     {"B1", "U or a"},
+                                     {"C1", "divisor"},
+                                     {"D1", "distribution"},
+                                     {"E1", "u"},
+                                     {"F1", "nu"},
+                                     {"G1", "comment"},
+                                     {"A2", "standard"},
+                                     {"B2", "1.2"},
+                                     {"C2", "2"},
+                                     {"D2", "normal"},
+                                     {"E2", "=B2/C2"},
+                                     {"I2", "1"},
+                                     {"A3", "repeatability"},
+                                     {"B3", "=STDEV.S(I2:I7)"},
+                                     {"C3", "=SQRT(10)"},
+                                     {"D3", "normal"},
+                                     {"E3", "=B3/C3"},
+                                     {"F3", "5"},
+                                     {"G3", "s; mean of 6 readings"},
+                                     {"I3", "3"},
+                                     {"I4", "2"},
+                                     {"I5", "5"},
+                                     {"I6", "4"},
+                                     {"I7", "6"},
+                                     {"A9", "u_c"},
+                                     {"B9", "=SQRT(SUMSQ(E2:E3))"},
+                                     {"A10", "k"},
+                                     {"B10", "2"},
+                                     {"A11", "U"},
+                                     {"B11", "=B9*B10"}};
+    const AuditReport report = audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules());
+    EXPECT_EQ(of_rule(report, "U03").size(), 1U);
+    EXPECT_EQ(of_rule(report, "W04").size(), 1U);
+    EXPECT_NEAR(report.results.at(0).audited.u_c, std::sqrt(0.36 + 3.5 / 6.0), 1e-9);
 }
 
 TEST(WorksheetFindings, W13SeesDaysHoweverTheyAreCounted) {
