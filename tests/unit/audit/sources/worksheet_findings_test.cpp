@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "audit/audit.h"
+#include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
 #include "audit/sources/workbook_subject.h"
 #include "tests/support/workbook_of.h"
@@ -138,6 +139,61 @@ TEST(WorksheetFindings, TwoFindingsOfOneCellCorrectItOnce) {
     EXPECT_EQ(of_rule(report, "U03").size(), 1U);
     EXPECT_EQ(of_rule(report, "W04").size(), 1U);
     EXPECT_NEAR(report.results.at(0).audited.u_c, std::sqrt(0.36 + 3.5 / 6.0), 1e-9);
+}
+
+/// What k is made of in a sheet: its cell is exact, whether a formula, a rounded formula or a typed number stands there.
+TEST(WorksheetFindings, KOfNuIsTakenFromNuWhateverItsCellHolds) {
+    const auto audited = [](double s, double nu, const std::string& k) {
+        return audit(subject_of(test::workbook_of({{"A1", "quantity"},
+                                                   {"B1", "U or a"},
+                                                   {"C1", "divisor"},
+                                                   {"D1", "distribution"},
+                                                   {"E1", "u"},
+                                                   {"F1", "nu"},
+                                                   {"A2", "standard"},
+                                                   {"B2", "1.2"},
+                                                   {"C2", "2"},
+                                                   {"D2", "normal"},
+                                                   {"E2", "=B2/C2"},
+                                                   {"A3", "repeatability"},
+                                                   {"B3", std::to_string(s)},
+                                                   {"C3", "1"},
+                                                   {"D3", "normal"},
+                                                   {"E3", "=B3/C3"},
+                                                   {"F3", std::to_string(nu)},
+                                                   {"A9", "u_c"},
+                                                   {"B9", "=SQRT(SUMSQ(E2:E3))"},
+                                                   {"A10", "nu_eff"},
+                                                   {"B10", "=B9^4/(E3^4/F3)"},
+                                                   {"A11", "k"},
+                                                   {"B11", k},
+                                                   {"A12", "U"},
+                                                   {"B12", "=B9*B11"}}),
+                                "b.xlsx"),
+                     all_rules())
+            .subject.budgets.at(0);
+    };
+    for (const double s : {0.5, 0.9, 1.7}) {
+        for (const double nu : {3.0, 5.0, 9.0}) {
+            for (const char* const p : {"0.0455", "0.05"}) {
+                const std::string factor = std::string("T.INV.2T(") + p + ",INT(B10))";
+                for (const std::string& formula : {factor, "ROUND(" + factor + ",2)", "ROUND(" + factor + ",3)"}) {
+                    const AuditedBudget budget = audited(s, nu, "=" + formula);
+                    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::student_t) << s << " " << nu << " " << formula;
+                    EXPECT_EQ(budget.k_over_rows, 1.0);
+                    EXPECT_EQ(budget.U_over_k_u_c, 1.0);
+                    EXPECT_NEAR(evaluate(budget).U / budget.claims.U->value, 1.0, 0.003) << formula;
+                }
+            }
+            // A k for all budgets stays.
+            EXPECT_EQ(audited(s, nu, "2").coverage.kind, CoverageRule::Kind::fixed);
+        }
+    }
+    for (const char* const typed : {"2.27", "2.28", "2.22", "2.23", "2.216"}) {  // 95.45 % or 95 % of 10.43 or 10
+        EXPECT_EQ(audited(0.9, 5.0, typed).coverage.kind, CoverageRule::Kind::student_t) << typed;
+    }
+    EXPECT_EQ(audited(0.9, 5.0, "2.25").coverage.kind, CoverageRule::Kind::fixed);
+    EXPECT_EQ(audited(0.9, 5.0, "2.4").coverage.kind, CoverageRule::Kind::fixed);
 }
 
 TEST(WorksheetFindings, W13SeesDaysHoweverTheyAreCounted) {
