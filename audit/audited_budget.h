@@ -192,6 +192,10 @@ struct AuditedBudget {
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
     /// Of a result of a certificate, which has no rows, all of u_c².
     double correlation_variance = 0.0;
+    /// What the reported u² has beyond the law of propagation: terms of second order, or what trials of the model show. It
+    /// has no part in ν_eff.
+    double variance_beyond_tangent = 0.0;
+    bool rests_on_trials = false;  ///< of a budget evaluated here: the reported U is that of Monte Carlo trials
     /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
     /// its own (K01) where they do not. They stay while other findings are corrected.

@@ -190,7 +190,8 @@ BudgetOutcome evaluate(const AuditedBudget& budget) {
 BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage) {
     BudgetOutcome outcome;
     outcome.value = budget.value;
-    const double variance = combined_variance(budget) + budget.correlation_variance;
+    const double of_tangent = combined_variance(budget) + budget.correlation_variance;
+    const double variance = of_tangent + budget.variance_beyond_tangent;
     if (!(variance > 0.0) || !std::isfinite(variance)) {
         throw gum::NoResultError({.code = "GC-AUDIT-0001",
                                   .where = budget.name.empty() ? budget.place : budget.name,
@@ -201,7 +202,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
     // From the rows: what a claimed u_c has beyond them has no degrees of freedom that anybody stated.
-    outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
+    outcome.nu_eff = effective_degrees_of_freedom(budget, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);
     outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
@@ -263,7 +264,8 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         high += std::max(one, other);
     }
     OutcomeIntervals intervals;
-    intervals.u_c = {std::sqrt(std::max(0.0, low)), std::sqrt(std::max(0.0, high))};
+    const double beyond = budget.variance_beyond_tangent;
+    intervals.u_c = {std::sqrt(std::max(0.0, low + beyond)), std::sqrt(std::max(0.0, high + beyond))};
 
     double least = 0.0, most = 0.0;
     for (const AuditedRow& row : budget.rows) {
@@ -275,8 +277,9 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
     }
     const double infinite = std::numeric_limits<double>::infinity();
     // The smallest u_c over the largest terms, and the other way round: an outer bound, for both do not occur together.
-    intervals.nu_eff = {most > 0.0 ? std::pow(intervals.u_c.low, 4) / most : infinite,
-                        least > 0.0 ? std::pow(intervals.u_c.high, 4) / least : infinite};
+    low = std::max(0.0, low);
+    high = std::max(0.0, high);
+    intervals.nu_eff = {most > 0.0 ? low * low / most : infinite, least > 0.0 ? high * high / least : infinite};
     if (coverage.kind == CoverageRule::Kind::fixed) {
         intervals.k = {coverage.k, coverage.k};
     } else if (coverage.kind == CoverageRule::Kind::convolution) {

@@ -329,15 +329,19 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.value = reported.value;
     const double u = reported.u.value_or(result.u);
     // What is not in the rows: correlations, second-order terms, the scatter of trials.
-    const double variance = variance_of_rows(budget);
-    budget.correlation_variance = std::abs(u * u - variance) > 1e-9 * u * u ? u * u - variance : 0.0;
+    const auto beyond = [u](double whole, double part) {
+        return std::abs(whole - part) > 1e-9 * u * u ? whole - part : 0.0;
+    };
+    budget.correlation_variance = beyond(result.u * result.u, variance_of_rows(budget));
+    budget.variance_beyond_tangent = beyond(u * u, result.u * result.u);
+    budget.rests_on_trials = by_trials;
     const std::optional<double> k = by_trials ? reported.k : result.k;
     state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability);
     Claims& claims = budget.claims;
     claims.value = exact_number(reported.value, budget.place);
     claims.value->text = reported.printed.value;
     claims.u_c = exact_number(u, budget.place);
-    if (result.nu_eff && !by_trials) {
+    if (result.nu_eff) {
         claims.nu_eff = exact_number(*result.nu_eff, budget.place);
     }
     if (k) {
