@@ -128,6 +128,9 @@ struct CoverageRule {
     double probability = 0.9545;  ///< p of the others
     /// ν_eff is cut to the next lower whole number before k is taken (JCGM 100:2008, G.4.1)
     bool truncate = false;
+    /// Of a budget that this program evaluated: each copy of it takes k as the evaluation would, t_p(ν_eff) or, where that
+    /// of the convolution is more than 1 % away from it, the latter (ADR 0014, 0025), whichever `kind` the result has.
+    bool chosen_anew = false;
 };
 
 /// The value that a result is compared with, in the unit of the result.

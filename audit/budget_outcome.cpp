@@ -111,19 +111,37 @@ double remembered_half_width(const std::vector<gum::ConvolutionTerm>& terms, dou
     return remembered(known, std::move(key), [&] { return gum::convolution_half_width(terms, probability); });
 }
 
+/// k as gum/budget takes it: that of the convolution of the rows where it is noticed beside t_p(ν_eff).
+/// \param u_c  of the rows
+double chosen_factor(const CoverageRule& coverage, const std::vector<gum::ConvolutionTerm>& terms,
+                     const std::vector<double>& contributions, double u_c, double nu) {
+    if (!gum::convolution_changes_little(terms, contributions, coverage.probability)) {
+        CoverageRule uncut = coverage;
+        uncut.truncate = false;  // it is cut after the choice
+        const double convolved = remembered_half_width(terms, coverage.probability) / u_c;
+        if (gum::is_noticed_change(convolved, student_factor(uncut, nu))) {
+            return convolved;
+        }
+    }
+    return student_factor(coverage, nu);
+}
+
 double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
     if (coverage.kind == CoverageRule::Kind::fixed) {
         return coverage.k;
     }
     // A convolution is the distribution of a sum of independent quantities; with correlations t_p(ν_eff) is taken.
-    if (coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty()) {
+    if ((coverage.kind == CoverageRule::Kind::convolution || coverage.chosen_anew) && budget.correlations.empty()) {
         std::vector<gum::ConvolutionTerm> terms;
+        std::vector<double> contributions;
         for (const AuditedRow& row : budget.rows) {
             if (contribution_of(row) > 0.0) {
                 terms.push_back({.sensitivity = row.used_sensitivity, .distribution = distribution_of(row)});
+                contributions.push_back(contribution_of(row));
             }
         }
-        return remembered_half_width(terms, coverage.probability) / u_c;
+        return coverage.chosen_anew ? chosen_factor(coverage, terms, contributions, u_c, nu)
+                                    : remembered_half_width(terms, coverage.probability) / u_c;
     }
     return student_factor(coverage, nu);
 }
@@ -282,7 +300,7 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
     intervals.nu_eff = {most > 0.0 ? low * low / most : infinite, least > 0.0 ? high * high / least : infinite};
     if (coverage.kind == CoverageRule::Kind::fixed) {
         intervals.k = {coverage.k, coverage.k};
-    } else if (coverage.kind == CoverageRule::Kind::convolution) {
+    } else if (coverage.kind == CoverageRule::Kind::convolution || coverage.chosen_anew) {
         const BudgetOutcome outcome = evaluate(budget, coverage);
         intervals.k = {outcome.k, outcome.k};
     } else {

@@ -78,6 +78,14 @@ Correction scale_u(std::size_t row, double factor) {
         is.contribution.reset();
     };
 }
+Correction set_u_and_shape(std::size_t row, double u, Shape shape) {
+    return [set = set_u(row, u), row, shape](AuditedBudget& budget) {
+        set(budget);
+        if (budget.evaluated_here) {
+            budget.rows[row].shape = shape;
+        }
+    };
+}
 Correction set_sensitivity(std::size_t row, double sensitivity) {
     return [row, sensitivity](AuditedBudget& budget) {
         budget.rows[row].used_sensitivity = sensitivity;

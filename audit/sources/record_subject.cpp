@@ -178,8 +178,21 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
     }
 }
 
-/// The rule that gives the k of a result again: of ν_eff, of the convolution of its rows, or none of both.
-CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, double k, double probability) {
+/// Whether corrected copies of a budget can take k as the evaluation would: its rows are independent, and say by which
+/// distributions they enter.
+bool is_sum_of_known_shapes(const AuditedBudget& budget) {
+    return budget.correlation_variance == 0.0 && budget.variance_beyond_tangent == 0.0 &&
+           std::all_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
+               return contribution_of(row) == 0.0 || row.shape == Shape::normal || row.shape == Shape::student_t ||
+                      row.shape == Shape::rectangular || row.shape == Shape::triangular || row.shape == Shape::arcsine;
+           });
+}
+
+/// The rule that gives the k of a result again: that of the evaluation, which every corrected copy takes anew; of ν_eff, of
+/// the convolution of its rows, or none of both.
+/// \param truncated  the job cuts ν_eff to the next lower whole number
+CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, double k, double probability,
+                         bool truncated) {
     CoverageRule rule{.kind = CoverageRule::Kind::student_t, .k = k, .probability = probability};
     const auto gives_k = [&](const CoverageRule& tried) {
         budget.coverage = tried;
@@ -189,7 +202,13 @@ CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, doub
     if (coverage == "convolution") {
         rule.kind = CoverageRule::Kind::convolution;
     }
-    for (const bool truncate : {false, true}) {
+    rule.truncate = truncated;
+    rule.chosen_anew = coverage != "monte_carlo" && is_sum_of_known_shapes(budget);
+    if (rule.chosen_anew && gives_k(rule)) {
+        return rule;
+    }
+    rule.chosen_anew = false;
+    for (const bool truncate : {truncated, !truncated}) {
         rule.truncate = truncate;
         if (gives_k(rule)) {
             return rule;
@@ -200,12 +219,13 @@ CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, doub
     return rule;
 }
 
-void state_coverage(AuditedBudget& budget, const std::string& coverage, std::optional<double> k, double probability) {
+void state_coverage(AuditedBudget& budget, const std::string& coverage, std::optional<double> k, double probability,
+                    bool truncated) {
     if (!k || !(*k > 0.0)) {
         return;
     }
     try {
-        budget.coverage = coverage_of(budget, coverage, *k, probability);
+        budget.coverage = coverage_of(budget, coverage, *k, probability, truncated);
     } catch (const gum::DiagnosedError&) {
         budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = *k, .probability = probability};
     }
@@ -300,6 +320,13 @@ double variance_of_rows(const AuditedBudget& budget) {
     return variance;
 }
 
+/// Whether the evaluation cut ν_eff to the next lower whole number.
+bool cuts_degrees_of_freedom(const reports::EvaluationRecord& record) {
+    const json options = json::parse(record.options_json, nullptr, false);
+    const json::json_pointer stated("/reporting/degrees_of_freedom");
+    return options.is_object() && options.contains(stated) && options.at(stated) == "truncated";
+}
+
 AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::Result& result,
                         const JobStatements& job, CertifiedValues& certified) {
     AuditedBudget budget;
@@ -336,7 +363,8 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.variance_beyond_tangent = beyond(u * u, result.u * result.u);
     budget.rests_on_trials = by_trials;
     const std::optional<double> k = by_trials ? reported.k : result.k;
-    state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability);
+    state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability,
+                   cuts_degrees_of_freedom(record));
     Claims& claims = budget.claims;
     claims.value = exact_number(reported.value, budget.place);
     claims.value->text = reported.printed.value;
