@@ -254,6 +254,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             result.recomputed = evaluate(of_rows);
             const BudgetOutcome evaluated = evaluate(budget);
             result.claimed = claimed_outcome(budget, evaluated);
+            result.unrounded_U = evaluated.U;
             result.audited = evaluated;
             result.allowed = outcome_intervals(budget);
             if (!evaluated.undecided.empty()) {

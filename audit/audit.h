@@ -32,6 +32,7 @@ struct AuditedResult {
     BudgetOutcome claimed = {};     ///< what is stated, and what follows from the rows where nothing is stated
     BudgetOutcome recomputed = {};  ///< from the rows, with the rule of coverage that is claimed
     BudgetOutcome audited = {};     ///< all corrections applied
+    double unrounded_U = 0.0;       ///< U that gives the claimed one when it is rounded: changes are told from it
     OutcomeIntervals allowed = {};  ///< what the printed digits of the rows allow
     bool sampled_shares = false;    ///< more corrections than are divided exactly
     bool is_nested = false;         ///< of a budget that the results rest on (NestedBudgets)

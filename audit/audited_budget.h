@@ -59,6 +59,9 @@ struct AuditedRow {
     /// Of a row of a job: its input quantity, and which component of it; "" of a table.
     std::string input = {};
     std::size_t component = 0;
+    /// Of a job: the value of a standard, or a quantity with a role in the tables of results. It is measured or compared,
+    /// and no condition of the work.
+    bool is_measured = false;
     std::optional<StatedNumber> estimate;
     std::optional<StatedNumber> stated;   ///< what was divided: half-width, MPE, U of a certificate
     std::optional<StatedNumber> divisor;  ///< k, √3 …
@@ -87,6 +90,8 @@ struct AuditedRow {
     double used_sensitivity = 1.0;  ///< [unit of the result / unit of the row]
     double used_nu = std::numeric_limits<double>::infinity();
     double u_half_step = 0.0, sensitivity_half_step = 0.0;  ///< what the printed digits of both leave open
+    /// What corrections have multiplied `used_u` by, so that one error which several rules see is corrected once.
+    std::vector<double> factors_of_u = {};
 
     // What only some rows say. Texts are read by audit/row_facts.h; a reader of columns or jobs may know them itself.
     std::optional<double> relative_uncertainty;  ///< "0.5 % of full scale": 0.005
@@ -123,6 +128,9 @@ struct CoverageRule {
     double probability = 0.9545;  ///< p of the others
     /// ν_eff is cut to the next lower whole number before k is taken (JCGM 100:2008, G.4.1)
     bool truncate = false;
+    /// Of a budget that this program evaluated: each copy of it takes k as the evaluation would, t_p(ν_eff) or, where that
+    /// of the convolution is more than 1 % away from it, the latter (ADR 0014, 0025), whichever `kind` the result has.
+    bool chosen_anew = false;
 };
 
 /// The value that a result is compared with, in the unit of the result.
@@ -187,6 +195,10 @@ struct AuditedBudget {
     /// What correlations that are not listed add to the variance, as the evaluation of the job has it: it stays as it is.
     /// Of a result of a certificate, which has no rows, all of u_c².
     double correlation_variance = 0.0;
+    /// What the reported u² has beyond the law of propagation: terms of second order, or what trials of the model show. It
+    /// has no part in ν_eff.
+    double variance_beyond_tangent = 0.0;
+    bool rests_on_trials = false;  ///< of a budget evaluated here: the reported U is that of Monte Carlo trials
     /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
     /// its own (K01) where they do not. They stay while other findings are corrected.

@@ -121,9 +121,34 @@ std::vector<gum::ConvolutionTerm> terms_of(const AuditedBudget& budget) {
     return terms;
 }
 
+/// k as gum/budget takes it: that of the convolution of the rows where it is noticed beside t_p(ν_eff).
+/// \param u_c  of the rows
+double chosen_factor(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
+    const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
+    std::vector<double> contributions;
+    for (const AuditedRow& row : budget.rows) {
+        if (contribution_of(row) > 0.0) {
+            contributions.push_back(contribution_of(row));
+        }
+    }
+    if (!gum::convolution_changes_little(terms, contributions, coverage.probability)) {
+        CoverageRule uncut = coverage;
+        uncut.truncate = false;  // it is cut after the choice
+        const double convolved = remembered_half_width(terms, coverage.probability) / u_c;
+        if (gum::is_noticed_change(convolved, student_factor(uncut, nu))) {
+            return convolved;
+        }
+    }
+    return student_factor(coverage, nu);
+}
+
 /// A convolution is the distribution of a sum of independent quantities.
-bool is_convolution(const AuditedBudget& budget, const CoverageRule& coverage) {
-    return coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty();
+bool is_convolution(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
+    if (!budget.correlations.empty() || coverage.kind == CoverageRule::Kind::fixed) {
+        return false;
+    }
+    return coverage.chosen_anew ? chosen_factor(budget, coverage, u_c, nu) != student_factor(coverage, nu)
+                                : coverage.kind == CoverageRule::Kind::convolution;
 }
 
 double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
@@ -131,7 +156,10 @@ double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& cover
         return coverage.k;
     }
     // With correlations t_p(ν_eff) is taken.
-    if (is_convolution(budget, coverage)) {
+    if (budget.correlations.empty() && coverage.chosen_anew) {
+        return chosen_factor(budget, coverage, u_c, nu);
+    }
+    if (is_convolution(budget, coverage, u_c, nu)) {
         return remembered_half_width(terms_of(budget), coverage.probability) / u_c;
     }
     return student_factor(coverage, nu);
@@ -141,7 +169,8 @@ bool has_limits(const gum::ToleranceLimits& limits) {
     return limits.lower.has_value() || limits.upper.has_value();
 }
 
-void decide(const AuditedBudget& budget, const CoverageRule& coverage, BudgetOutcome& outcome) {
+/// \param u_of_rows  what their contributions combine to
+void decide(const AuditedBudget& budget, const CoverageRule& coverage, double u_of_rows, BudgetOutcome& outcome) {
     if (!budget.rule || !has_limits(budget.limits) || !outcome.value || !(outcome.U > 0.0)) {
         return;
     }
@@ -153,7 +182,7 @@ void decide(const AuditedBudget& budget, const CoverageRule& coverage, BudgetOut
                          .standard_uncertainty = outcome.u_c,
                          .expanded_uncertainty = outcome.U,
                          .degrees_of_freedom = outcome.nu_eff};
-    if (by_probability && is_convolution(budget, coverage)) {
+    if (by_probability && is_convolution(budget, coverage, u_of_rows, outcome.nu_eff)) {
         // As wide as the U that is stated: k and p hold for it as they do for that of the rows.
         const std::vector<gum::ConvolutionTerm> terms = terms_of(budget);
         const double stretch = remembered_half_width(terms, coverage.probability) / outcome.U;
@@ -211,7 +240,8 @@ BudgetOutcome evaluate(const AuditedBudget& budget) {
 BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage) {
     BudgetOutcome outcome;
     outcome.value = budget.value;
-    const double variance = combined_variance(budget) + budget.correlation_variance;
+    const double of_tangent = combined_variance(budget) + budget.correlation_variance;
+    const double variance = of_tangent + budget.variance_beyond_tangent;
     if (!(variance > 0.0) || !std::isfinite(variance)) {
         throw gum::NoResultError({.code = "GC-AUDIT-0001",
                                   .where = budget.name.empty() ? budget.place : budget.name,
@@ -222,7 +252,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
     const double u_of_rows = std::sqrt(variance);
     outcome.u_c = u_of_rows * budget.u_c_over_rows;
     // From the rows: what a claimed u_c has beyond them has no degrees of freedom that anybody stated.
-    outcome.nu_eff = effective_degrees_of_freedom(budget, u_of_rows);
+    outcome.nu_eff = effective_degrees_of_freedom(budget, of_tangent > 0.0 ? std::sqrt(of_tangent) : u_of_rows);
     outcome.k = coverage_factor_of(budget, coverage, u_of_rows, outcome.nu_eff) * budget.k_over_rows;
     outcome.U = outcome.k * outcome.u_c * budget.U_over_k_u_c;
     if (budget.floor_applied && budget.capability && *budget.capability > outcome.U) {
@@ -233,7 +263,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         gum::round_to_uncertainty(outcome.value.value_or(0.0), outcome.U, budget.digits, budget.rounding);
     outcome.printed_value = outcome.value ? printed.value : "";
     outcome.printed_U = printed.U;
-    decide(budget, coverage, outcome);
+    decide(budget, coverage, u_of_rows, outcome);
     compare(budget, outcome);
     return outcome;
 }
@@ -284,7 +314,8 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
         high += std::max(one, other);
     }
     OutcomeIntervals intervals;
-    intervals.u_c = {std::sqrt(std::max(0.0, low)), std::sqrt(std::max(0.0, high))};
+    const double beyond = budget.variance_beyond_tangent;
+    intervals.u_c = {std::sqrt(std::max(0.0, low + beyond)), std::sqrt(std::max(0.0, high + beyond))};
 
     double least = 0.0, most = 0.0;
     for (const AuditedRow& row : budget.rows) {
@@ -296,11 +327,12 @@ OutcomeIntervals outcome_intervals(const AuditedBudget& budget, const CoverageRu
     }
     const double infinite = std::numeric_limits<double>::infinity();
     // The smallest u_c over the largest terms, and the other way round: an outer bound, for both do not occur together.
-    intervals.nu_eff = {most > 0.0 ? std::pow(intervals.u_c.low, 4) / most : infinite,
-                        least > 0.0 ? std::pow(intervals.u_c.high, 4) / least : infinite};
+    low = std::max(0.0, low);
+    high = std::max(0.0, high);
+    intervals.nu_eff = {most > 0.0 ? low * low / most : infinite, least > 0.0 ? high * high / least : infinite};
     if (coverage.kind == CoverageRule::Kind::fixed) {
         intervals.k = {coverage.k, coverage.k};
-    } else if (coverage.kind == CoverageRule::Kind::convolution) {
+    } else if (coverage.kind == CoverageRule::Kind::convolution || coverage.chosen_anew) {
         const BudgetOutcome outcome = evaluate(budget, coverage);
         intervals.k = {outcome.k, outcome.k};
     } else {

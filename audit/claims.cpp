@@ -64,10 +64,30 @@ std::vector<CoverageRule> fixed_rules(const AuditedBudget& budget) {
     return rules;
 }
 
-/// Whether k is claimed with two decimals: "2" is what laboratories take whatever ν_eff.
+/// Half a unit of the last digit of a claimed k. One known to all digits, as of a sheet with formulas, may have been typed or
+/// rounded there: where it has two decimals or three, these are its digits. 0: nothing is left open.
+double half_step_of_k(const StatedNumber& k) {
+    const auto ends_at = [&k](double step) {
+        const double steps = k.value / step;
+        return std::abs(steps - std::round(steps)) <= 1e-9 * std::abs(steps);
+    };
+    if (k.half_step > 0.0 || ends_at(1.0)) {
+        return k.half_step;  // of "2.1" the 0 of 2.10 may be hidden, of "2" it is none
+    }
+    return ends_at(0.01) ? 0.005 : ends_at(0.001) ? 0.0005 : 0.0;
+}
+Interval interval_of_k(const StatedNumber& k) {
+    const double half = half_step_of_k(k);
+    return {k.value - half, k.value + half};
+}
+
+/// Whether k is claimed with two decimals or all digits of a computed number: "2" is what laboratories take whatever ν_eff.
 bool has_decimals(const std::optional<StatedNumber>& k) {
     constexpr double k_two_decimals = 0.0051;
-    return k && k->half_step > 0.0 && k->half_step < k_two_decimals;
+    if (!k || k->half_step > 0.0) {
+        return k && k->half_step < k_two_decimals;
+    }
+    return std::abs(k->value - std::round(k->value)) > 1e-9 * std::abs(k->value);
 }
 /// Whether a claimed k may have been taken from ν_eff by a rule: it has decimals, and is none of the numbers that stand for
 /// all budgets, or ν_eff or the very probability of the rule stand beside it.
@@ -77,7 +97,7 @@ bool may_be_of_rule(const Claims& claims, const CoverageRule& rule) {
     }
     constexpr double k_for_all[] = {1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
     const bool usual = std::any_of(std::begin(k_for_all), std::end(k_for_all), [&claims](double k) {
-        return std::abs(claims.k->value - k) <= 0.1 * claims.k->half_step;
+        return std::abs(claims.k->value - k) <= 0.1 * half_step_of_k(*claims.k) + k_arithmetic;
     });
     return !usual || claims.nu_eff || claims.coverage_probability == rule.probability;
 }
@@ -194,7 +214,11 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     const auto gives_U = [&](const Interval& k) {
         return !claims.U || before_rounding_up(*claims.U).meets(allowed_U(budget, k, u_c));
     };
-    const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(claims.k->interval()); };
+    const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(interval_of_k(*claims.k)); };
+    // U may have been computed with the k that is printed, or before k was rounded.
+    const auto with_claimed_k = [&](const Interval& k) {
+        return claims.k ? hull(k, {claims.k->value, claims.k->value}) : k;
+    };
     const auto take = [&](const CoverageRule& rule, const Interval& k) {
         check.coverage = rule;
         check.U = allowed_U(budget, k, u_c);
@@ -215,21 +239,22 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     double distance = 0.0;
     for (const CoverageRule& rule : student) {
         const Interval k = allowed_k(budget, rule, allowed.nu_eff);
-        if (!may_be_of_rule(claims, rule) || !gives_k(k) || !gives_U(k)) {
+        if (!may_be_of_rule(claims, rule) || !gives_k(k) || !gives_U(with_claimed_k(k))) {
             continue;
         }
         AuditedBudget by_rule = budget;
         by_rule.coverage = rule;
         by_rule.k_over_rows = 1.0;
         // Within the digits of the claimed k all rules give it alike, and the first of them is taken.
-        const double off = std::max(0.0, std::abs(evaluate(by_rule).k - claims.k->value) - claims.k->half_step);
-        if (!nearest || off < distance - claims.k->half_step * k_arithmetic) {
+        const double half_step = half_step_of_k(*claims.k);
+        const double off = std::max(0.0, std::abs(evaluate(by_rule).k - claims.k->value) - half_step);
+        if (!nearest || off < distance - half_step * k_arithmetic) {
             nearest = rule;
             distance = off;
         }
     }
     if (nearest) {
-        take(*nearest, allowed_k(budget, *nearest, allowed.nu_eff));
+        take(*nearest, with_claimed_k(allowed_k(budget, *nearest, allowed.nu_eff)));
         return check;
     }
     // A rule that gives the claimed k and U is the one that was used; else one that gives U.

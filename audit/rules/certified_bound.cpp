@@ -36,6 +36,10 @@ BoundOfResult bound_of(const AuditSubject& subject, std::size_t position) {
     const AuditedBudget& budget = subject.budgets[position];
     BoundOfResult result;
     result.budget = position;
+    if (budget.rests_on_trials) {
+        result.why_not = say("U is that of Monte Carlo trials of the model, and does not rest on its tangent");
+        return result;
+    }
     const std::optional<BudgetOutcome> outcome = outcome_or_none(budget);
     if (budget.equation.empty() || !outcome || !(outcome->U > 0.0)) {
         result.why_not = budget.equation.empty() ? say("no equation is stated") : say("the rows give no u_c");
@@ -146,7 +150,9 @@ Rule certified_bound_rule() {
             "the second derivatives of the equation, enclosed by interval arithmetic over the region of all "
             "inputs at once, bound what the tangent leaves out; a bound above half a unit of the last digit "
             "of U is told. Major where the equation certainly leaves its tangent by more, and nothing says "
-            "that the law of propagation was validated",
+            "that the law of propagation was validated. A result whose U is that of Monte Carlo trials does not rest "
+            "on "
+            "the tangent",
         .correction = "Use Monte Carlo, or add the terms of second order; where they are known to be small, nothing.",
         .question = "How was it seen that the equation is linear enough over its uncertainties?",
         .examine = certified_bound};

@@ -58,7 +58,52 @@ std::string short_number(double number) {
     return text::significant(number, 3);
 }
 
+/// E_n that follows from both expanded uncertainties of a score, where another one is stated; N02 tells it.
+std::optional<double> refuted_en(const AuditedScore& score) {
+    const double squares = score.U * score.U + score.reference_U * score.reference_U;
+    if (!score.en || score.correlation_known || !(squares > 0.0)) {
+        return std::nullopt;
+    }
+    constexpr double k_printed = 0.02;  // of a score with two decimals, and 2 % of it
+    const double right = (score.value - score.reference_value) / std::sqrt(squares);
+    const bool is_other = std::abs(std::abs(*score.en) - std::abs(right)) > k_printed * (1.0 + std::abs(right));
+    return is_other ? std::optional(right) : std::nullopt;
+}
+
+/// What the claimed E_n of a table is held against.
+struct FollowingScore {
+    double U = 0.0, U_ref = 0.0, difference = 0.0;
+    double right = 0.0;   ///< E_n that follows from them
+    double digits = 0.0;  ///< what the printed digits leave open of it
+};
+/// Where another E_n is claimed than value, U and reference give as they are printed; N02 tells it.
+std::optional<FollowingScore> refuted_en(const AuditedBudget& budget) {
+    const std::optional<double> U = stated_U(budget);
+    if (budget.evaluated_here || !budget.claims.en || !budget.reference || !budget.claims.value || !U) {
+        return std::nullopt;
+    }
+    FollowingScore score{.U = *U,
+                         .U_ref = budget.reference->expanded_uncertainty,
+                         .difference = budget.claims.value->value - budget.reference->value};
+    const double U_difference = gum::uncertainty_of_difference(*U, score.U_ref, budget.reference->correlation);
+    if (!(U_difference > 0.0)) {
+        return std::nullopt;
+    }
+    score.right = score.difference / U_difference;
+    // The score may have been computed of unrounded numbers: what the printed digits of value, score and U leave open
+    // together, each by its derivative.
+    score.digits = budget.claims.value->half_step / U_difference + budget.claims.en->half_step +
+                   std::abs(score.right) * (budget.claims.U ? printed_half_step(*budget.claims.U) / *U : 0.0);
+    const bool follows = std::abs(std::abs(budget.claims.en->value) - std::abs(score.right)) <=
+                         score.digits + 0.01 * std::abs(score.right);
+    return follows ? std::nullopt : std::optional(score);
+}
+
+/// The E_n that decides: the stated one, or the one that follows where N02 refutes it.
 std::optional<double> en_of(const AuditedScore& score) {
+    if (const std::optional<double> right = refuted_en(score)) {
+        return right;
+    }
     if (score.en) {
         return score.en;
     }
@@ -66,6 +111,9 @@ std::optional<double> en_of(const AuditedScore& score) {
     return squares > 0.0 ? std::optional((score.value - score.reference_value) / std::sqrt(squares)) : std::nullopt;
 }
 std::optional<double> en_of(const AuditedBudget& budget) {
+    if (const std::optional<FollowingScore> score = refuted_en(budget)) {
+        return score->right;
+    }
     if (budget.claims.en) {
         return budget.claims.en->value;
     }
@@ -177,37 +225,28 @@ void passes_by_inflation_only(const AuditSubject& subject, std::span<const Audit
 void score_does_not_follow(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
-        const std::optional<double> U = stated_U(budget);
-        if (budget.evaluated_here || !budget.claims.en || !budget.reference || !budget.claims.value || !U) {
+        const std::optional<FollowingScore> score = refuted_en(budget);
+        if (!score) {
             continue;
         }
-        const double U_ref = budget.reference->expanded_uncertainty;
-        const double difference = budget.claims.value->value - budget.reference->value;
-        const double U_difference = gum::uncertainty_of_difference(*U, U_ref, budget.reference->correlation);
-        if (!(U_difference > 0.0)) {
-            continue;
-        }
-        // The score may have been computed of unrounded numbers.
-        const double right = difference / U_difference, stated = budget.claims.en->value;
-        // What the printed digits of value, score and U leave open together, each by its derivative.
-        const double digits = budget.claims.value->half_step / U_difference + budget.claims.en->half_step +
-                              std::abs(right) * (budget.claims.U ? printed_half_step(*budget.claims.U) / *U : 0.0);
-        if (std::abs(std::abs(stated) - std::abs(right)) <= digits + 0.01 * std::abs(right)) {
-            continue;
-        }
-        const auto is_stated = [&](double other) { return std::abs(std::abs(stated) - std::abs(other)) <= digits; };
+        const double stated = budget.claims.en->value;
+        const auto is_stated = [&](double other) {
+            return std::abs(std::abs(stated) - std::abs(other)) <= score->digits;
+        };
         const Sentence both =
             say("E_n is stated as {stated:number}, and follows as {right:number} from both expanded uncertainties.",
-                short_number(stated), short_number(right));
-        const Sentence what = U_ref > 0.0 && is_stated(difference / U_ref)
-                                  ? say("{stated} That is the difference over U_ref alone.", both)
-                              : is_stated(difference / *U) ? say("{stated} That is the difference over U alone.", both)
-                              : is_stated(2.0 * right)     ? say("{stated} That is the score of u in place of U.", both)
-                                                           : both;
+                short_number(stated), short_number(score->right));
+        const Sentence what =
+            score->U_ref > 0.0 && is_stated(score->difference / score->U_ref)
+                ? say("{stated} That is the difference over U_ref alone.", both)
+            : is_stated(score->difference / score->U) ? say("{stated} That is the difference over U alone.", both)
+            : is_stated(2.0 * score->right)           ? say("{stated} That is the score of u in place of U.", both)
+                                                      : both;
         AuditFinding finding = finding_of(subject, i, what);
-        finding.evidence = {equals(say("difference"), in_words(difference, budget.unit)),
-                            equals("U", in_words(*U, budget.unit)), equals("U_ref", in_words(U_ref, budget.unit))};
-        finding.expected = say_number(short_number(right));
+        finding.evidence = {equals(say("difference"), in_words(score->difference, budget.unit)),
+                            equals("U", in_words(score->U, budget.unit)),
+                            equals("U_ref", in_words(score->U_ref, budget.unit))};
+        finding.expected = say_number(short_number(score->right));
         finding.actual = say_number(short_number(stated));
         findings.add(std::move(finding));
     }
@@ -217,21 +256,14 @@ void score_does_not_follow(const AuditSubject& subject, FindingCollector& findin
 void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
     score_does_not_follow(subject, findings);
     for (const AuditedScore& score : scores_of(subject)) {
-        const double difference = score.value - score.reference_value;
-        const double squares = score.U * score.U + score.reference_U * score.reference_U;
-        constexpr double k_printed = 0.02;  // of a score with two decimals, and 2 % of it
-        if (score.en && squares > 0.0) {
-            const double right = difference / std::sqrt(squares);
-            if (!score.correlation_known &&
-                std::abs(std::abs(*score.en) - std::abs(right)) > k_printed * (1.0 + std::abs(right))) {
-                AuditFinding finding = finding_of_score(
-                    score,
-                    say("E_n is stated as {en:number}, and follows as {right:number} from the expanded uncertainties",
-                        short_number(*score.en), short_number(right)));
-                finding.expected = say_number(short_number(right));
-                finding.actual = say_number(short_number(*score.en));
-                findings.add(std::move(finding));
-            }
+        if (const std::optional<double> right = refuted_en(score)) {
+            AuditFinding finding = finding_of_score(
+                score,
+                say("E_n is stated as {en:number}, and follows as {right:number} from the expanded uncertainties",
+                    short_number(*score.en), short_number(*right)));
+            finding.expected = say_number(short_number(*right));
+            finding.actual = say_number(short_number(*score.en));
+            findings.add(std::move(finding));
         }
         if (score.k && score.reference_k && !is_about(*score.k, *score.reference_k, gum::k_same_coverage_factor)) {
             findings.add(
@@ -488,8 +520,9 @@ std::vector<Rule> comparison_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::critical,
          .needs = {Need::comparison},
-         .detection = "|E_n| above 1 and no record of what was done; between laboratories an information, because each "
-                      "acts on its own signal",
+         .detection =
+             "|E_n| above 1, by the E_n that follows where N02 refutes the stated one, and no record of what was "
+             "done; between laboratories an information, because each acts on its own signal",
          .correction = "Find the cause, act, and put it on record.",
          .question = "What was done about this result?",
          .examine = no_action_on_record},

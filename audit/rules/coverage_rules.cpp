@@ -203,13 +203,12 @@ void fixed_k_of_few(const AuditSubject& subject, FindingCollector& findings) {
     });
 }
 
-/// K11: the GUM allows both ways; a laboratory uses one.
+/// K11: the GUM allows both ways, so that nothing is put right; a laboratory uses one, and where one file has both, that is.
 void truncation(const AuditSubject& subject, FindingCollector& findings) {
     const bool some_truncate =
         std::any_of(subject.budgets.begin(), subject.budgets.end(), [](const AuditedBudget& budget) {
             return budget.coverage.kind == CoverageRule::Kind::student_t && budget.coverage.truncate;
         });
-    const bool foreign = subject.kind == AuditSubject::Kind::table || subject.kind == AuditSubject::Kind::workbook;
     for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome& outcome) {
         const bool few = has_fixed_k_of_few(budget, outcome);
         const bool student = budget.coverage.kind == CoverageRule::Kind::student_t;
@@ -239,7 +238,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
                       in_words(outcome.nu_eff)));
         finding.evidence = {say("k = {k:number}, cut {cut:number}", in_words(whole.k), in_words(lower.k)),
                             say("U = {U:number}, cut {cut:number}", whole.printed_U, lower.printed_U)};
-        if (foreign || some_truncate) {
+        if (some_truncate) {
             finding.correct = [](AuditedBudget& corrected) {
                 if (corrected.coverage.kind == CoverageRule::Kind::student_t) {
                     corrected.coverage.truncate = true;

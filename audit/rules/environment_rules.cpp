@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,18 +29,6 @@ constexpr Clause k_conditions_reported{.text = "ISO/IEC 17025:2017, 7.8.4.1 b", 
 
 using certificate::Condition;
 
-/// Whether a row of a budget is about a condition that was observed.
-bool is_about_condition(const AuditedRow& row, const Condition& condition) {
-    if (condition.kind == "temperature") {
-        // A difference of two temperatures, or of two coefficients, does not swing with the room.
-        return row.contributor == Contributor::temperature &&
-               !WordLine(row.quantity + " " + row.comment).has_any({"difference", "differenz", "unterschied", "delta"});
-    }
-    const WordLine words(row.quantity);
-    return (condition.kind == "humidity" && words.has_any({"humid", "feucht", "luftfeucht"})) ||
-           (condition.kind == "pressure" && words.has_any({"pressure", "druck", "luftdruck", "barometric"}));
-}
-
 /// A difference in another unit; nothing where the two units are of different kinds.
 std::optional<double> difference_in(double difference, const std::string& from, const std::string& to) {
     try {
@@ -52,19 +42,155 @@ std::optional<double> difference_in(double difference, const std::string& from, 
     return std::nullopt;
 }
 
+/// A temperature, humidity or pressure of the room, by the words of a row.
+bool names_the_room(const WordLine& words) {
+    return words.has_any({"room",     "ambient", "laborator", "environment", "atmospher", "barometr", "air ",  "raum",
+                          "umgebung", "labor",   "luft",      "influence",   "einfluss",  "ambiente", "aire ", "sala",
+                          "*室",      "*環境",   "*环境",     "*空氣",       "*空气",     "*大氣",    "*大气"});
+}
+
+/// What somebody else holds at a temperature, humidity or pressure: it does not swing with the room.
+bool names_a_vessel(const WordLine& words) {
+    return words.has_any({"chamber",
+                          "bath",
+                          "oven",
+                          "furnace",
+                          "dry block",
+                          "block calibrator",
+                          "homogen",
+                          "liquid",
+                          "water",
+                          "ice",
+                          "triple point",
+                          "reference junction",
+                          "cold junction",
+                          "kammer",
+                          "*schrank",
+                          "*kammer",
+                          "bad ",
+                          "*bades",
+                          "*ofen",
+                          "wasser",
+                          "*flussigkeit",
+                          "eispunkt",
+                          "*vergleichsstelle",
+                          "camara",
+                          "bano",
+                          "horno",
+                          "liquido",
+                          "agua"});
+}
+
+/// Whether an absolute value may be one of the room: not much further off the observed range than the room swings.
+/// \param room  how far it may be off, [unit of the condition]
+bool is_near(const Condition& condition, const AuditedRow& row, double room) {
+    if (!row.estimate) {
+        return false;
+    }
+    try {
+        const gum::Unit of_row = gum::Unit::parse(row.unit), observed = gum::Unit::parse(condition.unit);
+        if (of_row.dimension() != observed.dimension()) {
+            return false;
+        }
+        const double value = observed.from_si(of_row.to_si(row.estimate->value));
+        return value >= condition.minimum - room && value <= condition.maximum + room;
+    } catch (const gum::InputError&) {
+        return false;
+    }
+}
+
+/// Whether a temperature is a value on the scale of a thermometer: 0 °C; 0 K beside 20 °C is a deviation.
+bool is_absolute(const std::string& unit) {
+    try {
+        return gum::Unit::parse(unit).is_celsius_temperature();
+    } catch (const gum::InputError&) {
+        return false;
+    }
+}
+
+/// Whether u of a row enters the result as it is, as a part of a quantity of the same kind does: what is measured, and no
+/// condition that acts on it.
+bool enters_as_it_is(const AuditedRow& row, const std::string& unit_of_result) {
+    constexpr double k_same = 0.02;
+    const std::optional<double> one = difference_in(1.0, row.unit, unit_of_result);
+    return one && is_about(std::abs(row.used_sensitivity), *one, k_same);
+}
+
+/// The rows that may stand for a condition of the room.
+class RoomRows {
+public:
+    explicit RoomRows(const AuditSubject& subject) {
+        for_each_row(subject, [this](const RowAt& at) {
+            if (at.is.is_measured || enters_as_it_is(at.is, at.of.unit)) {
+                measured_.insert(key(at));
+            }
+        });
+    }
+
+    [[nodiscard]] bool stand_for(const RowAt& at, const Condition& condition) const {
+        const AuditedRow& row = at.is;
+        const WordLine quantity(row.quantity), words(row.quantity + " " + row.comment);
+        const bool room = names_the_room(words);
+        if (row.is_measured || names_a_vessel(words) || (!room && measured_.contains(key(at)))) {
+            return false;
+        }
+        if (condition.kind == "temperature") {
+            constexpr double k_room =
+                5.0;  // °C: a room at 20 °C is not at 0 °C, and what is held at 0 °C is not the room
+            // A difference of two temperatures, or of two coefficients, does not swing with the room.
+            return row.contributor == Contributor::temperature &&
+                   !words.has_any({"difference", "differenz", "unterschied", "delta"}) &&
+                   (room || !is_absolute(row.unit) || !row.estimate || is_near(condition, row, k_room));
+        }
+        const bool names_kind =
+            (condition.kind == "humidity" &&
+             quantity.has_any({"humid", "feucht", "luftfeucht", "humedad", "*濕度", "*湿度"})) ||
+            (condition.kind == "pressure" &&
+             quantity.has_any({"pressure", "druck", "luftdruck", "barometric", "presion", "*氣壓", "*气压"}));
+        return names_kind && (room || is_near(condition, row, 0.0));
+    }
+
+private:
+    std::set<std::pair<std::size_t, std::string>> measured_;  // budget and place of a row; npos and name of an input
+
+    /// An input is one quantity in all budgets that it occurs in.
+    static std::pair<std::size_t, std::string> key(const RowAt& at) {
+        return at.is.input.empty() ? std::pair(at.budget, at.is.place) : std::pair(std::string::npos, at.is.input);
+    }
+};
+
+/// Half-width that a row has: what it states, or that of a rectangular distribution with its u.
+double half_width_of(const AuditedRow& row) {
+    const bool stated = row.origin == Origin::limits && row.origin_value;
+    return stated ? *row.origin_value : std::numbers::sqrt3 * row.used_u;
+}
+
+/// Whether another part of the same input is wider: then the range is held against that.
+bool has_wider_part(const RowAt& at) {
+    const double width = half_width_of(at.is);
+    for (std::size_t r = 0; r < at.of.rows.size() && !at.is.input.empty(); ++r) {
+        const AuditedRow& other = at.of.rows[r];
+        const double other_width = half_width_of(other);
+        if (r != at.row && other.input == at.is.input &&
+            (other_width > width || (other_width == width && r < at.row))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// E02
 void recorded_range_larger(const AuditSubject& subject, FindingCollector& findings) {
+    const RoomRows rows(subject);
     for (const Condition& condition : subject.certificate->data.conditions) {
         for_each_row(subject, [&](const RowAt& at) {
             const std::optional<double> recorded =
                 difference_in(0.5 * (condition.maximum - condition.minimum), condition.unit, at.is.unit);
-            if (!is_about_condition(at.is, condition) || !recorded || !(at.is.used_u > 0.0)) {
+            if (!recorded || !(at.is.used_u > 0.0) || !rows.stand_for(at, condition) || has_wider_part(at)) {
                 return;
             }
             const bool stated = at.is.origin == Origin::limits && at.is.origin_value;
-            // Where the row does not say what limits it stands for, u is taken back to the half-width of a rectangular
-            // distribution.
-            const double budgeted = stated ? *at.is.origin_value : std::numbers::sqrt3 * at.is.used_u;
+            const double budgeted = half_width_of(at.is);
             constexpr double k_rounding = 1e-9;
             if (*recorded <= budgeted * (1.0 + k_rounding)) {
                 return;
@@ -227,7 +353,11 @@ std::vector<Rule> environment_rules() {
          .clause = k_effects_of_conditions,
          .severity = FindingSeverity::major,
          .needs = {Need::rows, Need::certificate},
-         .detection = "half of the observed range against the half-width of the row, or √3·u of it",
+         .detection =
+             "half of the observed range against the half-width, or √3·u, of a row that stands for the room: not "
+             "what is measured (an input of a standard or with a role in the results, a part of a quantity of "
+             "the kind of the result), not a bath or chamber; humidity and pressure by words of air or room, "
+             "or a value within the range",
          .correction = "Take the observed range into the budget.",
          .question = "Which range of the conditions is the budget made for?",
          .examine = recorded_range_larger},

@@ -77,13 +77,14 @@ std::vector<Sentence> evidence_of(const AuditedRow& row, const Sentence& base_na
 }
 
 /// A finding about u that should be another number.
+/// \param shape  that u should have been made of
 void add_other_u(const RowAt& at, FindingCollector& findings, Sentence what, std::vector<Sentence> evidence,
-                 double expected) {
+                 double expected, Shape shape) {
     AuditFinding finding = finding_at(at, "u", std::move(what));
     finding.evidence = std::move(evidence);
     finding.expected = say_number(in_words(expected, at.is.unit));
     finding.actual = say_number(in_words(at.is.used_u, at.is.unit));
-    finding.correct = set_u(at.row, expected);
+    finding.correct = set_u_and_shape(at.row, expected, shape);
     findings.add(std::move(finding));
 }
 
@@ -180,7 +181,8 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
                                   : slip           ? say("{stated:number} in the column that is divided",
                                                          in_words(std::abs(row.stated->value), row.unit))
                                          : say("divided by {divisor:number}", in_words(half_width / row.used_u))),
-                    evidence_of(row, "a", half_width), expected);
+                    evidence_of(row, "a", half_width), expected,
+                    row.shape == Shape::not_stated ? Shape::rectangular : row.shape);
     });
 }
 
@@ -251,7 +253,7 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         add_other_u(at, findings, say("resolution {step:number}: {ratio}", in_words(step, row.unit), ratio->name),
-                    evidence_of(row, say("step"), step), step / std::sqrt(12.0));
+                    evidence_of(row, say("step"), step), step / std::sqrt(12.0), Shape::rectangular);
     });
 }
 
@@ -266,7 +268,7 @@ void maximum_permissible_error_as_u(const AuditSubject& subject, FindingCollecto
                     say("the maximum permissible error {limit:number} stands as the standard uncertainty; an "
                         "instrument that conforms lies within ± that limit",
                         in_words(*at.is.origin_value, at.is.unit)),
-                    evidence_of(at.is, "MPE", *at.is.origin_value), *at.is.origin_value / k_root_3);
+                    evidence_of(at.is, "MPE", *at.is.origin_value), *at.is.origin_value / k_root_3, Shape::rectangular);
     });
 }
 
@@ -283,7 +285,7 @@ void half_of_permissible_error(const AuditSubject& subject, FindingCollector& fi
                     say("the maximum permissible error {limit:number} is divided by 2, as if it were an "
                         "expanded uncertainty with k = 2",
                         in_words(*row.origin_value, row.unit)),
-                    evidence_of(row, "MPE", *row.origin_value), *row.origin_value / k_root_3);
+                    evidence_of(row, "MPE", *row.origin_value), *row.origin_value / k_root_3, Shape::rectangular);
     });
 }
 
@@ -307,7 +309,7 @@ void specification_beside_certificate(const AuditSubject& subject, FindingCollec
                             row.certificate_k ? equals("k", in_words(k)) : say("k = 2 taken, because none is stated")};
         finding.expected = say("{u:number}, with the corrections of the certificate applied", in_words(u, row.unit));
         finding.actual = say_number(in_words(row.used_u, row.unit));
-        finding.correct = set_u(at.row, u);
+        finding.correct = set_u_and_shape(at.row, u, Shape::normal);
         // The specification is wider than the certificate: the budget is on the safe side, and the finding minor
         // whatever its effect.
         if (u < row.used_u) {
@@ -369,7 +371,7 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
                                  : say("U is divided by {divisor:number}", in_words(U / std::max(row.used_u, 1e-300))),
                 in_words(k)),
             {equals("u", in_words(row.used_u, row.unit)), equals("U", in_words(U, row.unit)), equals("k", in_words(k))},
-            U / k);
+            U / k, row.shape == Shape::student_t ? Shape::student_t : Shape::normal);
     });
 }
 
@@ -473,7 +475,7 @@ void asymmetric_limits(const AuditSubject& subject, FindingCollector& findings) 
                          in_words(above, row.unit)),
                      say("middle of the limits {middle:number} beside the estimate",
                          in_words(0.5 * (above - below), row.unit))},
-                    expected);
+                    expected, Shape::rectangular);
     });
 }
 
@@ -551,7 +553,7 @@ void cyclic_quantity(const AuditSubject& subject, FindingCollector& findings) {
                     say("the quantity swings between its limits {amplitude:number} on either side; most of the time it "
                         "is near them",
                         in_words(amplitude, row.unit)),
-                    evidence_of(row, "a", amplitude), amplitude / std::numbers::sqrt2);
+                    evidence_of(row, "a", amplitude), amplitude / std::numbers::sqrt2, Shape::arcsine);
     });
 }
 

@@ -1,11 +1,13 @@
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +22,7 @@
 #include "gum/quantity/unit.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -46,6 +49,20 @@ std::optional<gum::Unit> unit_in(const std::string& text) {
 /// The model of a budget that somebody else evaluated; our own evaluation differentiated it already.
 std::optional<BudgetModel> foreign_model(const AuditedBudget& budget) {
     return budget.evaluated_here ? std::nullopt : BudgetModel::of(budget);
+}
+
+/// Whether u is a part of a value, in percent or parts per million: with a coefficient of 1 it is added to a result in
+/// another unit as if it were of that unit. Relative humidity is a quantity in percent of its own, and what else acts on the
+/// measurement may be.
+bool is_part_of_value(const AuditedRow& row) {
+    static const std::array<std::string_view, 8> k_parts = {"%",   "percent", "\u2030",  "permille",
+                                                            "ppm", "ppb",     "\u00B5%", "pct"};
+    const std::string unit = text::in_small_letters(row.unit);
+    return std::find(k_parts.begin(), k_parts.end(), unit) != k_parts.end() &&
+           row.contributor != Contributor::environment && row.contributor != Contributor::temperature &&
+           row.contributor != Contributor::other &&
+           !mentions(row, {"humid", "feucht", "humedad", "moisture", "concentration", "konzentration", "purity",
+                           "reinheit", "slope", "steigung", "load", "\u6FD5", "\u6E7F"});
 }
 
 /// S01
@@ -77,17 +94,27 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             return;
         }
         if (!expected.is_one()) {
-            if (at.is.sensitivity || at.is.contribution) {
+            const bool has_coefficient = at.is.sensitivity || at.is.contribution;
+            // 1 of the unit of the result per percent may be right, and nobody states it.
+            if (has_coefficient && !is_part_of_value(at.is)) {
                 return;  // 1 of a unit per another may be right
             }
-            AuditFinding finding =
-                finding_at(at, "sensitivity coefficient",
-                           say("u in {unit} is added to a budget in {other} without a sensitivity coefficient",
-                               at.is.unit, at.of.unit));
+            AuditFinding finding = finding_at(
+                at, "sensitivity coefficient",
+                has_coefficient ? say("u in {unit} is added to a budget in {other} with a sensitivity coefficient of "
+                                      "1, as if it were "
+                                      "of that unit",
+                                      at.is.unit, at.of.unit)
+                                : say("u in {unit} is added to a budget in {other} without a sensitivity coefficient",
+                                      at.is.unit, at.of.unit));
             finding.evidence = {equals("u", in_words(at.is.used_u, at.is.unit))};
             finding.expected = say("a coefficient in {result} per {quantity}", at.of.unit, at.is.unit);
-            finding.actual = say("none");
-            findings.add(std::move(finding));
+            finding.actual = has_coefficient ? Sentence("c = 1") : say("none");
+            if (has_coefficient) {
+                findings.add(std::move(finding), FindingSeverity::major);
+            } else {
+                findings.add(std::move(finding));
+            }
             return;
         }
         const double factor = y->difference_from_si(x->difference_to_si(1.0));
@@ -886,9 +913,10 @@ std::vector<Rule> model_rules() {
          .clause = {.text = "JCGM 100:2008, 5.1.3", .verified = true},
          .severity = critical,
          .needs = {Need::rows},
-         .detection = "the unit of a coefficient is not that of the result per that of the row; or no coefficient, or "
-                      "1, and two "
-                      "units",
+         .detection =
+             "the unit of a coefficient is not that of the result per that of the row; or no coefficient and two "
+             "units; or 1 and two units of one kind, or a part of a value (percent, ppm) in a budget of another "
+             "unit, which is major: 1 per percent may be right",
          .correction = "State the coefficient in the unit of the result per unit of the row.",
          .question = "How does a number in the unit of the row become one in the unit of the result?",
          .examine = unit_of_sensitivity},

@@ -51,16 +51,39 @@ std::string in_words(double number, const std::string& unit) {
 
 Correction set_u(std::size_t row, double u) {
     return [row, u](AuditedBudget& budget) {
-        budget.rows[row].used_u = u;
-        budget.rows[row].u_half_step = 0.0;
-        budget.rows[row].contribution.reset();
+        AuditedRow& is = budget.rows[row];
+        double as_stated = is.used_u;
+        for (const double factor : is.factors_of_u) {
+            as_stated /= factor;
+        }
+        is.factors_of_u.clear();
+        if (as_stated > 0.0 && u > 0.0) {
+            is.factors_of_u.push_back(u / as_stated);
+        }
+        is.used_u = u;
+        is.u_half_step = 0.0;
+        is.contribution.reset();
     };
 }
 Correction scale_u(std::size_t row, double factor) {
     return [row, factor](AuditedBudget& budget) {
-        budget.rows[row].used_u *= factor;
-        budget.rows[row].u_half_step *= factor;
-        budget.rows[row].contribution.reset();
+        AuditedRow& is = budget.rows[row];
+        if (std::any_of(is.factors_of_u.begin(), is.factors_of_u.end(),
+                        [factor](double made) { return is_about(made, factor); })) {
+            return;
+        }
+        is.factors_of_u.push_back(factor);
+        is.used_u *= factor;
+        is.u_half_step *= factor;
+        is.contribution.reset();
+    };
+}
+Correction set_u_and_shape(std::size_t row, double u, Shape shape) {
+    return [set = set_u(row, u), row, shape](AuditedBudget& budget) {
+        set(budget);
+        if (budget.evaluated_here) {
+            budget.rows[row].shape = shape;
+        }
     };
 }
 Correction set_sensitivity(std::size_t row, double sensitivity) {

@@ -33,7 +33,13 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 /// "0.231 µm": four significant digits, with the unit where there is one.
 [[nodiscard]] std::string in_words(double number, const std::string& unit = "");
 
+// One error of a u that several rules see is corrected once: what multiplies u by a factor by which another correction has
+// multiplied or set it already, within 1 %, changes nothing. Factors that differ are different errors, and multiply.
 [[nodiscard]] Correction set_u(std::size_t row, double u);
+/// Of a job that states u alone, what u should be made of says its distribution too, and k may rest on it. Tables of others
+/// keep the shape that they state.
+[[nodiscard]] Correction set_u_and_shape(std::size_t row, double u, Shape shape);
+/// \param factor  > 0
 [[nodiscard]] Correction scale_u(std::size_t row, double factor);
 [[nodiscard]] Correction set_sensitivity(std::size_t row, double sensitivity);
 [[nodiscard]] Correction set_degrees_of_freedom(std::size_t row, double nu);

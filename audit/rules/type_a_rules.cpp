@@ -69,7 +69,8 @@ void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findin
 /// t_p(ν_eff) of a budget with a fixed k that is more than 1 % smaller; nothing where its k accounts for ν_eff.
 std::optional<double> k_of_few(const AuditedBudget& budget) {
     constexpr double k_smaller = 0.01;
-    if (budget.coverage.kind != CoverageRule::Kind::fixed) {
+    // Trials draw from the t-distributions of few readings: their k accounts for them.
+    if (budget.coverage.kind != CoverageRule::Kind::fixed || budget.rests_on_trials) {
         return std::nullopt;
     }
     CoverageRule student = budget.coverage;

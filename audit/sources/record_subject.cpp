@@ -142,6 +142,13 @@ std::string description_of(const reports::EvaluationRecord& record, const std::s
     return found == record.inputs.end() || found->description.empty() ? "" : found->description.in("en");
 }
 
+/// Whether a row is the value of a standard of the register, or has a role in the tables of results.
+bool is_measured(const reports::BudgetRow& row, const json& statement) {
+    return !row.standard.empty() || statement.contains("role") || statement.contains("standard") ||
+           std::any_of(row.components.begin(), row.components.end(),
+                       [](const reports::BudgetRow& part) { return !part.standard.empty(); });
+}
+
 void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows, const std::string& pointer,
               const reports::EvaluationRecord* record, const JobStatements* job, const std::string& point) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -149,6 +156,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
         const std::string place = pointer + "/" + std::to_string(i);
         const std::string description = record == nullptr ? "" : description_of(*record, stated.input);
         const std::string name = description.empty() ? stated.input : stated.input + ", " + description;
+        const bool measured = is_measured(stated, job == nullptr ? json() : job->of(stated.input, point));
         if (stated.role.empty() && stated.components.size() > 1) {
             for (std::size_t c = 0; c < stated.components.size(); ++c) {
                 const reports::BudgetRow& part = stated.components[c];
@@ -156,6 +164,7 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
                                              budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
                 budget.rows.back().part_of = budget.rows.back().input = stated.input;
                 budget.rows.back().component = c;
+                budget.rows.back().is_measured = measured;
             }
             continue;
         }
@@ -165,11 +174,25 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
         }
         budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
         budget.rows.back().input = stated.input;
+        budget.rows.back().is_measured = measured;
     }
 }
 
-/// The rule that gives the k of a result again: of ν_eff, of the convolution of its rows, or none of both.
-CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, double k, double probability) {
+/// Whether corrected copies of a budget can take k as the evaluation would: its rows are independent, and say by which
+/// distributions they enter.
+bool is_sum_of_known_shapes(const AuditedBudget& budget) {
+    return budget.correlation_variance == 0.0 && budget.variance_beyond_tangent == 0.0 &&
+           std::all_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
+               return contribution_of(row) == 0.0 || row.shape == Shape::normal || row.shape == Shape::student_t ||
+                      row.shape == Shape::rectangular || row.shape == Shape::triangular || row.shape == Shape::arcsine;
+           });
+}
+
+/// The rule that gives the k of a result again: that of the evaluation, which every corrected copy takes anew; of ν_eff, of
+/// the convolution of its rows, or none of both.
+/// \param truncated  the job cuts ν_eff to the next lower whole number
+CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, double k, double probability,
+                         bool truncated) {
     CoverageRule rule{.kind = CoverageRule::Kind::student_t, .k = k, .probability = probability};
     const auto gives_k = [&](const CoverageRule& tried) {
         budget.coverage = tried;
@@ -179,7 +202,13 @@ CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, doub
     if (coverage == "convolution") {
         rule.kind = CoverageRule::Kind::convolution;
     }
-    for (const bool truncate : {false, true}) {
+    rule.truncate = truncated;
+    rule.chosen_anew = coverage != "monte_carlo" && is_sum_of_known_shapes(budget);
+    if (rule.chosen_anew && gives_k(rule)) {
+        return rule;
+    }
+    rule.chosen_anew = false;
+    for (const bool truncate : {truncated, !truncated}) {
         rule.truncate = truncate;
         if (gives_k(rule)) {
             return rule;
@@ -190,12 +219,13 @@ CoverageRule coverage_of(AuditedBudget budget, const std::string& coverage, doub
     return rule;
 }
 
-void state_coverage(AuditedBudget& budget, const std::string& coverage, std::optional<double> k, double probability) {
+void state_coverage(AuditedBudget& budget, const std::string& coverage, std::optional<double> k, double probability,
+                    bool truncated) {
     if (!k || !(*k > 0.0)) {
         return;
     }
     try {
-        budget.coverage = coverage_of(budget, coverage, *k, probability);
+        budget.coverage = coverage_of(budget, coverage, *k, probability, truncated);
     } catch (const gum::DiagnosedError&) {
         budget.coverage = {.kind = CoverageRule::Kind::fixed, .k = *k, .probability = probability};
     }
@@ -290,6 +320,13 @@ double variance_of_rows(const AuditedBudget& budget) {
     return variance;
 }
 
+/// Whether the evaluation cut ν_eff to the next lower whole number.
+bool cuts_degrees_of_freedom(const reports::EvaluationRecord& record) {
+    const json options = json::parse(record.options_json, nullptr, false);
+    const json::json_pointer stated("/reporting/degrees_of_freedom");
+    return options.is_object() && options.contains(stated) && options.at(stated) == "truncated";
+}
+
 AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::Result& result,
                         const JobStatements& job, CertifiedValues& certified) {
     AuditedBudget budget;
@@ -319,12 +356,17 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     budget.value = reported.value;
     const double u = reported.u.value_or(result.u);
     // What is not in the rows: correlations, second-order terms, the scatter of trials.
-    const double variance = variance_of_rows(budget);
-    budget.correlation_variance = std::abs(u * u - variance) > 1e-9 * u * u ? u * u - variance : 0.0;
+    const auto beyond = [u](double whole, double part) {
+        return std::abs(whole - part) > 1e-9 * u * u ? whole - part : 0.0;
+    };
+    budget.correlation_variance = beyond(result.u * result.u, variance_of_rows(budget));
+    budget.variance_beyond_tangent = beyond(u * u, result.u * result.u);
+    budget.rests_on_trials = by_trials;
     const std::optional<double> k = by_trials ? reported.k : result.k;
-    state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability);
+    state_coverage(budget, by_trials ? "monte_carlo" : result.coverage, k, reported.coverage_probability,
+                   cuts_degrees_of_freedom(record));
     const bool is_convolved = result.coverage == "convolution";
-    const bool is_of_rows = budget.coverage.kind == CoverageRule::Kind::convolution && budget.correlations.empty() &&
+    const bool is_of_rows = budget.coverage.kind != CoverageRule::Kind::fixed && budget.correlations.empty() &&
                             std::none_of(budget.rows.begin(), budget.rows.end(), [](const AuditedRow& row) {
                                 return row.shape == Shape::other && contribution_of(row) > 0.0;
                             });
@@ -333,7 +375,7 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     claims.value = exact_number(reported.value, budget.place);
     claims.value->text = reported.printed.value;
     claims.u_c = exact_number(u, budget.place);
-    if (result.nu_eff && !by_trials) {
+    if (result.nu_eff) {
         claims.nu_eff = exact_number(*result.nu_eff, budget.place);
     }
     if (k) {

@@ -59,7 +59,7 @@ void poor_measurement(FindingList& found, const std::string& where, const Certif
     constexpr double k_even = 0.5 - 1e-9;
     constexpr double k_proven = 0.05 + 1e-9;  // a smaller specific risk need not be reported
     const bool passes = v.verdict == "pass" || v.verdict == "conditional_pass";
-    const bool unguarded = v.rule == "DR-01" || v.rule == "DR-12" || (passes && v.specific_risk > k_proven);
+    const bool unguarded = passes && (v.rule == "DR-01" || v.rule == "DR-12" || v.specific_risk > k_proven);
     if (passes && is_outside(value, v)) {
         found.critical("D08", iso_17025("7.8.6.1"), where,
                        "the value lies outside of the limits of \"" + v.specification + "\", and " + v.rule +

@@ -12,13 +12,8 @@ namespace gumcert::gum {
 namespace {
 
 constexpr double k_rounding_of_degrees_of_freedom = 1e-12;  // 3.999…9 is 4
-constexpr double k_noticed_change = 0.01;                   // of k
 
 }  // namespace
-
-bool is_noticed_change(double k_of_convolution, double k) {
-    return std::abs(k_of_convolution - k) > k_noticed_change * k;
-}
 
 std::string convolution_note(double degrees_of_freedom, double k) {
     return "k is taken from the convolution of all distributions; that of the " +

@@ -15,8 +15,6 @@ namespace gumcert::gum {
 void expand_by_propagation(const Budget& budget, const BudgetPointResult& point, Eigen::Index output,
                            BudgetOutputResult& result);
 
-/// Whether the convolution changes k so much that it is taken.
-[[nodiscard]] bool is_noticed_change(double k_of_convolution, double k);
 /// A sentence: k is that of the convolution, and what it would be else.
 /// \param k  of the t- or normal distribution
 [[nodiscard]] std::string convolution_note(double degrees_of_freedom, double k);

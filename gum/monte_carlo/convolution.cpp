@@ -974,29 +974,56 @@ Distribution drawn_contribution(const InputGroup& group, const Eigen::RowVectorX
     return {.kind = DistributionKind::empirical, .location = 0.0, .scale = 1.0, .samples = std::move(values)};
 }
 
-/// What an output is made of, for the bound below: shares of the variance.
-struct Shapes {
-    double bounded = 0.0;   ///< Σ w² of bounded symmetric distributions
-    double students = 0.0;  ///< Σ w (1 − w)/(ν − 4) of t-distributions with ν ≥ 8
-    double heavy = 0.0;     ///< Σ w of those with less
-    double other = 0.0;     ///< Σ w of what is not symmetric, or drawn together
-};
-
-Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propagation, Eigen::Index output) {
-    constexpr double k_few = 8.0;
-    Shapes shapes;
-    const double total = propagation.standard_uncertainty(output) * propagation.standard_uncertainty(output);
-    const auto add_student = [&](double w, double nu) {
-        // Infinite ν is normal: nothing to bound.
+/// What an output is made of, for a bound: shares of the variance.
+class Shapes {
+public:
+    /// \param w   share of the variance
+    /// \param nu  infinite of a normal distribution, where nothing is to be bounded
+    void add_student(double w, double nu) {
+        constexpr double k_few = 8.0;
         if (std::isinf(nu)) {
             return;
         }
         if (nu < k_few) {
-            shapes.heavy += nu < 2.0 && w > 0.0 ? 1.0 : w;  // without a variance: a small share is still felt
+            heavy_ += nu < 2.0 && w > 0.0 ? 1.0 : w;  // without a variance: a small share is still felt
         } else {
-            shapes.students += w * (1.0 - w) / (nu - 4.0);
+            students_ += w * (1.0 - w) / (nu - 4.0);
         }
-    };
+    }
+    /// \param nu  of its standard uncertainty
+    void add(double w, const Distribution& d, double nu) {
+        if (!is_symmetric(d)) {
+            other_ += w;
+        } else if (is_bounded(d)) {
+            bounded_ += w * w;
+            add_student(w, nu);
+        } else {
+            add_student(w, d.kind == DistributionKind::student_t ? d.shape : k_infinity);
+        }
+    }
+    void add_other(double w) { other_ += w; }
+
+    [[nodiscard]] bool change_little(double p) const {
+        const double z = coverage_factor(p, k_infinity);
+        // Cornish and Fisher: k moves by (z² − 3) γ₂/24 of itself, γ₂ = −1.5 w² at most for a bounded distribution;
+        // twice that for the terms behind. Of t-distributions Σ w (1 − w)/ν of k is not in that of Welch and
+        // Satterthwaite.
+        const double bounded = 2.0 * (std::abs(z * z - 3.0) + 1.0) / 24.0 * 1.5 * bounded_;
+        const double students = 2.0 * (1.0 + 0.1 * z * z) * students_;
+        const double few = 4.0 * heavy_ * std::max(1.0, 0.05 / (1.0 - p));
+        return bounded + students + few <= k_certainly_less && other_ <= k_negligible_share;
+    }
+
+private:
+    double bounded_ = 0.0;   ///< Σ w² of bounded symmetric distributions
+    double students_ = 0.0;  ///< Σ w (1 − w)/(ν − 4) of t-distributions with ν ≥ 8
+    double heavy_ = 0.0;     ///< Σ w of those with less
+    double other_ = 0.0;     ///< Σ w of what is not symmetric, or drawn together
+};
+
+Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propagation, Eigen::Index output) {
+    Shapes shapes;
+    const double total = propagation.standard_uncertainty(output) * propagation.standard_uncertainty(output);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const double w = propagation.budget[g].variance(output) / total;
         if (w == 0.0) {
@@ -1004,19 +1031,11 @@ Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propa
         }
         const InputGroup& group = groups[g];
         if (group.size() == 1 && group.marginals.size() == 1) {
-            const Distribution& d = group.marginals.front();
-            if (!is_symmetric(d)) {
-                shapes.other += w;
-            } else if (is_bounded(d)) {
-                shapes.bounded += w * w;
-                add_student(w, group.degrees_of_freedom);
-            } else {
-                add_student(w, d.kind == DistributionKind::student_t ? d.shape : k_infinity);
-            }
+            shapes.add(w, group.marginals.front(), group.degrees_of_freedom);
         } else if (is_elliptical(group)) {
-            add_student(w, group.degrees_of_freedom);
+            shapes.add_student(w, group.degrees_of_freedom);
         } else {
-            shapes.other += w;
+            shapes.add_other(w);
         }
     }
     return shapes;
@@ -1025,18 +1044,26 @@ Shapes shapes_of(const std::vector<InputGroup>& groups, const Propagation& propa
 }  // namespace
 
 bool convolution_changes_little(const MeasurementModel& model, const Propagation& propagation, Eigen::Index output) {
-    if (!(propagation.standard_uncertainty(output) > 0.0)) {
-        return true;
+    return !(propagation.standard_uncertainty(output) > 0.0) ||
+           shapes_of(model.inputs(), propagation, output).change_little(propagation.coverage_probability);
+}
+
+bool is_noticed_change(double k_of_convolution, double k) {
+    constexpr double k_noticed_change = 0.01;  // of k
+    return std::abs(k_of_convolution - k) > k_noticed_change * k;
+}
+
+bool convolution_changes_little(std::span<const ConvolutionTerm> terms, std::span<const double> contributions,
+                                double coverage_probability) {
+    double total = 0.0;
+    for (const double contribution : contributions) {
+        total += contribution * contribution;
     }
-    const double p = propagation.coverage_probability;
-    const double z = coverage_factor(p, k_infinity);
-    const Shapes shapes = shapes_of(model.inputs(), propagation, output);
-    // Cornish and Fisher: k moves by (z² − 3) γ₂/24 of itself, γ₂ = −1.5 w² at most for a bounded distribution; twice
-    // that for the terms behind. Of t-distributions Σ w (1 − w)/ν of k is not in that of Welch and Satterthwaite.
-    const double bounded = 2.0 * (std::abs(z * z - 3.0) + 1.0) / 24.0 * 1.5 * shapes.bounded;
-    const double students = 2.0 * (1.0 + 0.1 * z * z) * shapes.students;
-    const double few = 4.0 * shapes.heavy * std::max(1.0, 0.05 / (1.0 - p));
-    return bounded + students + few <= k_certainly_less && shapes.other <= k_negligible_share;
+    Shapes shapes;
+    for (std::size_t i = 0; i < terms.size() && total > 0.0; ++i) {
+        shapes.add(contributions[i] * contributions[i] / total, terms[i].distribution, k_infinity);
+    }
+    return shapes.change_little(coverage_probability);
 }
 
 namespace {

@@ -84,6 +84,13 @@ struct ConvolvedOutput {
 /// contributions, their shapes and degrees of freedom, far cheaper than the convolution. False says nothing.
 [[nodiscard]] bool convolution_changes_little(const MeasurementModel& model, const Propagation& propagation,
                                               Eigen::Index output);
+/// The same of terms that are known one by one.
+/// \param contributions  standard uncertainty |c| u of each term, [unit of y]
+[[nodiscard]] bool convolution_changes_little(std::span<const ConvolutionTerm> terms,
+                                              std::span<const double> contributions, double coverage_probability);
+
+/// True where the k of the convolution is so far away from t_p(ν_eff) that it is taken: by more than 1 % (ADR 0025).
+[[nodiscard]] bool is_noticed_change(double k_of_convolution, double k);
 
 /// The contributions of all inputs to an output: the distribution of Y − y is their convolution.
 ///

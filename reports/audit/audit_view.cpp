@@ -305,6 +305,12 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.claim_k = claim_of(budget.claims.k, result.allowed.k);
     view.claim_U = claim_of(budget.claims.U, result.allowed.U);
     view.change = change_of(result.claimed, result.audited);
+    if (result.unrounded_U > 0.0) {
+        // From the same number as the effects of corrections, whose shares then add up to it: rounding of the claim is
+        // no error.
+        view.change.relative = result.audited.U / result.unrounded_U - 1.0;
+        view.change.percent = signed_percent(view.change.relative);
+    }
     if (!budget.claims.broken.U.empty()) {
         view.change.percent = "–";
         view.change.direction = "not_stated";

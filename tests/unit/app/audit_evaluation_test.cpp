@@ -109,6 +109,99 @@ TEST(AuditOfAnEvaluation, NoCertificateIsIssuedAgainstItsOwnAudit) {
     EXPECT_LT(refuted, 60) << "a sound budget is not accused";
 }
 
+/// A sum of inputs of many shapes, one of which is stated so.
+json job_of_shapes(const json& first, std::mt19937 random) {
+    std::uniform_real_distribution<double> size(0.01, 0.5);
+    std::uniform_int_distribution<int> shape(0, 5), count(1, 5), sign(0, 1);
+    json job = {{"schema", "gumcert/job/1"}, {"kind", "budget"}, {"inputs", {{"a", first}}}};
+    job["inputs"]["a"].update({{"value", 10}, {"unit", "um"}, {"source", "K 1"}});
+    std::string model = "y = a";
+    const int others = count(random);
+    for (int i = 0; i < others; ++i) {
+        const std::string name = "b" + std::to_string(i);
+        json& input = job["inputs"][name];
+        input = {{"value", 0}, {"unit", "um"}};
+        const double w = size(random);
+        switch (shape(random)) {
+            case 0:
+                input["u"] = w;
+                break;
+            case 1:
+                input.update({{"u", w}, {"nu", 3.0 + 20.0 * w}});
+                break;
+            case 2:
+                input["half_width"] = w;
+                break;
+            case 3:
+                input.update({{"half_width", w}, {"distribution", "triangular"}});
+                break;
+            case 4:
+                input.update({{"half_width", w}, {"distribution", "arcsine"}});
+                break;
+            default:
+                input.erase("value");
+                input["observations"] = {0.0, w, -w, 0.3 * w, 0.2 * w};
+        }
+        model += (sign(random) == 1 ? " + " : " - ") + name;
+    }
+    job["model"] = {model};
+    job["reporting"] = {{"degrees_of_freedom", sign(random) == 1 ? "truncated" : "exact"}};
+    return job;
+}
+
+/// A corrected copy of an own job has the U that the evaluation gives for the corrected job, whatever k it takes then.
+TEST(AuditOfAnEvaluation, CorrectsToTheUThatTheCorrectedJobHas) {
+    std::mt19937 random(17025);
+    std::uniform_real_distribution<double> size(0.05, 2.0), factor(1.5, 3.0);
+    int convolved = 0, changed = 0;
+    for (int i = 0; i < 120; ++i) {
+        const double a = size(random), k = factor(random);
+        const std::string in_words = json(a).dump() + " um";
+        json wrong, right;
+        std::string rule;
+        switch (i % 4) {
+            case 0:
+                rule = "U10";
+                wrong = {{"u", a}, {"note", "verified, MPE " + in_words}};
+                right = {{"half_width", a}};
+                break;
+            case 1:
+                rule = "U13";
+                wrong = {{"u", a}, {"note", "U = " + in_words + ", k = " + json(k).dump()}};
+                right = {{"U", a}, {"k", k}};
+                break;
+            case 2:
+                rule = "U09";
+                wrong = {{"u", a}, {"note", "resolution " + in_words}};
+                right = {{"resolution", a}};
+                break;
+            default:
+                rule = "U24";
+                wrong = {{"u", 0.5 * a}, {"note", "verified, MPE " + in_words}};
+                right = {{"half_width", a}};
+        }
+        const Evaluation claimed = evaluated(job_of_shapes(wrong, random)),
+                         mended = evaluated(job_of_shapes(right, random));
+        random.discard(100);
+        const json audit = json::parse(claimed.record.audit_json);
+        int of_rule = 0, with_effect = 0;
+        for (const json& finding : audit.at("findings")) {
+            of_rule += finding.at("id") == rule ? 1 : 0;
+            with_effect += finding.contains("effect") && !finding.at("effect").is_null() ? 1 : 0;
+        }
+        ASSERT_EQ(of_rule, 1) << rule << " " << claimed.record.job_json;
+        ASSERT_EQ(with_effect, 1) << claimed.record.audit_json;
+        const reports::Result& of = mended.record.results.front();
+        EXPECT_NEAR(audit.at("audited").at("U").get<double>() / *of.U, 1.0, 1e-3)
+            << rule << ", k by " << of.coverage << "\n"
+            << claimed.record.job_json;
+        convolved += of.coverage == "convolution" ? 1 : 0;
+        changed += of.coverage != claimed.record.results.front().coverage ? 1 : 0;
+    }
+    EXPECT_GT(convolved, 20);
+    EXPECT_GT(changed, 10);
+}
+
 TEST(AuditOfAnEvaluation, ADocumentShowsTheDigest) {
     const Evaluation evaluation = evaluated(job_with(0.3, nullptr));
     const reports::AuditView view = audit_view(std::span(evaluation.audit.get(), 1), {std::string(64, 'a')});

@@ -37,6 +37,17 @@ AuditReport bounded(const AuditSubject& subject) {
     return audit(subject, rules);
 }
 
+TEST(CertifiedBound, AsksNothingOfAResultThatRestsOnTrials) {
+    AuditSubject subject = subject_of_equation("y = a*a", {row_of_number("a", 0.0, 1.0)});
+    subject.budgets[0].variance_beyond_tangent = 2.0;
+    ASSERT_EQ(bounded(subject).findings.size(), 1U);
+    subject.budgets[0].rests_on_trials = true;
+    const AuditReport report = bounded(subject);
+    EXPECT_TRUE(report.findings.empty());
+    ASSERT_EQ(report.not_checked.size(), 1U);
+    EXPECT_THAT(report.not_checked[0].because.english(), HasSubstr("Monte Carlo trials"));
+}
+
 TEST(CertifiedBound, AnswersWhereNothingIsLost) {
     std::vector<AuditedRow> rows{row_of_number("a", 10.0, 0.01), row_of_number("b", 2.0, 0.002)};
     rows[0].used_sensitivity = 2.0;

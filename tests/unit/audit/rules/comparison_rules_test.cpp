@@ -196,5 +196,31 @@ TEST(ComparisonRules, N02_computes_the_score_of_a_table_again) {
     EXPECT_THAT(found_by(comparison_rules(), "N02", subject_with({budget})), HasSubstr("u in place of U"));
 }
 
+/// The score that decides is the one that N02 leaves standing.
+TEST(ComparisonRules, N06_asks_by_the_score_that_N02_computes) {
+    AuditedBudget budget;
+    budget.rows.resize(1);
+    budget.rows[0].used_u = 0.5;
+    budget.claims.U = read_number("1.0", "");
+    for (const char* const value : {"0.9", "1.6", "2.0", "2.2", "3.1", "-1.4", "-2.9"}) {
+        for (const char* const stated : {"0.30", "0.64", "0.96", "1.20", "2.40", "-0.5", "-1.7"}) {
+            budget.claims.value = read_number(value, "");
+            budget.value = budget.claims.value->value;
+            budget.reference = ComparedReference{.value = 0.0, .expanded_uncertainty = 0.75, .name = "reference value"};
+            budget.claims.en = read_number(stated, "");
+            const std::string refuted = found_by(comparison_rules(), "N02", subject_with({budget}));
+            const double right = refuted.empty() ? budget.claims.en->value : *budget.value / 1.25;
+            EXPECT_EQ(!found_by(comparison_rules(), "N06", subject_with({budget})).empty(), std::abs(right) > 1.0)
+                << value << " " << stated << " " << refuted;
+        }
+    }
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0].en = 1.3;  // follows as 0.48
+    EXPECT_EQ(found_by(comparison_rules(), "N06", comparison_of(scores)), "");
+    scores[0] = score_of("A", 1.5, 1.0, 0.3);
+    scores[0].en = 0.7;
+    EXPECT_THAT(found_by(comparison_rules(), "N06", comparison_of(scores)), HasSubstr("|E_n| = 1.44"));
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -166,15 +166,22 @@ TEST(CoverageRules, K09KnowsALinearSum) {
     EXPECT_TRUE(findings_of("K01", subject_of(budget)).empty());
 }
 
-TEST(CoverageRules, K11LeavesOurOwnEvaluationsAlone) {
+TEST(CoverageRules, K11PutsNothingRightThatTheGumAllows) {
     AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 5.9)});
     AuditSubject subject = subject_of(budget);
+    for (const auto kind : {AuditSubject::Kind::table, AuditSubject::Kind::workbook, AuditSubject::Kind::record}) {
+        subject.kind = kind;
+        ASSERT_EQ(findings_of("K11", subject).size(), 1U);
+        EXPECT_EQ(findings_of("K11", subject)[0].severity, FindingSeverity::information);
+        EXPECT_FALSE(findings_of("K11", subject)[0].effect);
+    }
+    // One file that does both.
+    AuditedBudget cut = budget;
+    cut.coverage.truncate = true;
+    subject.kind = AuditSubject::Kind::table;
+    subject.budgets.push_back(cut);
     ASSERT_EQ(findings_of("K11", subject).size(), 1U);
-    EXPECT_EQ(findings_of("K11", subject)[0].severity, FindingSeverity::information);
     EXPECT_NEAR(findings_of("K11", subject)[0].effect->alone.k, gum::coverage_factor(0.9545, 5.0), 1e-12);
-    subject.kind = AuditSubject::Kind::record;
-    ASSERT_EQ(findings_of("K11", subject).size(), 1U);
-    EXPECT_FALSE(findings_of("K11", subject)[0].effect);
     budget.rows[0].used_nu = 5.0;
     EXPECT_TRUE(findings_of("K11", subject_of(budget)).empty());
     budget.rows[0].used_nu = 500.3;

@@ -1,9 +1,11 @@
+#include <cmath>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "audit/audit.h"
+#include "audit/row_meaning.h"
 #include "audit/rules/registry.h"
 #include "tests/support/audit_subject.h"
 
@@ -39,6 +41,87 @@ TEST(EnvironmentRules, E02_takes_the_recorded_range_into_the_budget) {
     AuditedBudget corrected = test::sound_budget();
     findings[0].correct(corrected);
     EXPECT_NEAR(corrected.rows[5].used_u, 0.10, 1e-12);
+}
+
+/// A row in a budget of a result, and a condition of the room that swings by more than its half-width.
+struct RowAndRoom {
+    const char* quantity;
+    const char* unit;
+    double value, half_width;
+    const char* result;  ///< unit of the result
+    double c;
+    const char* kind;
+    const char* unit_of_room;
+    double low, high;
+};
+std::size_t ranges_found(const RowAndRoom& is, bool measured) {
+    AuditedBudget budget = test::sound_budget();
+    budget.unit = is.result;
+    AuditedRow& row = budget.rows[5];
+    row.quantity = is.quantity;
+    row.unit = is.unit;
+    row.estimate = exact_number(is.value, "");
+    row.used_u = is.half_width / std::sqrt(3.0);
+    row.used_sensitivity = is.c;
+    row.origin = Origin::limits;
+    row.origin_value = is.half_width;
+    row.contributor = contributor_of(row.quantity, "", "");
+    row.is_measured = measured;
+    AuditSubject subject = test::subject_with_certificate({budget});
+    certificate::Condition condition;
+    condition.kind = is.kind;
+    condition.unit = is.unit_of_room;
+    condition.minimum = is.low;
+    condition.maximum = is.high;
+    subject.certificate->data.conditions = {condition};
+    return test::findings_of(environment_rules(), "E02", subject).size();
+}
+
+TEST(EnvironmentRules, E02_takes_no_measurand_for_the_room) {
+    const RowAndRoom of_room[] = {
+        {"temperature of the gauge block, deviation from 20 °C", "K", 0.0, 0.2, "um", 1.15, "temperature", "degC", 19,
+         21},
+        {"Raumtemperatur", "degC", 20.0, 0.2, "um", 1.15, "temperature", "degC", 19, 21},
+        {"temperature of the air", "degC", 20.5, 0.2, "degC", 1.0, "temperature", "degC", 19, 21},
+        {"relative humidity", "percent", 45.0, 1.0, "um", 0.01, "humidity", "percent", 40, 50},
+        {"Luftfeuchte", "percent", 0.0, 1.0, "um", 0.01, "humidity", "percent", 40, 50},
+        {"air pressure", "hPa", 0.0, 1.0, "um", 0.3, "pressure", "hPa", 1002, 1012},
+        {"pressure", "hPa", 1007.0, 1.0, "um", 0.3, "pressure", "hPa", 1002, 1012},
+    };
+    for (const RowAndRoom& row : of_room) {
+        EXPECT_EQ(ranges_found(row, false), 1U) << row.quantity;
+        EXPECT_EQ(ranges_found(row, true), 0U) << row.quantity << ", of a standard or with a role";
+        RowAndRoom calm = row;
+        calm.half_width = 20.0;
+        EXPECT_EQ(ranges_found(calm, false), 0U) << row.quantity;
+    }
+    const RowAndRoom of_something_else[] = {
+        {"temperature of the standard", "degC", -20.0, 0.02, "K", 1.0, "temperature", "degC", 19, 21},
+        {"temperature, homogeneity of the chamber", "K", 0.0, 0.06, "K", -1.0, "temperature", "degC", 19, 21},
+        {"temperature of the bath", "degC", 20.0, 0.02, "ohm", 0.4, "temperature", "degC", 19, 21},
+        {"ice point, temperature", "degC", 0.0, 0.01, "uV", 40.0, "temperature", "degC", 19, 21},
+        {"temperature of the furnace", "degC", 400.0, 0.5, "uV", 40.0, "temperature", "degC", 19, 21},
+        {"temperature", "degC", 400.0, 0.5, "uV", 40.0, "temperature", "degC", 19, 21},
+        {"humidity of the chamber", "percent", 45.0, 0.4, "percent", 1.0, "humidity", "percent", 40, 50},
+        {"humidity standard", "percent", 10.0, 0.4, "mA", 0.16, "humidity", "percent", 40, 50},
+        {"Feuchte", "percent", 45.0, 0.4, "percent", -1.0, "humidity", "percent", 40, 50},
+        {"pressure standard", "bar", 0.0, 0.001, "1", 0.1, "pressure", "hPa", 1002, 1012},
+        {"Druck am Kolben", "bar", 10.0, 0.001, "mA", 1.6, "pressure", "hPa", 1002, 1012},
+    };
+    for (const RowAndRoom& row : of_something_else) {
+        EXPECT_EQ(ranges_found(row, false), 0U) << row.quantity;
+    }
+}
+
+TEST(EnvironmentRules, E02_holds_the_range_against_the_widest_part_of_an_input) {
+    AuditSubject subject = subject_at(19.0, 21.0);
+    AuditedBudget& budget = subject.budgets[0];
+    budget.rows[5].input = "t";
+    budget.rows.push_back(budget.rows[5]);
+    budget.rows.back().origin_value = 0.1;  // the calibration of its sensor
+    EXPECT_EQ(test::findings_of(environment_rules(), "E02", subject).size(), 1U);
+    budget.rows[5].origin_value = 1.2;
+    EXPECT_EQ(found_by(environment_rules(), "E02", subject), "");
 }
 
 TEST(EnvironmentRules, E03_asks_for_the_calibration_of_a_sensor) {

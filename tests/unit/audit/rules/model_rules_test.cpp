@@ -52,6 +52,31 @@ TEST(ModelRules, S01HoldsUnitsTogether) {
     EXPECT_TRUE(findings_of("S01", subject_of(bare)).empty());
 }
 
+TEST(ModelRules, S01AsksWhereAPartOfAValueIsAddedAsItStands) {
+    for (const char* const unit : {"%", "percent", "ppm", "ppb", "\u2030"}) {
+        AuditedRow part = row("standard", 0.01);
+        part.unit = unit;
+        part.contribution = exact_number(0.01, "");
+        part.contributor = Contributor::reference;
+        const std::vector<AuditFinding> findings = findings_of("S01", subject_of(part));
+        ASSERT_EQ(findings.size(), 1U) << unit;
+        EXPECT_EQ(findings[0].severity, FindingSeverity::major) << unit;
+        // With a coefficient of its own, in a result of the same kind, and where percent is no part of the value.
+        AuditedRow scaled = part;
+        scaled.sensitivity = exact_number(100.0, "");
+        scaled.used_sensitivity = 100.0;
+        EXPECT_TRUE(findings_of("S01", subject_of(scaled)).empty()) << unit;
+        AuditedBudget relative = budget_of({part});
+        relative.unit = unit;
+        EXPECT_TRUE(findings_of("S01", subject_of(relative)).empty()) << unit;
+        part.quantity = "relative humidity";
+        EXPECT_TRUE(findings_of("S01", subject_of(part)).empty()) << unit;
+        part.quantity = "influence";
+        part.contributor = Contributor::environment;
+        EXPECT_TRUE(findings_of("S01", subject_of(part)).empty()) << unit;
+    }
+}
+
 TEST(ModelRules, S02DifferentiatesTheEquation) {
     const AuditedBudget right = model_of("y = a*b", {quantity("a", "2.0", 0.1, 3.0), quantity("b", "3.0", 0.1, 2.0)});
     EXPECT_TRUE(findings_of("S02", subject_of(right)).empty());

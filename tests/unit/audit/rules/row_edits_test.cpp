@@ -1,5 +1,9 @@
 #include "audit/rules/row_edits.h"
 
+#include <cmath>
+#include <random>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/audited_budgets.h"
@@ -30,6 +34,31 @@ TEST(RowEdits, CorrectOneRow) {
     add_contribution(0.7, "more")(budget);
     ASSERT_EQ(budget.rows.size(), 3U);
     EXPECT_EQ(budget.rows[2].used_u, 0.7);
+}
+
+/// One error of a u that several rules see, in whatever order they put it right.
+TEST(RowEdits, CorrectOneErrorOnce) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> exponent(-3.0, 3.0), off(-0.004, 0.004);
+    for (int i = 0; i < 200; ++i) {
+        const double u = std::pow(10.0, exponent(random)), factor = std::pow(10.0, exponent(random));
+        const double rounded = factor * (1.0 + off(random));
+        const std::vector<Correction> same = {scale_u(0, factor), set_u(0, u * factor), scale_u(0, rounded),
+                                              set_u(0, u * rounded)};
+        for (const Correction& first : same) {
+            for (const Correction& second : same) {
+                AuditedBudget budget = budget_of({row("a", u)});
+                both(first, second)(budget);
+                EXPECT_NEAR(budget.rows[0].used_u / (u * factor), 1.0, 0.005);
+                // Another error multiplies, before and after; a number that is set stands.
+                if (std::abs(std::log(factor)) > 0.02 && std::abs(std::log(factor / 7.0)) > 0.02) {
+                    AuditedBudget after = budget_of({row("a", u)});
+                    both(both(first, scale_u(0, 7.0)), scale_u(0, factor))(after);
+                    EXPECT_NEAR(after.rows[0].used_u / (7.0 * u * factor), 1.0, 0.005);
+                }
+            }
+        }
+    }
 }
 
 TEST(RowEdits, SayWhereAndWhat) {

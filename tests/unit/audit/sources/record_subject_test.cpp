@@ -115,6 +115,39 @@ TEST(SubjectOfRecord, WhatCorrelationsAddStaysAsItIs) {
     EXPECT_NEAR(evaluate(subject.budgets.front()).u_c, 0.6, 1e-12);
 }
 
+/// What trials show beyond the law of propagation has no part in ν_eff, and the stated one is what is claimed.
+TEST(SubjectOfRecord, ClaimsTheNuThatIsStatedBesideTrials) {
+    for (const double u : {0.5, 0.55, 0.8, 2.0}) {
+        reports::EvaluationRecord record = two_rows();
+        reports::Result& result = record.results[0];
+        result.budget[0].nu.number = 4.0;
+        result.nu_eff = std::pow(0.5, 4) / (std::pow(0.3, 4) / 4.0);
+        result.reported.method = "monte_carlo";
+        result.reported.u = u;
+        result.reported.U = 1.9 * u;
+        result.reported.k = 1.9;
+        const AuditReport report = audit(subject_of(record, "record.json"), all_rules());
+        const AuditedResult& audited = report.results.at(0);
+        EXPECT_NEAR(audited.claimed.nu_eff, *result.nu_eff, 1e-9) << u;
+        EXPECT_NEAR(audited.audited.nu_eff, *result.nu_eff, 1e-9) << u;
+        EXPECT_TRUE(audited.allowed.nu_eff.contains(*result.nu_eff) ||
+                    std::abs(audited.allowed.nu_eff.low / *result.nu_eff - 1.0) < 1e-9);
+        EXPECT_NEAR(audited.audited.U, 1.9 * u, 1e-9) << u;
+        result.nu_eff = 482.0;
+        EXPECT_EQ(audit(subject_of(record, "record.json"), all_rules()).results.at(0).claimed.nu_eff, 482.0);
+    }
+}
+
+TEST(SubjectOfRecord, KnowsWhatIsMeasured) {
+    reports::EvaluationRecord record = two_rows();
+    EXPECT_FALSE(subject_of(record, "record.json").budgets[0].rows[0].is_measured);
+    record.results[0].budget[0].standard = "TS-2";
+    record.job_json = R"({"inputs": {"b": {"value": 1, "unit": "um", "mpe": 0.7, "role": "indication"}}})";
+    const std::vector<AuditedRow> rows = subject_of(record, "record.json").budgets[0].rows;
+    EXPECT_TRUE(rows[0].is_measured);
+    EXPECT_TRUE(rows[1].is_measured);
+}
+
 /// A comparison at two points, E_n = −0.5 and 0.8; the reference has a budget in a file of the job.
 reports::EvaluationRecord compared() {
     reports::EvaluationRecord record;

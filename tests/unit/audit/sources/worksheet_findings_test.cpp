@@ -1,12 +1,14 @@
 // For rules of worksheets: sheets with formulas that fire, and what must not.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "audit/audit.h"
+#include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
 #include "audit/sources/workbook_subject.h"
 #include "tests/support/workbook_of.h"
@@ -98,6 +100,100 @@ TEST(WorksheetFindings, W05SeesTheNumberOfAnotherRow) {
          test::Contents{{"B3", "=0.1*$B$2"}, {"B3", "=B2"}, {"E3", "=(B3+0*$B$2)/C3"}, {"E3", "=B3/C$4"}}) {
         EXPECT_TRUE(of_rule(audited_sheet({{address, formula}}), "W05").empty()) << address << formula;
     }
+}
+
+TEST(WorksheetFindings, TwoFindingsOfOneCellCorrectItOnce) {
+    // s of six readings over √10: U03 reads it of the row, W04 of the formula. Right: over √6.
+    const test::Contents contents = {{"A1", "quantity"},
+                                     {"B1", "U or a"},
+                                     {"C1", "divisor"},
+                                     {"D1", "distribution"},
+                                     {"E1", "u"},
+                                     {"F1", "nu"},
+                                     {"G1", "comment"},
+                                     {"A2", "standard"},
+                                     {"B2", "1.2"},
+                                     {"C2", "2"},
+                                     {"D2", "normal"},
+                                     {"E2", "=B2/C2"},
+                                     {"I2", "1"},
+                                     {"A3", "repeatability"},
+                                     {"B3", "=STDEV.S(I2:I7)"},
+                                     {"C3", "=SQRT(10)"},
+                                     {"D3", "normal"},
+                                     {"E3", "=B3/C3"},
+                                     {"F3", "5"},
+                                     {"G3", "s; mean of 6 readings"},
+                                     {"I3", "3"},
+                                     {"I4", "2"},
+                                     {"I5", "5"},
+                                     {"I6", "4"},
+                                     {"I7", "6"},
+                                     {"A9", "u_c"},
+                                     {"B9", "=SQRT(SUMSQ(E2:E3))"},
+                                     {"A10", "k"},
+                                     {"B10", "2"},
+                                     {"A11", "U"},
+                                     {"B11", "=B9*B10"}};
+    const AuditReport report = audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules());
+    EXPECT_EQ(of_rule(report, "U03").size(), 1U);
+    EXPECT_EQ(of_rule(report, "W04").size(), 1U);
+    EXPECT_NEAR(report.results.at(0).audited.u_c, std::sqrt(0.36 + 3.5 / 6.0), 1e-9);
+}
+
+/// What k is made of in a sheet: its cell is exact, whether a formula, a rounded formula or a typed number stands there.
+TEST(WorksheetFindings, KOfNuIsTakenFromNuWhateverItsCellHolds) {
+    const auto audited = [](double s, double nu, const std::string& k) {
+        return audit(subject_of(test::workbook_of({{"A1", "quantity"},
+                                                   {"B1", "U or a"},
+                                                   {"C1", "divisor"},
+                                                   {"D1", "distribution"},
+                                                   {"E1", "u"},
+                                                   {"F1", "nu"},
+                                                   {"A2", "standard"},
+                                                   {"B2", "1.2"},
+                                                   {"C2", "2"},
+                                                   {"D2", "normal"},
+                                                   {"E2", "=B2/C2"},
+                                                   {"A3", "repeatability"},
+                                                   {"B3", std::to_string(s)},
+                                                   {"C3", "1"},
+                                                   {"D3", "normal"},
+                                                   {"E3", "=B3/C3"},
+                                                   {"F3", std::to_string(nu)},
+                                                   {"A9", "u_c"},
+                                                   {"B9", "=SQRT(SUMSQ(E2:E3))"},
+                                                   {"A10", "nu_eff"},
+                                                   {"B10", "=B9^4/(E3^4/F3)"},
+                                                   {"A11", "k"},
+                                                   {"B11", k},
+                                                   {"A12", "U"},
+                                                   {"B12", "=B9*B11"}}),
+                                "b.xlsx"),
+                     all_rules())
+            .subject.budgets.at(0);
+    };
+    for (const double s : {0.5, 0.9, 1.7}) {
+        for (const double nu : {3.0, 5.0, 9.0}) {
+            for (const char* const p : {"0.0455", "0.05"}) {
+                const std::string factor = std::string("T.INV.2T(") + p + ",INT(B10))";
+                for (const std::string& formula : {factor, "ROUND(" + factor + ",2)", "ROUND(" + factor + ",3)"}) {
+                    const AuditedBudget budget = audited(s, nu, "=" + formula);
+                    EXPECT_EQ(budget.coverage.kind, CoverageRule::Kind::student_t) << s << " " << nu << " " << formula;
+                    EXPECT_EQ(budget.k_over_rows, 1.0);
+                    EXPECT_EQ(budget.U_over_k_u_c, 1.0);
+                    EXPECT_NEAR(evaluate(budget).U / budget.claims.U->value, 1.0, 0.003) << formula;
+                }
+            }
+            // A k for all budgets stays.
+            EXPECT_EQ(audited(s, nu, "2").coverage.kind, CoverageRule::Kind::fixed);
+        }
+    }
+    for (const char* const typed : {"2.27", "2.28", "2.22", "2.23", "2.216"}) {  // 95.45 % or 95 % of 10.43 or 10
+        EXPECT_EQ(audited(0.9, 5.0, typed).coverage.kind, CoverageRule::Kind::student_t) << typed;
+    }
+    EXPECT_EQ(audited(0.9, 5.0, "2.25").coverage.kind, CoverageRule::Kind::fixed);
+    EXPECT_EQ(audited(0.9, 5.0, "2.4").coverage.kind, CoverageRule::Kind::fixed);
 }
 
 TEST(WorksheetFindings, W13SeesDaysHoweverTheyAreCounted) {

@@ -95,6 +95,27 @@ TEST(UncertaintyGate, TellsOfAPassThatIsMoreProbablyNone) {
     EXPECT_THAT(ids(uncertainty_findings(c)), testing::IsEmpty());
 }
 
+/// No rule accepts what its verdict does not pass.
+TEST(UncertaintyGate, NamesARuleThatAcceptsOnlyWhereItDoes) {
+    for (const char* const rule : {"DR-01", "DR-02", "DR-03", "DR-07", "DR-12"}) {
+        for (const char* const verdict : {"pass", "conditional_pass", "fail", "conditional_fail", "undetermined"}) {
+            for (const double risk : {0.01, 0.06, 0.4}) {
+                Certificate c = passed_certificate();
+                Verdict& v = *length(c).verdict;
+                v.rule = rule;
+                v.verdict = v.verdict_from_printed = verdict;
+                v.conformance_probability = 0.6;
+                v.specific_risk = risk;
+                v.test_uncertainty_ratio = 0.9;
+                for (const Finding& finding : uncertainty_findings(c)) {
+                    EXPECT_TRUE(finding.id != "D08" || std::string_view(verdict).ends_with("pass"))
+                        << rule << " " << verdict << ": " << finding.what;
+                }
+            }
+        }
+    }
+}
+
 TEST(UncertaintyGate, NamesTheRow) {
     Certificate c = passed_certificate();
     CertifiedTable& table = c.tables[0];

@@ -163,6 +163,7 @@ TEST(AuditViewOfABudget, HasEffectsBoundsAndQuestions) {
     // The shares of all findings are the change from claimed to audited.
     const double whole = first.effect->share + file.findings[1].effect->share;
     EXPECT_NEAR(whole, first.effect->audited.number.U / first.effect->claimed.number.U - 1.0, 1e-9);
+    EXPECT_NEAR(whole, file.results[0].change.relative, 1e-9) << "whatever the rounding of the claimed U";
 }
 
 TEST(AuditViewOfABudget, ShowsWhatARuleAnswersBesideTheLinearModel) {
