@@ -199,6 +199,9 @@ struct AuditedBudget {
     /// has no part in ν_eff.
     double variance_beyond_tangent = 0.0;
     bool rests_on_trials = false;  ///< of a budget evaluated here: the reported U is that of Monte Carlo trials
+    /// What the sum Σ (c u)⁴/ν of Welch and Satterthwaite has beyond the rows, [unit⁴]: the degrees of freedom of u_c are known
+    /// to the evaluation, and the rows do not have all of them.
+    double fourth_powers_beyond_rows = 0.0;
     /// What the claimed numbers have beyond the rows: u_c of the claim over that of the rows, k of the claim over that of
     /// ν_eff of the rows, and U of the claim over k u_c. 1 where rows and claims agree within their rounding; a finding of
     /// its own (K01) where they do not. They stay while other findings are corrected.

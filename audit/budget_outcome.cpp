@@ -33,7 +33,7 @@ double combined_variance(const AuditedBudget& budget) {
 }
 
 double effective_degrees_of_freedom(const AuditedBudget& budget, double u_c) {
-    double denominator = 0.0;
+    double denominator = budget.fourth_powers_beyond_rows / (u_c * u_c) / (u_c * u_c);
     for (const AuditedRow& row : budget.rows) {
         // In units of u_c: the fourth power of a contribution in metres may leave the range of numbers.
         const double part = contribution_of(row) / u_c;

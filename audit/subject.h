@@ -30,6 +30,8 @@ struct AuditedComparison {
     std::optional<double> p_low, p_high;      ///< of the sum of squared scores given their covariance
     std::vector<std::string> shared_sources;  ///< standards that both sides name
     bool assigned_value_contains_participant = false, instability_in_reference = false;
+    /// Of methods: no more scores above 1 than chance gives in 99 of 100 comparisons, by the evaluation itself.
+    bool is_explained_by_chance = false;
     std::string action_record;  ///< what was done where |E_n| > 1; "" nothing is on record
 };
 

@@ -31,9 +31,10 @@ constexpr Clause k_key_comparison{.text = "M. G. Cox, The evaluation of key comp
 constexpr double k_low_tail = 0.025;  // P(χ² ≤ Σζ²): uncertainties too large for the differences
 constexpr double k_wide_against_spread = 1.5;
 constexpr double k_wide_against_capability = 2.0;
-constexpr double k_assigned_value_share = 0.3;  // of σ_pt
-constexpr double k_inconsistent = 0.05;
-constexpr std::size_t k_least_laboratories = 5;  // for a robust standard deviation
+constexpr double k_assigned_value_share = 0.3;     // of σ_pt
+constexpr double k_inconsistent = 0.05;            // of scores whose covariance nobody states
+constexpr double k_inconsistent_together = 0.025;  // with their covariance, as the verdict of a comparison has it
+constexpr std::size_t k_least_laboratories = 5;    // for a robust standard deviation
 
 std::span<const AuditedScore> scores_of(const AuditSubject& subject) {
     return subject.comparison ? std::span<const AuditedScore>(subject.comparison->scores)
@@ -56,6 +57,15 @@ AuditFinding finding_of_comparison(Sentence what) {
 }
 std::string short_number(double number) {
     return text::significant(number, 3);
+}
+
+/// A score above 1 that does not print as 1.
+std::string above_one(double score) {
+    std::string shown = short_number(score);
+    for (int digits = 4; shown == "1" && digits < 17; ++digits) {
+        shown = text::significant(score, digits);
+    }
+    return shown;
 }
 
 /// E_n that follows from both expanded uncertainties of a score, where another one is stated; N02 tells it.
@@ -344,12 +354,24 @@ void reference_not_better(const AuditSubject& subject, FindingCollector& finding
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
         const std::optional<double> U = stated_U(budget);
-        if (budget.reference && U && budget.reference->expanded_uncertainty >= *U) {
-            findings.add(finding_of(
-                subject, i,
-                say("U of the reference, {reference:number}, is not smaller than that of the result, "
-                    "{U:number}",
-                    in_words(budget.reference->expanded_uncertainty, budget.unit), in_words(*U, budget.unit))));
+        if (!budget.reference || !U) {
+            continue;
+        }
+        const bool is_reference = budget.reference->budget_is_reference;
+        const double other_U = budget.reference->expanded_uncertainty;
+        const double U_of_reference = is_reference ? *U : other_U;
+        const double U_of_result = is_reference ? other_U : *U;
+        // Where both sides have a budget, that of the result tells it.
+        const bool is_told =
+            is_reference && std::any_of(subject.budgets.begin(), subject.budgets.end(), [](const AuditedBudget& other) {
+                return other.reference && !other.reference->budget_is_reference;
+            });
+        if (!is_told && U_of_reference >= U_of_result) {
+            findings.add(
+                finding_of(subject, i,
+                           say("U of the reference, {reference:number}, is not smaller than that of the result, "
+                               "{U:number}",
+                               in_words(U_of_reference, budget.unit), in_words(U_of_result, budget.unit))));
         }
     }
 }
@@ -360,13 +382,19 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
         return;
     }
     const bool others_act = subject.comparison && subject.comparison->between_laboratories;
+    const bool by_chance = subject.comparison && subject.comparison->is_explained_by_chance;
     for (const AuditedScore& score : scores_of(subject)) {
         const std::optional<double> en = en_of(score);
         if (!en || std::abs(*en) <= 1.0) {
             continue;
         }
-        const std::string shown = short_number(std::abs(*en));
-        if (others_act) {
+        const std::string shown = above_one(std::abs(*en));
+        if (by_chance) {
+            findings.add(
+                finding_of_score(
+                    score, say("|E_n| = {en:number} is above 1, and so many of the scores are by chance alone", shown)),
+                FindingSeverity::information);
+        } else if (others_act) {
             // An organiser has the signal of a laboratory to report; what that laboratory does is on record there.
             findings.add(
                 finding_of_score(
@@ -378,12 +406,15 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
                 finding_of_score(score, say("|E_n| = {en:number} is above 1, and no action is on record", shown)));
         }
     }
+    if (!scores_of(subject).empty()) {
+        return;  // the budgets are those of points that have their scores
+    }
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const std::optional<double> en = en_of(subject.budgets[i]);
         if (en && std::abs(*en) > 1.0) {
             findings.add(finding_of(
                 subject, i,
-                say("|E_n| = {en:number} is above 1, and no action is on record", short_number(std::abs(*en)))));
+                say("|E_n| = {en:number} is above 1, and no action is on record", above_one(std::abs(*en)))));
         }
     }
 }
@@ -422,11 +453,13 @@ void inconsistent_set(const AuditSubject& subject, FindingCollector& findings) {
     if (!p_high && chi_square && scores.size() > 1) {
         p_high = gum::chi_square_upper_tail(*chi_square, static_cast<double>(scores.size()));
     }
-    if (p_high && *p_high < k_inconsistent) {
+    const bool is_together = subject.comparison && subject.comparison->p_high;
+    const double threshold = is_together ? k_inconsistent_together : k_inconsistent;
+    if (p_high && *p_high < threshold) {
         AuditFinding finding =
             finding_of_comparison(say("the results contradict each other more than their uncertainties allow: p_high = "
-                                      "{p_high:number}, threshold 0.05",
-                                      short_number(*p_high)));
+                                      "{p_high:number}, threshold {threshold:number}",
+                                      short_number(*p_high), short_number(threshold)));
         finding.evidence = {equals("p_high", short_number(*p_high))};
         findings.add(std::move(finding));
     }
@@ -522,7 +555,8 @@ std::vector<Rule> comparison_rules() {
          .needs = {Need::comparison},
          .detection =
              "|E_n| above 1, by the E_n that follows where N02 refutes the stated one, and no record of what was "
-             "done; between laboratories an information, because each acts on its own signal",
+             "done; an information between laboratories, because each acts on its own signal, and where the comparison "
+             "has no more of them than chance",
          .correction = "Find the cause, act, and put it on record.",
          .question = "What was done about this result?",
          .examine = no_action_on_record},
@@ -552,7 +586,7 @@ std::vector<Rule> comparison_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::comparison},
-         .detection = "p_high of Σζ² below 0.05, given the covariance where it is stated",
+         .detection = "p_high of Σζ² below 0.025, given the covariance; below 0.05 where none is stated",
          .correction = "Look for the result that contradicts the others, or for what the uncertainties leave out.",
          .question = "How was the inconsistency dealt with?",
          .examine = inconsistent_set},

@@ -421,6 +421,8 @@ AuditedComparison comparison_of(const reports::Comparison& stated) {
     if (!stated.summary.empty()) {
         comparison.p_low = stated.summary.back().p_low.number;
         comparison.p_high = stated.summary.back().p_high.number;
+        const reports::ComparisonSummary& all = stated.summary.back();
+        comparison.is_explained_by_chance = all.count_by_chance && all.count_above_1 <= *all.count_by_chance;
     }
     for (const reports::SharedSource& shared : stated.shared_sources) {
         comparison.shared_sources.push_back(shared.source);
@@ -438,6 +440,16 @@ std::size_t point_with_largest_score(const reports::Comparison& comparison) {
         std::max_element(comparison.points.begin(), comparison.points.end(),
                          [&](const auto& a, const auto& b) { return score(a) < score(b); }) -
         comparison.points.begin());
+}
+
+/// Σ (c u)⁴/ν of the rows that have degrees of freedom.
+double fourth_powers_of_rows(const AuditedBudget& budget) {
+    double sum = 0.0;
+    for (const AuditedRow& row : budget.rows) {
+        const double part = contribution_of(row);
+        sum += std::isfinite(row.used_nu) && row.used_nu > 0.0 ? part * part * part * part / row.used_nu : 0.0;
+    }
+    return sum;
 }
 
 /// The budget of one side of a comparison, where the record holds it: what correcting it does to E_n is seen at one point.
@@ -470,8 +482,12 @@ void add_side(AuditSubject& subject, const reports::Comparison& comparison, Audi
         side.coverage = {.kind = CoverageRule::Kind::fixed, .k = U / u, .probability = comparison.score_probability};
         side.claims.k = exact_number(U / u, side.place);
         side.claims.coverage_probability = comparison.score_probability;
-        // The rows are those of a typical value; this point has its own u, and the difference stays.
+        // The rows are those of a typical value; this point has its own u and ν, and the difference stays.
         side.correlation_variance = u * u - variance_of_rows(side);
+        if (!is_reference && point.nu) {
+            side.fourth_powers_beyond_rows = std::max(0.0, u * u * u * u / *point.nu - fourth_powers_of_rows(side));
+            side.claims.nu_eff = exact_number(*point.nu, side.place);
+        }
     }
     side.claims.U = exact_number(U, side.place);
     side.claims.en = point.En.number ? std::optional(exact_number(*point.En.number, side.place)) : std::nullopt;

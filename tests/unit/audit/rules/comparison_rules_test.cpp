@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -135,6 +136,31 @@ TEST(ComparisonRules, N05_asks_for_a_better_reference) {
     EXPECT_THAT(found_by(comparison_rules(), "N05", comparison_of(scores)), HasSubstr("is not smaller"));
 }
 
+TEST(ComparisonRules, N05_names_the_sides_as_they_are) {
+    // The budget of a reference with U = 0.27 beside a result with U = 0.30, and the other way round.
+    for (const auto& [U, other, fires] : {std::tuple(0.27, 0.30, false), std::tuple(0.30, 0.27, true)}) {
+        AuditedBudget budget = test::sound_budget();
+        budget.claims.U = exact_number(U, "here");
+        budget.reference.emplace();
+        budget.reference->expanded_uncertainty = other;
+        budget.reference->budget_is_reference = true;
+        const std::string found = found_by(comparison_rules(), "N05", subject_with({budget}));
+        EXPECT_EQ(!found.empty(), fires) << found;
+    }
+}
+
+TEST(ComparisonRules, N06_does_not_accuse_what_chance_explains) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[0] = score_of("A", 1.0037 * std::hypot(1.0, 0.3), 1.0, 0.3);
+    AuditSubject subject = comparison_of(scores);
+    EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("|E_n| = 1.004 is above 1, and no action"));
+    subject.comparison->is_explained_by_chance = true;
+    EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("by chance alone"));
+    for (const AuditFinding& finding : audit(subject, comparison_rules()).findings) {
+        EXPECT_TRUE(finding.rule != "N06" || finding.severity == FindingSeverity::information);
+    }
+}
+
 TEST(ComparisonRules, N06_asks_what_was_done) {
     std::vector<AuditedScore> scores = sound_scores();
     scores[0] = score_of("A", 1.5, 1.0, 0.3);
@@ -168,8 +194,10 @@ TEST(ComparisonRules, N09_sees_contradicting_results) {
     scores[0] = score_of("A", 2.5, 1.0, 0.3);
     EXPECT_THAT(found_by(comparison_rules(), "N09", comparison_of(scores)), HasSubstr("threshold 0.05"));
     AuditSubject with_covariance = comparison_of(scores);
-    with_covariance.comparison->p_high = 0.2;
+    with_covariance.comparison->p_high = 0.03;  // the verdict of a comparison objects below 0.025
     EXPECT_EQ(found_by(comparison_rules(), "N09", with_covariance), "");
+    with_covariance.comparison->p_high = 0.02;
+    EXPECT_THAT(found_by(comparison_rules(), "N09", with_covariance), HasSubstr("threshold 0.025"));
 }
 
 TEST(ComparisonRules, N10_asks_for_a_joint_statement) {
