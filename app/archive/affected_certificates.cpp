@@ -29,6 +29,8 @@ namespace {
 // Bounds the memory: so many are worked at, and as many are read meanwhile.
 constexpr std::size_t k_records_at_once = 256;
 
+constexpr const char* k_withdrawn = "withdrawn";
+
 /// How something is done beside the work of some threads: where one alone is wanted, afterwards.
 std::launch beside(const gum::WorkerThreads& threads) {
     return threads.size() > 1 ? std::launch::async : std::launch::deferred;
@@ -412,7 +414,7 @@ struct Recalculated {
     reports::EvaluationRecord corrected;
 };
 
-Recalculated recalculated(const std::string& number, const std::string& through, const std::string& original,
+Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
                           const Correction& correction) {
     Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
     RerunRecord& rerun = done.result.rerun;
@@ -426,8 +428,8 @@ Recalculated recalculated(const std::string& number, const std::string& through,
             rerun.not_evaluated = cannot_say(number, missing->what);
         } else if (!correct_files(record, correction)) {
             rerun.not_evaluated =
-                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
-                                                   : "it rests on " + through + ", which is to be amended first");
+                cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
+                                                     : "it rests on " + waits_for);
         } else {
             const nlohmann::json now = reports::to_json_value(evaluated_again(record, number, 1, correction.templates));
             tell_changes(read.value, now, rerun);
@@ -450,7 +452,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
               const DraftSink& drafts) {
     std::optional<reports::EvaluationRecord> corrected;
     if (!one.recalculated) {
-        Recalculated done = recalculated(one.certificate.number, one.through, original, correction);
+        Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
@@ -508,6 +510,12 @@ std::string period_of(const AffectedCertificate& one) {
                                                         : one.used_from + "/" + one.used_to;
 }
 
+std::string through_text(const AffectedCertificate& one) {
+    return one.through.empty() ? ""
+                               : "through " + text::visible(one.through, 80) +
+                                     (one.through_state == k_withdrawn ? ", withdrawn: " : ": ");
+}
+
 std::string filled(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
     return text + "  ";
@@ -524,21 +532,32 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
     struct Wanted {
-        std::string name, through;
+        std::string name, through, through_state;
     };
-    std::deque<Wanted> wanted{{standard.name, ""}};
+    std::deque<Wanted> wanted{{standard.name, "", ""}};
     if (remarks != nullptr) {
         *remarks = remarks_on_name(standard.name, texts);
     }
+    // What rests on a certificate is followed whether that one still holds or not: a withdrawal says nothing to those who
+    // have used it. Only the answer leaves it out.
+    const auto find = [&](std::size_t i, const Wanted& by, std::vector<StandardReference> because) {
+        const archive::ListedCertificate& certificate = records[i].certificate;
+        const bool is_read = records[i].references.has_value();
+        if (certificate.state != k_withdrawn) {
+            affected.push_back({.certificate = certificate,
+                                .used_from = is_read ? records[i].references->used_from : "",
+                                .used_to = is_read ? records[i].references->used_to : "",
+                                .because = std::move(because),
+                                .through = by.through,
+                                .through_state = by.through_state,
+                                .draft_number = search.free_number(certificate.number)});
+        }
+        wanted.push_back({certificate.number, certificate.number, certificate.state});
+    };
     for (std::size_t i = 0; i < records.size(); ++i) {
-        if (!records[i].references && records[i].certificate.state != "withdrawn") {  // it may rest on anything
+        if (!records[i].references) {  // it may rest on anything
             known.insert(i);
-            affected.push_back({.certificate = records[i].certificate,
-                                .used_from = {},
-                                .used_to = {},
-                                .because = {{StandardReference::Kind::source, "the record cannot be read"}},
-                                .through = {},
-                                .draft_number = search.free_number(records[i].certificate.number)});
+            find(i, {}, {{StandardReference::Kind::source, "the record cannot be read"}});
         }
     }
     while (!wanted.empty()) {
@@ -547,18 +566,11 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
         for (const std::size_t i : texts.that_name(next.name)) {
             const SearchedRecord& record = records[i];
             // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
-            if (record.certificate.state == "withdrawn" || record.certificate.number == next.name ||
-                !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") ||
-                !known.insert(i).second) {
-                continue;
+            if (record.certificate.number != next.name &&
+                is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") &&
+                known.insert(i).second) {
+                find(i, next, references_that_name(next.name, *record.references));
             }
-            affected.push_back({.certificate = record.certificate,
-                                .used_from = record.references->used_from,
-                                .used_to = record.references->used_to,
-                                .because = references_that_name(next.name, *record.references),
-                                .through = next.through,
-                                .draft_number = search.free_number(record.certificate.number)});
-            wanted.push_back({record.certificate.number, record.certificate.number});
         }
     }
     std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
@@ -567,9 +579,15 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     return affected;
 }
 
-Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
+std::string waits_for(const AffectedCertificate& certificate) {
+    return certificate.through.empty()                ? ""
+           : certificate.through_state == k_withdrawn ? certificate.through + ", which was withdrawn"
+                                                      : certificate.through + ", which is to be amended first";
+}
+
+Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
                                const Correction& correction) {
-    return recalculated(number, through, original, correction).result;
+    return recalculated(number, waits_for, original, correction).result;
 }
 
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
@@ -612,8 +630,8 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
             text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
-        text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +
-                word_of(one.because.front().kind) + " \"" + text::visible(one.because.front().text, 120) + "\"\n";
+        text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
+                text::visible(one.because.front().text, 120) + "\"\n";
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
@@ -636,6 +654,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"used_to", one.used_to},
                              {"because", std::move(because)},
                              {"through", one.through},
+                             {"through_state", one.through_state},
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
@@ -660,14 +679,14 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 }
 
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
-    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft\n";
+    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft,through_state\n";
     for (const AffectedCertificate& one : affected) {
         const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
                "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
-               text::csv_field(one.draft_folder) + "\n";
+               text::csv_field(one.draft_folder) + "," + one.through_state + "\n";
     }
     return all;
 }

@@ -35,8 +35,9 @@ struct AffectedCertificate {
     archive::ListedCertificate certificate;
     std::string used_from, used_to;          ///< days of the work; "" where the record states none
     std::vector<StandardReference> because;  ///< what its record says
-    std::string through;       ///< number of the affected certificate that it rests on itself; "" where on the standard
-    std::string draft_number;  ///< the next free number of an amendment of it
+    std::string through;          ///< number of the certificate that it rests on itself; "" where on the standard
+    std::string through_state;    ///< of that certificate, which may be withdrawn
+    std::string draft_number;     ///< the next free number of an amendment of it
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed
@@ -44,7 +45,8 @@ struct AffectedCertificate {
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
 /// every one that rests on a certificate that was found, from the first day on. What names() says of references_of() is
-/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones.
+/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones; what rests on a withdrawn one, or on one whose
+/// record cannot be read, is found through it.
 /// \param remarks  none, or GC-ARCHIVE-0064, warnings: names in records that differ from the standard in their spelling alone,
 ///                 and that no record names it
 [[nodiscard]] std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
@@ -59,10 +61,13 @@ struct Correction {
     std::filesystem::path templates;
 };
 
+/// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
+[[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);
+
 /// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
 /// \param original  bytes of the record
-/// \param through   as of the certificate
-[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& through,
+/// \param waits_for  as waits_for() says of the certificate
+[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& waits_for,
                                              const std::string& original, const Correction& correction);
 
 /// Where drafts of amendments go.

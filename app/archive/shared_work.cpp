@@ -111,7 +111,7 @@ WorkToShare work_of(const std::vector<AffectedCertificate>& affected, const Corr
         .tasks = {}};
     for (const AffectedCertificate& one : affected) {
         shared.tasks.push_back(
-            {one.certificate.number, dumped({{"record", one.certificate.record}, {"through", one.through}})});
+            {one.certificate.number, dumped({{"record", one.certificate.record}, {"waits_for", waits_for(one)}})});
     }
     return identified(std::move(shared));
 }
@@ -146,7 +146,7 @@ std::size_t ArchiveWorker::do_some(const archive::SharedWork& work) {
             threads_.run(tasks.size(), [&](unsigned /*worker*/, std::size_t i) {
                 results[i] = work.kind == k_replay
                                  ? as_text(replay_record(records[i], tasks[i].name, 1, templates_))
-                                 : as_text(recalculation_of(tasks[i].name, text_of(inputs[i], "through"), records[i],
+                                 : as_text(recalculation_of(tasks[i].name, text_of(inputs[i], "waits_for"), records[i],
                                                             correction));
             });
             return results;

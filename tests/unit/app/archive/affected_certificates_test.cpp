@@ -130,6 +130,7 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
         const WrongStandard wrong{"STD-" + std::to_string(standard), "2026-04-01",
                                   standard % 2 == 0 ? "" : "2026-06-30"};
         std::set<std::string> expected;
+        std::set<std::string> reached;  // withdrawn ones are no answer, but lead on
         for (bool grows = true; grows;) {
             grows = false;
             for (int i = 0; i < k_certificates; ++i) {
@@ -138,10 +139,13 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
                 const bool before = one.day.empty() || wrong.until.empty() || one.day <= wrong.until;
                 bool rests = one.standards.contains(standard) && before;
                 for (const int other : one.certificates) {
-                    rests = rests || expected.contains(number(other));
+                    rests = rests || reached.contains(number(other));
                 }
-                if (rests && after && !one.is_withdrawn) {
-                    grows = expected.insert(number(i)).second || grows;
+                if (rests && after) {
+                    grows = reached.insert(number(i)).second || grows;
+                    if (!one.is_withdrawn) {
+                        expected.insert(number(i));
+                    }
                 }
             }
         }
@@ -151,9 +155,38 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
     }
 }
 
+/// It may rest on anything, and what rests on it as well.
 TEST_F(ArchiveOfStandards, TellARecordThatCannotBeRead) {
     add("EX-1", "no record");
-    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), std::set<std::string>{"EX-1"});
+    add("EX-2", R"({"source": "EX-1"})");
+    add("EX-3", R"({"source": "EX-4"})");
+    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), (std::set<std::string>{"EX-1", "EX-2"}));
+}
+
+/// A withdrawal takes the certificate back, and nothing of what others have calibrated with it.
+TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
+    add("G-1", R"({"source": "STD-017"})");
+    add("G-2", R"({"source": "G-1"})");
+    add("G-3", R"({"source": "G-2"})");
+    add("G-4", "no record");
+    add("G-5", R"({"source": "G-4"})");
+    for (const char* const number : {"G-1", "G-2", "G-4"}) {
+        (void)archive_.advance(number, "withdrawn", by("R. Reviewer"));
+    }
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    ASSERT_EQ(affected.size(), 2U);
+    EXPECT_EQ(affected[0].certificate.number, "G-3");
+    EXPECT_EQ(affected[0].through, "G-2");
+    EXPECT_EQ(affected[0].through_state, "withdrawn");
+    EXPECT_EQ(affected[1].certificate.number, "G-5");
+    recalculate(affected, archive_,
+                {.standard = "STD-017", .corrected = "{}", .reason = "r", .templates = k_affected_tree / "templates"},
+                1);
+    const std::string text = affected_text(affected);
+    EXPECT_NE(text.find("through G-2, withdrawn: source"), std::string::npos) << text;
+    EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["through_state"], "withdrawn");
+    EXPECT_NE(affected_csv(affected).find(",withdrawn\n"), std::string::npos);
+    EXPECT_NE(waits_for(affected[0]).find("which was withdrawn"), std::string::npos);
 }
 
 TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
