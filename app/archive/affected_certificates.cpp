@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/archive/archive_files.h"
 #include "app/archive/record_parts.h"
 #include "app/recompute_record.h"
 #include "gum/expression/name_spelling.h"
@@ -291,12 +292,6 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
     return largest;
 }
 
-std::string folder_of_number(std::string number) {
-    std::replace_if(
-        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
-    return number;
-}
-
 /// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
 /// stay as they are: the job lies so much deeper.
 class DraftPlaces {
@@ -352,7 +347,7 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
                                           const reports::EvaluationRecord& corrected, const Correction& correction) {
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
-    const std::filesystem::path folder = folder_of_number(one.draft_number);
+    const std::filesystem::path folder = one.draft_name;
     std::map<std::string, std::string> files;
     for (const reports::InputFile& file : corrected.job_files) {
         if (std::filesystem::path(file.name).is_absolute()) {
@@ -465,7 +460,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     const std::vector<OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
     if (!draft.empty()) {
-        one.draft_folder = folder_of_number(one.draft_number);
+        one.draft_folder = one.draft_name;
         if (drafts.write) {
             drafts.write(draft);
         }
@@ -502,6 +497,18 @@ std::string outcome_of(const AffectedCertificate& one) {
            : rerun.count(ChangeKind::verdict) > 0 ? "verdict"
            : rerun.count(ChangeKind::printed) > 0 ? "printed"
                                                   : "same";
+}
+
+/// Numbers that differ in characters that no file name has, such as "N/1" and "N_1", do not share a folder.
+void name_drafts(std::vector<AffectedCertificate>& affected) {
+    std::set<std::string> taken;
+    for (AffectedCertificate& one : affected) {
+        const std::string name = file_name_of_number(one.draft_number);
+        one.draft_name = name;
+        for (int ordinal = 2; !taken.insert(one.draft_name).second; ++ordinal) {
+            one.draft_name = name + "-" + std::to_string(ordinal);
+        }
+    }
 }
 
 std::string period_of(const AffectedCertificate& one) {
@@ -576,6 +583,7 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
         return a.certificate.number < b.certificate.number;
     });
+    name_drafts(affected);
     return affected;
 }
 

@@ -38,6 +38,7 @@ struct AffectedCertificate {
     std::string through;          ///< number of the certificate that it rests on itself; "" where on the standard
     std::string through_state;    ///< of that certificate, which may be withdrawn
     std::string draft_number;     ///< the next free number of an amendment of it
+    std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed

@@ -189,6 +189,25 @@ TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
     EXPECT_NE(waits_for(affected[0]).find("which was withdrawn"), std::string::npos);
 }
 
+/// Two numbers that differ in a character that no name of a file has do not share a folder.
+TEST_F(ArchiveOfStandards, HaveEachAFolderForItsDraft) {
+    std::set<std::string> numbers;
+    for (const char* const between : {"/", "_", ":", "\\", "-", "", "_1-"}) {
+        for (const char* const after : {"1", "1/A1-2", "1_A1"}) {
+            numbers.insert(std::string("N") + between + after);
+        }
+    }
+    for (const std::string& number : numbers) {
+        add(number, R"({"source": "STD-017"})");
+    }
+    std::set<std::string> folders;
+    for (const AffectedCertificate& one : find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1)) {
+        EXPECT_TRUE(folders.insert(one.draft_name).second) << one.draft_name;
+        EXPECT_EQ(one.draft_name.find_first_of("/\\: "), std::string::npos) << one.draft_name;
+    }
+    EXPECT_EQ(folders.size(), numbers.size());
+}
+
 TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     const std::filesystem::path folder = k_affected_tree / "examples" / "laboratory";
     const std::string record = reports::to_canonical_json(
