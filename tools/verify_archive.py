@@ -20,7 +20,6 @@ import pathlib
 import re
 import sqlite3
 import sys
-import unicodedata
 import urllib.parse
 
 APPLICATION_ID = 0x67634172
@@ -180,10 +179,18 @@ def require_limits(value, longest):
         level = [inner for one in containers for inner in (one.values() if isinstance(one, dict) else one)]
 
 
+# Characters that nobody sees: docs/adr/0053-the-archive.md, 5. A list, because what Unicode says of a character changes.
+HIDDEN = ((0x0, 0x1F), (0x7F, 0x9F), (0xAD, 0xAD), (0x34F, 0x34F), (0x61C, 0x61C), (0x180E, 0x180E), (0x200B, 0x200F), (0x2028, 0x202E),
+          (0x2060, 0x206F), (0xFEFF, 0xFEFF), (0xFFF9, 0xFFFB), (0xFFFE, 0xFFFF), (0xE0000, 0xE00FF))
+
+
+def is_hidden(character):
+    return any(first <= ord(character) <= last for first, last in HIDDEN)
+
+
 def shown(words):
     """A text of others as one honest line of a terminal."""
-    return "".join(f"\\u{{{ord(c):04X}}}" if unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\u200c\u200d" else c
-                   for c in words)
+    return "".join(f"\\u{{{ord(c):04X}}}" if 0xD800 <= ord(c) <= 0xDFFF or (is_hidden(c) and c not in "\u200c\u200d") else c for c in words)
 
 
 def typed(value, key, kind):
@@ -236,7 +243,7 @@ def is_settings(value):
     if not isinstance(value["four_eyes"], bool) or not isinstance(pattern, str) or not isinstance(persons, dict):
         return False
     if pattern and (len(re.findall("#+", pattern)) != 1 or pattern.count("YYYY") > 1 or
-                    any(unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp") for c in pattern)):
+                    any(is_hidden(c) for c in pattern)):
         return False
     return all(isinstance(roles, list) and all(isinstance(r, str) and r in ROLES for r in roles) for roles in persons.values())
 
@@ -433,9 +440,14 @@ def documents_in(body):
 PRINTED_HEAD = re.compile(rb"gumcert-head:([1-9][0-9]{0,18}):([0-9a-f]{64})")
 
 
+def printed_heads(data):
+    """Size, from 1 to 2^63 - 1, and root (docs/adr/0059-the-head-on-the-certificate.md, 2)."""
+    return {(int(size), bytes.fromhex(root.decode())) for size, root in PRINTED_HEAD.findall(data) if int(size) in INT64}
+
+
 def faults_of_printed_heads(data, is_of_log, drafted, archived):
     """A head that a document prints is one of the log, from before the document, with a draft of its record."""
-    for size, root in {(int(size), bytes.fromhex(root.decode())) for size, root in PRINTED_HEAD.findall(data)}:
+    for size, root in printed_heads(data):
         if size >= archived or not is_of_log(size, root):
             yield f"prints a head of {size} entries, which the log did not have before the document"
         elif drafted > size:
