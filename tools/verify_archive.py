@@ -14,8 +14,10 @@ Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the comma
 
 import argparse
 import base64
+import errno
 import hashlib
 import json
+import os
 import pathlib
 import re
 import sqlite3
@@ -572,16 +574,56 @@ def verify_head(head, name, heads, public_key, tell):
     tell(signer_in_words(head.signature, public_key, False))
 
 
+# Primary result codes of SQLite that say nothing of what stands in the file: PERM, BUSY, LOCKED, NOMEM, READONLY, IOERR, FULL, CANTOPEN.
+NOT_READ = {3, 5, 6, 7, 8, 10, 13, 14}
+
+
+class Reading:
+    """How a file of SQLite is read so that nothing is left beside it: with the write-ahead log where one is there; else as a file
+    that does not change where its folder cannot be written, so that SQLite makes no log; else as one that may be written, by
+    whom the log that was made is taken away again. Nothing is written."""
+
+    def __init__(self, path):
+        self.path = os.path.realpath(path)
+        self.before = self.now()
+        has_log = self.before[-1]
+        self.is_immutable = not has_log and not os.access(os.path.dirname(self.path), os.W_OK)
+        self.mode = "mode=ro" if has_log else "mode=ro&immutable=1" if self.is_immutable else "mode=rw"
+
+    def now(self):
+        """What tells whether somebody writes; the last: whether SQLite keeps entries, or what it has to take back, beside the file."""
+        status = os.stat(self.path)
+        beside = [self.path + ending for ending in ("-wal", "-journal")]
+        return status.st_ino, status.st_size, status.st_mtime_ns, any(os.path.exists(one) and os.path.getsize(one) > 0 for one in beside)
+
+    def require_unchanged(self):
+        if self.is_immutable and self.now() != self.before:
+            raise OSError(errno.EBUSY, "was written while it was read; try again", self.path)
+
+
 def verify_store(path, heads):
     """Findings of an archive in one file of SQLite."""
-    database = sqlite3.connect(f"file:{urllib.parse.quote(str(path))}?mode=ro", uri=True)
+    reading = Reading(path)
+    found = list(findings_of_store(path, reading, heads))
+    reading.require_unchanged()
+    yield from found
+
+
+def findings_of_store(path, reading, heads):
+    try:
+        database = sqlite3.connect(f"file:{urllib.parse.quote(reading.path)}?{reading.mode}", uri=True)
+    except sqlite3.Error as trouble:
+        raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
     try:
         database.text_factory = bytes
+        database.execute("PRAGMA query_only = ON")
         database.execute("PRAGMA cell_size_check = ON")
         database.execute("PRAGMA trusted_schema = OFF")
         database.execute("BEGIN")
         yield from findings_of(database, heads)
     except (sqlite3.Error, OverflowError, UnicodeDecodeError) as trouble:
+        if getattr(trouble, "sqlite_errorcode", 0) & 0xFF in NOT_READ:
+            raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
         yield f"SQLite: {trouble}"
     finally:
         database.close()
