@@ -1,6 +1,7 @@
 #include "app/archive/affected_certificates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <future>
@@ -17,6 +18,7 @@
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
+#include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/record_value.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
@@ -31,6 +33,7 @@ namespace {
 constexpr std::size_t k_records_at_once = 256;
 
 constexpr const char* k_withdrawn = "withdrawn";
+constexpr const char* k_text = "text";  // kind of a change, as reports::changes_between() has it
 
 /// How something is done beside the work of some threads: where one alone is wanted, afterwards.
 std::launch beside(const gum::WorkerThreads& threads) {
@@ -328,17 +331,36 @@ bool is_shown(const RecordChange& change) {
     return change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict;
 }
 
-nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
+nlohmann::json shown_change_list(const Recalculation& recalculation) {
     nlohmann::json list = nlohmann::json::array();
-    for (const RecordChange& change : changes) {
+    const auto add = [&](const char* kind, const RecordChange& change) {
+        list.push_back({{"kind", kind}, {"place", change.place}, {"before", change.before}, {"now", change.now}});
+    };
+    for (const RecordChange& change : recalculation.rerun.changes) {
         if (is_shown(change)) {
-            list.push_back({{"kind", word_of(change.kind)},
-                            {"place", change.place},
-                            {"before", change.before},
-                            {"now", change.now}});
+            add(word_of(change.kind), change);
         }
     }
+    for (const RecordChange& change : recalculation.texts) {
+        add(k_text, change);
+    }
     return list;
+}
+
+/// What the certificates of two records state otherwise in words.
+std::vector<RecordChange> texts_that_change(const reports::EvaluationRecord& before,
+                                            const reports::EvaluationRecord& now) {
+    std::vector<RecordChange> texts;
+    if (!before.certificate || !now.certificate) {
+        return texts;
+    }
+    for (const certificate::Change& change : reports::changes_between(*before.certificate, *now.certificate)) {
+        if (change.kind == k_text &&
+            texts.size() < k_most_changes) {  // numbers and verdicts are told by tell_changes()
+            texts.push_back({ChangeKind::other, change.where, change.before, change.after});
+        }
+    }
+    return texts;
 }
 
 /// Job, certificate data and all files of an amendment.
@@ -376,7 +398,10 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
         {"kind", "amended"},
         {"number", one.certificate.number},
         {"reason", correction.reason},
-        {"changes", {"Results calculated again with the corrected standard " + correction.standard}},
+        {"changes",
+         {(one.recalculated->rerun.is_negative() ? "Results calculated again with the corrected standard "
+                                                 : "What is stated of the corrected standard ") +
+          correction.standard}},
         {"record", record_name}};
     if (inside) {
         job["certificate"] = certificate;
@@ -393,13 +418,13 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
         draft.push_back({folder / places.of(name), bytes});
     }
     draft.push_back({folder / places.of(record_name), original});
-    draft.push_back({folder / "changes.json",
-                     gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
-                                                    {"number", one.draft_number},
-                                                    {"amends", one.certificate.number},
-                                                    {"reason", correction.reason},
-                                                    {"job", places.of(job_name).generic_string()},
-                                                    {"changes", shown_change_list(one.recalculated->rerun.changes)}})});
+    draft.push_back(
+        {folder / "changes.json", gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                                 {"number", one.draft_number},
+                                                                 {"amends", one.certificate.number},
+                                                                 {"reason", correction.reason},
+                                                                 {"job", places.of(job_name).generic_string()},
+                                                                 {"changes", shown_change_list(*one.recalculated)}})});
     return draft;
 }
 
@@ -426,8 +451,10 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
                 cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
                                                      : "it rests on " + waits_for);
         } else {
-            const nlohmann::json now = reports::to_json_value(evaluated_again(record, number, 1, correction.templates));
+            const reports::EvaluationRecord again = evaluated_again(record, number, 1, correction.templates);
+            const nlohmann::json now = reports::to_json_value(again);
             tell_changes(read.value, now, rerun);
+            done.result.texts = texts_that_change(record, again);
             std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
             done.result.shift = largest_shift(read.value, now);
         }
@@ -438,8 +465,7 @@ Recalculated recalculated(const std::string& number, const std::string& waits_fo
 }
 
 bool needs_amendment(const AffectedCertificate& one) {
-    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->rerun.is_negative() &&
-           one.certificate.state == "issued";
+    return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
 }
 
 /// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
@@ -479,24 +505,24 @@ std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& af
     return originals;
 }
 
-/// Of which a person reads first.
+constexpr std::array<const char*, 5> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "same"};
+
+/// Index of k_outcomes: what a person reads first comes first.
+std::size_t index_of_outcome(const Recalculation& one) {
+    return one.rerun.not_evaluated                    ? 3
+           : one.rerun.count(ChangeKind::verdict) > 0 ? 0
+           : one.rerun.count(ChangeKind::printed) > 0 ? 1
+           : !one.texts.empty()                       ? 2
+                                                      : 4;
+}
+
 auto rank_of(const AffectedCertificate& one) {
-    static const RerunRecord k_none;
-    const RerunRecord& rerun = one.recalculated ? one.recalculated->rerun : k_none;
-    const bool unknown = rerun.not_evaluated.has_value();
-    return std::tuple(rerun.count(ChangeKind::verdict) == 0, unknown || !rerun.is_negative(), !unknown,
+    return std::tuple(one.recalculated ? index_of_outcome(*one.recalculated) : k_outcomes.size(),
                       one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
 std::string outcome_of(const AffectedCertificate& one) {
-    if (!one.recalculated) {
-        return "not_recalculated";
-    }
-    const RerunRecord& rerun = one.recalculated->rerun;
-    return rerun.not_evaluated                    ? "cannot_say"
-           : rerun.count(ChangeKind::verdict) > 0 ? "verdict"
-           : rerun.count(ChangeKind::printed) > 0 ? "printed"
-                                                  : "same";
+    return one.recalculated ? k_outcomes.at(index_of_outcome(*one.recalculated)) : "not_recalculated";
 }
 
 /// Numbers that differ in characters that no file name has, such as "N/1" and "N_1", do not share a folder.
@@ -643,6 +669,12 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
         }
+        constexpr std::size_t k_most_texts = 3;
+        for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
+            const RecordChange& change = one.recalculated->texts[i];
+            text += "    " + text::visible(change.place, 80) + ": " + text::in_quotes(change.before) + " -> " +
+                    text::in_quotes(change.now) + "\n";
+        }
     }
     return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
 }
@@ -670,7 +702,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"cannot_say", ""}};
         if (one.recalculated) {
             const RerunRecord& rerun = one.recalculated->rerun;
-            shown["changes"] = shown_change_list(rerun.changes);
+            shown["changes"] = shown_change_list(*one.recalculated);
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
             } else {

@@ -28,6 +28,14 @@ struct Recalculation {
     RerunRecord rerun;   ///< not_evaluated where nothing can be said, GC-ARCHIVE-0062; of the changes it lists those of
                          ///< printed digits and verdicts
     double shift = 0.0;  ///< largest change of a value or of its U, relative to the U that was issued
+    /// Texts of the certificate data that change, such as the certificate of the standard in a row of traceability; the first
+    /// ones. Their kind is `other`.
+    std::vector<RecordChange> texts = {};
+
+    /// Whether the certificate would state anything else than it does.
+    [[nodiscard]] bool states_otherwise() const {
+        return !rerun.not_evaluated && (rerun.is_negative() || !texts.empty());
+    }
 };
 
 /// A certificate that rests on it.
@@ -79,14 +87,14 @@ struct DraftSink {
     std::function<void()> finish = {};
 };
 
-/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit or
-/// a verdict changes, and ranks them; on several cores, with the same result for any number of threads.
+/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit, a
+/// verdict or a text changes, and ranks them; on several cores, with the same result for any number of threads.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
                  unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});
 
-/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then those of which
-/// nothing can be said, before those that stay.
+/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then texts, then those of
+/// which nothing can be said, before those that stay.
 void rank(std::vector<AffectedCertificate>& affected);
 
 /// For people, for programs (schema gumcert/archive-affected/1), as a table.

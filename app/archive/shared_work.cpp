@@ -35,7 +35,12 @@ std::string as_text(const Recalculation& one) {
     for (const RecordChange& change : one.rerun.changes) {
         changes.push_back({static_cast<int>(change.kind), change.place, change.before, change.now});
     }
+    json texts = json::array();
+    for (const RecordChange& change : one.texts) {
+        texts.push_back({change.place, change.before, change.now});
+    }
     return dumped({{"changes", std::move(changes)},
+                   {"texts", std::move(texts)},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -53,6 +58,10 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<ChangeKind>(change.at(0).get<int>()), change.at(1).get<std::string>(),
                                      change.at(2).get<std::string>(), change.at(3).get<std::string>()});
+    }
+    for (const json& change : value.at("texts")) {
+        one.texts.push_back({ChangeKind::other, change.at(0).get<std::string>(), change.at(1).get<std::string>(),
+                             change.at(2).get<std::string>()});
     }
     if (!value.at("cannot_say").is_null()) {
         one.rerun.not_evaluated = diagnostic_in(value.at("cannot_say"));

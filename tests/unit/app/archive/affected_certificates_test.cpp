@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "app/evaluate_job.h"
 #include "app/read_file.h"
 #include "archive/store/sqlite_store.h"
+#include "reports/record/record_value.h"
 #include "tests/support/archive_folder.h"
 #include "tests/support/sample_archive.h"
 
@@ -249,6 +251,63 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
     EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
               std::string::npos);
+}
+
+/// Whatever the register corrects: "same" is a certificate that would be printed alike.
+TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const auto evaluated = [&] {
+        return evaluate_job(folder / "end_gauge.json", CovarianceFile::none, 1, k_affected_tree / "templates").record;
+    };
+    const auto stated = [](const reports::EvaluationRecord& record) {
+        return reports::to_json_value(record)["certificate"]["data"];
+    };
+    const reports::EvaluationRecord record = evaluated();
+    add("EX-2026-0042", reports::to_canonical_json(record));
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string registered = read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const json plain = json::parse(registered, nullptr, true, true);
+    std::size_t texts = 0;
+    const json texts_of_standard = plain.flatten();
+    for (const auto& [pointer, value] : texts_of_standard.items()) {
+        if (!value.is_string()) {
+            continue;
+        }
+        json changed = plain;
+        changed[json::json_pointer(pointer)] = value.get<std::string>() + "9";
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(affected, archive_,
+                    {.standard = "STD-017",
+                     .corrected = changed.dump(),
+                     .reason = "r",
+                     .templates = k_affected_tree / "templates"},
+                    1);
+        const auto found = std::find_if(affected.begin(), affected.end(),
+                                        [](const auto& one) { return one.certificate.number == "EX-2026-0042"; });
+        ASSERT_NE(found, affected.end());
+        const Recalculation& recalculation = *found->recalculated;
+        const std::string outcome =
+            json::parse(affected_json({*found}, {}))["certificates"][0]["outcome"].get<std::string>();
+        if (recalculation.rerun.not_evaluated) {
+            EXPECT_EQ(outcome, "cannot_say") << pointer;
+            continue;
+        }
+        // The job evaluated anew, without the archive, is the oracle.
+        std::ofstream(folder / "laboratory" / "standards" / "STD-017.json") << changed.dump();
+        EXPECT_EQ(outcome == "same" || outcome == "printed" || outcome == "verdict",
+                  stated(evaluated()) == stated(record))
+            << pointer << " " << outcome;
+        EXPECT_EQ(found->draft_folder.empty(), outcome == "same") << pointer;
+        if (outcome == "text") {
+            ++texts;
+            EXPECT_EQ(affected[0].certificate.number, "EX-2026-0042") << "before what cannot be said";
+            EXPECT_NE(affected_text(affected).find(recalculation.texts.front().place), std::string::npos) << pointer;
+            EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["changes"][0]["kind"], "text");
+        }
+    }
+    EXPECT_GE(texts, 2U) << "certificate and issuer of the calibration in use";
 }
 
 /// A result that rests on more than the standard is moved by less of its own U than the standard by its.
