@@ -44,7 +44,7 @@ std::vector<std::pair<std::string, std::string>> named_documents_in(const json& 
     };
     const json now = body.value("new", json());
     const json documents = now.is_object() ? now.value("documents", json()) : json();
-    for (const json& document : documents) {
+    for (const json& document : documents.is_array() ? documents : json::array()) {
         named.emplace_back(text_of_document(document, "name"), text_of_document(document, "sha256"));
     }
     return named;
@@ -161,10 +161,8 @@ public:
     explicit EvidenceVerifier(const Evidence& evidence) : evidence_(evidence) {}
 
     EvidenceVerdict verify(const std::vector<Head>& heads) {
-        std::int64_t last = 0;
         for (const Evidence::ProvenEntry& proven : evidence_.entries) {
-            look_at(proven, last);
-            last = proven.entry.seq;
+            look_at(proven);
         }
         look_at_contents();
         const CertificateLife* const life = rules_.life(evidence_.certificate);
@@ -173,10 +171,11 @@ public:
                 "evidence holds the entries of its certificate");
         } else {
             follow(evidence_.certificate);
-            for (EvidenceVerdict::Part& part : verdict_.parts) {
-                part.holds = part.sha256 == life->record || std::find(life->documents.begin(), life->documents.end(),
-                                                                      part.sha256) != life->documents.end();
-            }
+        }
+        for (EvidenceVerdict::Part& part : verdict_.parts) {
+            part.holds = life != nullptr &&
+                         (part.sha256 == life->record || std::find(life->documents.begin(), life->documents.end(),
+                                                                   part.sha256) != life->documents.end());
         }
         if (evidence_.states) {
             look_at_states(*evidence_.states);
@@ -196,6 +195,7 @@ private:
     const Evidence& evidence_;
     EvidenceVerdict verdict_;
     LogRules rules_;
+    std::int64_t last_ = 0;  // entry that stands where it may
     std::set<std::string> keys_;
     std::map<std::string, const LogEntry*> needed_;  // content → entry that names it first
     std::map<std::string, std::int64_t> drafts_;     // record → its first draft
@@ -253,13 +253,14 @@ private:
                            evidence_.head.root, one.proof);
     }
 
-    void look_at(const Evidence::ProvenEntry& proven, std::int64_t last) {
+    void look_at(const Evidence::ProvenEntry& proven) {
         const LogEntry& entry = proven.entry;
         const std::string where = "entry " + std::to_string(entry.seq);
-        if (entry.seq <= last || entry.seq > evidence_.head.size) {
+        if (entry.seq <= last_ || entry.seq > evidence_.head.size) {
             add("GC-ARCHIVE-0048", where, "stands at a wrong place", "entries stand in their order, up to the head");
             return;
         }
+        last_ = entry.seq;
         if (entry_hash(entry) != entry.hash) {
             add("GC-ARCHIVE-0040", where, "its fields give another hash than the one it has",
                 "an entry is as it was when it was written");
@@ -273,11 +274,14 @@ private:
                 "the proof of an entry leads to the root in the head (RFC 6962, 2.1.1)");
         }
         // Entries of other certificates are not there, so numbers are not judged; the archive itself judges them.
-        if (const std::optional<Breach> breach = rules_.accept(entry); breach && breach->kind != Breach::Kind::number) {
-            add("GC-ARCHIVE-0043", where, breach->what, breach->rule);
-        } else if (breach) {
+        if (const std::optional<Breach> breach = rules_.accept(entry)) {
+            // Taken all the same: what the entries show is told, and said to be no more than that.
             rules_.take(entry);
-            look_at_role(entry);
+            if (breach->kind == Breach::Kind::number) {
+                look_at_role(entry);
+            } else {
+                add("GC-ARCHIVE-0043", where, breach->what, breach->rule);
+            }
         }
         if (!entry.request_key.empty() && !keys_.insert(entry.request_key).second) {
             add("GC-ARCHIVE-0043", where, "its key " + text::in_quotes(entry.request_key) + " was used before",

@@ -70,8 +70,10 @@ std::string text_in(const json& body, const char* part, const char* key) {
 
 std::vector<std::string> documents_in(const json& body) {
     std::vector<std::string> documents;
-    for (const json& document : member(member(body, "new"), "documents")) {
-        documents.push_back(text_of(document, "sha256"));
+    if (const json& named = member(member(body, "new"), "documents"); named.is_array()) {
+        for (const json& document : named) {
+            documents.push_back(text_of(document, "sha256"));
+        }
     }
     return documents;
 }

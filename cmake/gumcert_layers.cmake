@@ -178,7 +178,7 @@ set(GUMCERT_THIRD_PARTY_reports_dcc                        libxml nlohmann)
 set(GUMCERT_THIRD_PARTY_signing                            fcntl.h libxml nlohmann openssl poll.h qpdf spawn.h
                                                            sys/wait.h unistd.h xmlsec)
 set(GUMCERT_THIRD_PARTY_imports                            nlohmann)
-set(GUMCERT_THIRD_PARTY_archive_store                      fcntl.h libpq-fe.h sqlite3.h sys/vfs.h unistd.h)
+set(GUMCERT_THIRD_PARTY_archive_store                      fcntl.h libpq-fe.h sqlite3.h sys/stat.h sys/vfs.h unistd.h)
 set(GUMCERT_THIRD_PARTY_archive                            nlohmann)
 set(GUMCERT_THIRD_PARTY_app                                Eigen fcntl.h gumcert_build_info.h nlohmann sys/stat.h
                                                            unistd.h)

@@ -14,13 +14,14 @@ Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the comma
 
 import argparse
 import base64
+import errno
 import hashlib
 import json
+import os
 import pathlib
 import re
 import sqlite3
 import sys
-import unicodedata
 import urllib.parse
 
 APPLICATION_ID = 0x67634172
@@ -180,10 +181,18 @@ def require_limits(value, longest):
         level = [inner for one in containers for inner in (one.values() if isinstance(one, dict) else one)]
 
 
+# Characters that nobody sees: docs/adr/0053-the-archive.md, 5. A list, because what Unicode says of a character changes.
+HIDDEN = ((0x0, 0x1F), (0x7F, 0x9F), (0xAD, 0xAD), (0x34F, 0x34F), (0x61C, 0x61C), (0x180E, 0x180E), (0x200B, 0x200F), (0x2028, 0x202E),
+          (0x2060, 0x206F), (0xFEFF, 0xFEFF), (0xFFF9, 0xFFFB), (0xFFFE, 0xFFFF), (0xE0000, 0xE00FF))
+
+
+def is_hidden(character):
+    return any(first <= ord(character) <= last for first, last in HIDDEN)
+
+
 def shown(words):
     """A text of others as one honest line of a terminal."""
-    return "".join(f"\\u{{{ord(c):04X}}}" if unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\u200c\u200d" else c
-                   for c in words)
+    return "".join(f"\\u{{{ord(c):04X}}}" if 0xD800 <= ord(c) <= 0xDFFF or (is_hidden(c) and c not in "\u200c\u200d") else c for c in words)
 
 
 def typed(value, key, kind):
@@ -236,7 +245,7 @@ def is_settings(value):
     if not isinstance(value["four_eyes"], bool) or not isinstance(pattern, str) or not isinstance(persons, dict):
         return False
     if pattern and (len(re.findall("#+", pattern)) != 1 or pattern.count("YYYY") > 1 or
-                    any(unicodedata.category(c) in ("Cc", "Cf", "Zl", "Zp") for c in pattern)):
+                    any(is_hidden(c) for c in pattern)):
         return False
     return all(isinstance(roles, list) and all(isinstance(r, str) and r in ROLES for r in roles) for roles in persons.values())
 
@@ -433,9 +442,14 @@ def documents_in(body):
 PRINTED_HEAD = re.compile(rb"gumcert-head:([1-9][0-9]{0,18}):([0-9a-f]{64})")
 
 
+def printed_heads(data):
+    """Size, from 1 to 2^63 - 1, and root (docs/adr/0059-the-head-on-the-certificate.md, 2)."""
+    return {(int(size), bytes.fromhex(root.decode())) for size, root in PRINTED_HEAD.findall(data) if int(size) in INT64}
+
+
 def faults_of_printed_heads(data, is_of_log, drafted, archived):
     """A head that a document prints is one of the log, from before the document, with a draft of its record."""
-    for size, root in {(int(size), bytes.fromhex(root.decode())) for size, root in PRINTED_HEAD.findall(data)}:
+    for size, root in printed_heads(data):
         if size >= archived or not is_of_log(size, root):
             yield f"prints a head of {size} entries, which the log did not have before the document"
         elif drafted > size:
@@ -560,16 +574,56 @@ def verify_head(head, name, heads, public_key, tell):
     tell(signer_in_words(head.signature, public_key, False))
 
 
+# Primary result codes of SQLite that say nothing of what stands in the file: PERM, BUSY, LOCKED, NOMEM, READONLY, IOERR, FULL, CANTOPEN.
+NOT_READ = {3, 5, 6, 7, 8, 10, 13, 14}
+
+
+class Reading:
+    """How a file of SQLite is read so that nothing is left beside it: with the write-ahead log where one is there; else as a file
+    that does not change where its folder cannot be written, so that SQLite makes no log; else as one that may be written, by
+    whom the log that was made is taken away again. Nothing is written."""
+
+    def __init__(self, path):
+        self.path = os.path.realpath(path)
+        self.before = self.now()
+        has_log = self.before[-1]
+        self.is_immutable = not has_log and not os.access(os.path.dirname(self.path), os.W_OK)
+        self.mode = "mode=ro" if has_log else "mode=ro&immutable=1" if self.is_immutable else "mode=rw"
+
+    def now(self):
+        """What tells whether somebody writes; the last: whether SQLite keeps entries, or what it has to take back, beside the file."""
+        status = os.stat(self.path)
+        beside = [self.path + ending for ending in ("-wal", "-journal")]
+        return status.st_ino, status.st_size, status.st_mtime_ns, any(os.path.exists(one) and os.path.getsize(one) > 0 for one in beside)
+
+    def require_unchanged(self):
+        if self.is_immutable and self.now() != self.before:
+            raise OSError(errno.EBUSY, "was written while it was read; try again", self.path)
+
+
 def verify_store(path, heads):
     """Findings of an archive in one file of SQLite."""
-    database = sqlite3.connect(f"file:{urllib.parse.quote(str(path))}?mode=ro", uri=True)
+    reading = Reading(path)
+    found = list(findings_of_store(path, reading, heads))
+    reading.require_unchanged()
+    yield from found
+
+
+def findings_of_store(path, reading, heads):
+    try:
+        database = sqlite3.connect(f"file:{urllib.parse.quote(reading.path)}?{reading.mode}", uri=True)
+    except sqlite3.Error as trouble:
+        raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
     try:
         database.text_factory = bytes
+        database.execute("PRAGMA query_only = ON")
         database.execute("PRAGMA cell_size_check = ON")
         database.execute("PRAGMA trusted_schema = OFF")
         database.execute("BEGIN")
         yield from findings_of(database, heads)
     except (sqlite3.Error, OverflowError, UnicodeDecodeError) as trouble:
+        if getattr(trouble, "sqlite_errorcode", 0) & 0xFF in NOT_READ:
+            raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
         yield f"SQLite: {trouble}"
     finally:
         database.close()

@@ -1,6 +1,7 @@
 #include "app/archive/affected_certificates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <future>
@@ -10,12 +11,14 @@
 #include <tuple>
 #include <utility>
 
+#include "app/archive/archive_files.h"
 #include "app/archive/record_parts.h"
 #include "app/recompute_record.h"
 #include "gum/expression/name_spelling.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
+#include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/record_value.h"
 #include "text/csv_field.h"
 #include "text/lists.h"
@@ -28,6 +31,9 @@ namespace {
 
 // Bounds the memory: so many are worked at, and as many are read meanwhile.
 constexpr std::size_t k_records_at_once = 256;
+
+constexpr const char* k_withdrawn = "withdrawn";
+constexpr const char* k_text = "text";  // kind of a change, as reports::changes_between() has it
 
 /// How something is done beside the work of some threads: where one alone is wanted, afterwards.
 std::launch beside(const gum::WorkerThreads& threads) {
@@ -289,12 +295,6 @@ double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
     return largest;
 }
 
-std::string folder_of_number(std::string number) {
-    std::replace_if(
-        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
-    return number;
-}
-
 /// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
 /// stay as they are: the job lies so much deeper.
 class DraftPlaces {
@@ -331,17 +331,36 @@ bool is_shown(const RecordChange& change) {
     return change.kind == ChangeKind::printed || change.kind == ChangeKind::verdict;
 }
 
-nlohmann::json shown_change_list(const std::vector<RecordChange>& changes) {
+nlohmann::json shown_change_list(const Recalculation& recalculation) {
     nlohmann::json list = nlohmann::json::array();
-    for (const RecordChange& change : changes) {
+    const auto add = [&](const char* kind, const RecordChange& change) {
+        list.push_back({{"kind", kind}, {"place", change.place}, {"before", change.before}, {"now", change.now}});
+    };
+    for (const RecordChange& change : recalculation.rerun.changes) {
         if (is_shown(change)) {
-            list.push_back({{"kind", word_of(change.kind)},
-                            {"place", change.place},
-                            {"before", change.before},
-                            {"now", change.now}});
+            add(word_of(change.kind), change);
         }
     }
+    for (const RecordChange& change : recalculation.texts) {
+        add(k_text, change);
+    }
     return list;
+}
+
+/// What the certificates of two records state otherwise in words.
+std::vector<RecordChange> texts_that_change(const reports::EvaluationRecord& before,
+                                            const reports::EvaluationRecord& now) {
+    std::vector<RecordChange> texts;
+    if (!before.certificate || !now.certificate) {
+        return texts;
+    }
+    for (const certificate::Change& change : reports::changes_between(*before.certificate, *now.certificate)) {
+        if (change.kind == k_text &&
+            texts.size() < k_most_changes) {  // numbers and verdicts are told by tell_changes()
+            texts.push_back({ChangeKind::other, change.where, change.before, change.after});
+        }
+    }
+    return texts;
 }
 
 /// Job, certificate data and all files of an amendment.
@@ -350,7 +369,7 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
                                           const reports::EvaluationRecord& corrected, const Correction& correction) {
     constexpr const char* record_name = "original_record.json";
     const DraftPlaces places(corrected.job_files);
-    const std::filesystem::path folder = folder_of_number(one.draft_number);
+    const std::filesystem::path folder = one.draft_name;
     std::map<std::string, std::string> files;
     for (const reports::InputFile& file : corrected.job_files) {
         if (std::filesystem::path(file.name).is_absolute()) {
@@ -379,7 +398,10 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
         {"kind", "amended"},
         {"number", one.certificate.number},
         {"reason", correction.reason},
-        {"changes", {"Results calculated again with the corrected standard " + correction.standard}},
+        {"changes",
+         {(one.recalculated->rerun.is_negative() ? "Results calculated again with the corrected standard "
+                                                 : "What is stated of the corrected standard ") +
+          correction.standard}},
         {"record", record_name}};
     if (inside) {
         job["certificate"] = certificate;
@@ -396,13 +418,13 @@ std::vector<OutputFile> drafted_amendment(const AffectedCertificate& one, const 
         draft.push_back({folder / places.of(name), bytes});
     }
     draft.push_back({folder / places.of(record_name), original});
-    draft.push_back({folder / "changes.json",
-                     gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
-                                                    {"number", one.draft_number},
-                                                    {"amends", one.certificate.number},
-                                                    {"reason", correction.reason},
-                                                    {"job", places.of(job_name).generic_string()},
-                                                    {"changes", shown_change_list(one.recalculated->rerun.changes)}})});
+    draft.push_back(
+        {folder / "changes.json", gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                                 {"number", one.draft_number},
+                                                                 {"amends", one.certificate.number},
+                                                                 {"reason", correction.reason},
+                                                                 {"job", places.of(job_name).generic_string()},
+                                                                 {"changes", shown_change_list(*one.recalculated)}})});
     return draft;
 }
 
@@ -412,7 +434,7 @@ struct Recalculated {
     reports::EvaluationRecord corrected;
 };
 
-Recalculated recalculated(const std::string& number, const std::string& through, const std::string& original,
+Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
                           const Correction& correction) {
     Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
     RerunRecord& rerun = done.result.rerun;
@@ -426,11 +448,13 @@ Recalculated recalculated(const std::string& number, const std::string& through,
             rerun.not_evaluated = cannot_say(number, missing->what);
         } else if (!correct_files(record, correction)) {
             rerun.not_evaluated =
-                cannot_say(number, through.empty() ? "its job does not take the standard from the register"
-                                                   : "it rests on " + through + ", which is to be amended first");
+                cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
+                                                     : "it rests on " + waits_for);
         } else {
-            const nlohmann::json now = reports::to_json_value(evaluated_again(record, number, 1, correction.templates));
+            const reports::EvaluationRecord again = evaluated_again(record, number, 1, correction.templates);
+            const nlohmann::json now = reports::to_json_value(again);
             tell_changes(read.value, now, rerun);
+            done.result.texts = texts_that_change(record, again);
             std::erase_if(rerun.changes, [](const RecordChange& change) { return !is_shown(change); });
             done.result.shift = largest_shift(read.value, now);
         }
@@ -441,8 +465,7 @@ Recalculated recalculated(const std::string& number, const std::string& through,
 }
 
 bool needs_amendment(const AffectedCertificate& one) {
-    return one.recalculated && !one.recalculated->rerun.not_evaluated && one.recalculated->rerun.is_negative() &&
-           one.certificate.state == "issued";
+    return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
 }
 
 /// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
@@ -450,7 +473,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
               const DraftSink& drafts) {
     std::optional<reports::EvaluationRecord> corrected;
     if (!one.recalculated) {
-        Recalculated done = recalculated(one.certificate.number, one.through, original, correction);
+        Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
         one.recalculated = std::move(done.result);
         corrected = std::move(done.corrected);
     }
@@ -463,7 +486,7 @@ void work_out(AffectedCertificate& one, const std::string& original, const Corre
     }
     const std::vector<OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
     if (!draft.empty()) {
-        one.draft_folder = folder_of_number(one.draft_number);
+        one.draft_folder = one.draft_name;
         if (drafts.write) {
             drafts.write(draft);
         }
@@ -482,30 +505,48 @@ std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& af
     return originals;
 }
 
-/// Of which a person reads first.
+constexpr std::array<const char*, 5> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "same"};
+
+/// Index of k_outcomes: what a person reads first comes first.
+std::size_t index_of_outcome(const Recalculation& one) {
+    return one.rerun.not_evaluated                    ? 3
+           : one.rerun.count(ChangeKind::verdict) > 0 ? 0
+           : one.rerun.count(ChangeKind::printed) > 0 ? 1
+           : !one.texts.empty()                       ? 2
+                                                      : 4;
+}
+
 auto rank_of(const AffectedCertificate& one) {
-    static const RerunRecord k_none;
-    const RerunRecord& rerun = one.recalculated ? one.recalculated->rerun : k_none;
-    const bool unknown = rerun.not_evaluated.has_value();
-    return std::tuple(rerun.count(ChangeKind::verdict) == 0, unknown || !rerun.is_negative(), !unknown,
+    return std::tuple(one.recalculated ? index_of_outcome(*one.recalculated) : k_outcomes.size(),
                       one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
 }
 
 std::string outcome_of(const AffectedCertificate& one) {
-    if (!one.recalculated) {
-        return "not_recalculated";
+    return one.recalculated ? k_outcomes.at(index_of_outcome(*one.recalculated)) : "not_recalculated";
+}
+
+/// Numbers that differ in characters that no file name has, such as "N/1" and "N_1", do not share a folder.
+void name_drafts(std::vector<AffectedCertificate>& affected) {
+    std::set<std::string> taken;
+    for (AffectedCertificate& one : affected) {
+        const std::string name = file_name_of_number(one.draft_number);
+        one.draft_name = name;
+        for (int ordinal = 2; !taken.insert(one.draft_name).second; ++ordinal) {
+            one.draft_name = name + "-" + std::to_string(ordinal);
+        }
     }
-    const RerunRecord& rerun = one.recalculated->rerun;
-    return rerun.not_evaluated                    ? "cannot_say"
-           : rerun.count(ChangeKind::verdict) > 0 ? "verdict"
-           : rerun.count(ChangeKind::printed) > 0 ? "printed"
-                                                  : "same";
 }
 
 std::string period_of(const AffectedCertificate& one) {
     return one.used_from.empty() && one.used_to.empty() ? "unknown"
            : one.used_from == one.used_to               ? one.used_to
                                                         : one.used_from + "/" + one.used_to;
+}
+
+std::string through_text(const AffectedCertificate& one) {
+    return one.through.empty() ? ""
+                               : "through " + text::visible(one.through, 80) +
+                                     (one.through_state == k_withdrawn ? ", withdrawn: " : ": ");
 }
 
 std::string filled(std::string text, std::size_t width) {
@@ -524,21 +565,32 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
     std::vector<AffectedCertificate> affected;
     std::set<std::size_t> known;
     struct Wanted {
-        std::string name, through;
+        std::string name, through, through_state;
     };
-    std::deque<Wanted> wanted{{standard.name, ""}};
+    std::deque<Wanted> wanted{{standard.name, "", ""}};
     if (remarks != nullptr) {
         *remarks = remarks_on_name(standard.name, texts);
     }
+    // What rests on a certificate is followed whether that one still holds or not: a withdrawal says nothing to those who
+    // have used it. Only the answer leaves it out.
+    const auto find = [&](std::size_t i, const Wanted& by, std::vector<StandardReference> because) {
+        const archive::ListedCertificate& certificate = records[i].certificate;
+        const bool is_read = records[i].references.has_value();
+        if (certificate.state != k_withdrawn) {
+            affected.push_back({.certificate = certificate,
+                                .used_from = is_read ? records[i].references->used_from : "",
+                                .used_to = is_read ? records[i].references->used_to : "",
+                                .because = std::move(because),
+                                .through = by.through,
+                                .through_state = by.through_state,
+                                .draft_number = search.free_number(certificate.number)});
+        }
+        wanted.push_back({certificate.number, certificate.number, certificate.state});
+    };
     for (std::size_t i = 0; i < records.size(); ++i) {
-        if (!records[i].references && records[i].certificate.state != "withdrawn") {  // it may rest on anything
+        if (!records[i].references) {  // it may rest on anything
             known.insert(i);
-            affected.push_back({.certificate = records[i].certificate,
-                                .used_from = {},
-                                .used_to = {},
-                                .because = {{StandardReference::Kind::source, "the record cannot be read"}},
-                                .through = {},
-                                .draft_number = search.free_number(records[i].certificate.number)});
+            find(i, {}, {{StandardReference::Kind::source, "the record cannot be read"}});
         }
     }
     while (!wanted.empty()) {
@@ -547,29 +599,29 @@ std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const 
         for (const std::size_t i : texts.that_name(next.name)) {
             const SearchedRecord& record = records[i];
             // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
-            if (record.certificate.state == "withdrawn" || record.certificate.number == next.name ||
-                !is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") ||
-                !known.insert(i).second) {
-                continue;
+            if (record.certificate.number != next.name &&
+                is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") &&
+                known.insert(i).second) {
+                find(i, next, references_that_name(next.name, *record.references));
             }
-            affected.push_back({.certificate = record.certificate,
-                                .used_from = record.references->used_from,
-                                .used_to = record.references->used_to,
-                                .because = references_that_name(next.name, *record.references),
-                                .through = next.through,
-                                .draft_number = search.free_number(record.certificate.number)});
-            wanted.push_back({record.certificate.number, record.certificate.number});
         }
     }
     std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
         return a.certificate.number < b.certificate.number;
     });
+    name_drafts(affected);
     return affected;
 }
 
-Recalculation recalculation_of(const std::string& number, const std::string& through, const std::string& original,
+std::string waits_for(const AffectedCertificate& certificate) {
+    return certificate.through.empty()                ? ""
+           : certificate.through_state == k_withdrawn ? certificate.through + ", which was withdrawn"
+                                                      : certificate.through + ", which is to be amended first";
+}
+
+Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
                                const Correction& correction) {
-    return recalculated(number, through, original, correction).result;
+    return recalculated(number, waits_for, original, correction).result;
 }
 
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
@@ -612,10 +664,16 @@ std::string affected_text(const std::vector<AffectedCertificate>& affected) {
             text += "  " + text::significant(one.recalculated->shift, 3) + " U";
         }
         text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
-        text += "\n    " + (one.through.empty() ? std::string() : "through " + text::visible(one.through, 80) + ": ") +
-                word_of(one.because.front().kind) + " \"" + text::visible(one.because.front().text, 120) + "\"\n";
+        text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
+                text::visible(one.because.front().text, 120) + "\"\n";
         if (one.recalculated && one.recalculated->rerun.not_evaluated) {
             text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
+        }
+        constexpr std::size_t k_most_texts = 3;
+        for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
+            const RecordChange& change = one.recalculated->texts[i];
+            text += "    " + text::visible(change.place, 80) + ": " + text::in_quotes(change.before) + " -> " +
+                    text::in_quotes(change.now) + "\n";
         }
     }
     return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
@@ -636,6 +694,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"used_to", one.used_to},
                              {"because", std::move(because)},
                              {"through", one.through},
+                             {"through_state", one.through_state},
                              {"outcome", outcome_of(one)},
                              {"shift", nullptr},
                              {"changes", nlohmann::json::array()},
@@ -643,7 +702,7 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
                              {"cannot_say", ""}};
         if (one.recalculated) {
             const RerunRecord& rerun = one.recalculated->rerun;
-            shown["changes"] = shown_change_list(rerun.changes);
+            shown["changes"] = shown_change_list(*one.recalculated);
             if (rerun.not_evaluated) {
                 shown["cannot_say"] = rerun.not_evaluated->what;
             } else {
@@ -660,14 +719,14 @@ std::string affected_json(const std::vector<AffectedCertificate>& affected, cons
 }
 
 std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
-    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft\n";
+    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft,through_state\n";
     for (const AffectedCertificate& one : affected) {
         const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
         all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
                text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
                text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
                "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
-               text::csv_field(one.draft_folder) + "\n";
+               text::csv_field(one.draft_folder) + "," + one.through_state + "\n";
     }
     return all;
 }

@@ -28,6 +28,14 @@ struct Recalculation {
     RerunRecord rerun;   ///< not_evaluated where nothing can be said, GC-ARCHIVE-0062; of the changes it lists those of
                          ///< printed digits and verdicts
     double shift = 0.0;  ///< largest change of a value or of its U, relative to the U that was issued
+    /// Texts of the certificate data that change, such as the certificate of the standard in a row of traceability; the first
+    /// ones. Their kind is `other`.
+    std::vector<RecordChange> texts = {};
+
+    /// Whether the certificate would state anything else than it does.
+    [[nodiscard]] bool states_otherwise() const {
+        return !rerun.not_evaluated && (rerun.is_negative() || !texts.empty());
+    }
 };
 
 /// A certificate that rests on it.
@@ -35,8 +43,10 @@ struct AffectedCertificate {
     archive::ListedCertificate certificate;
     std::string used_from, used_to;          ///< days of the work; "" where the record states none
     std::vector<StandardReference> because;  ///< what its record says
-    std::string through;       ///< number of the affected certificate that it rests on itself; "" where on the standard
-    std::string draft_number;  ///< the next free number of an amendment of it
+    std::string through;          ///< number of the certificate that it rests on itself; "" where on the standard
+    std::string through_state;    ///< of that certificate, which may be withdrawn
+    std::string draft_number;     ///< the next free number of an amendment of it
+    std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
 
     std::optional<Recalculation> recalculated = {};
     std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed
@@ -44,7 +54,8 @@ struct AffectedCertificate {
 
 /// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
 /// every one that rests on a certificate that was found, from the first day on. What names() says of references_of() is
-/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones.
+/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones; what rests on a withdrawn one, or on one whose
+/// record cannot be read, is found through it.
 /// \param remarks  none, or GC-ARCHIVE-0064, warnings: names in records that differ from the standard in their spelling alone,
 ///                 and that no record names it
 [[nodiscard]] std::vector<AffectedCertificate> find_affected(archive::Archive& archive, const WrongStandard& standard,
@@ -59,10 +70,13 @@ struct Correction {
     std::filesystem::path templates;
 };
 
+/// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
+[[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);
+
 /// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
 /// \param original  bytes of the record
-/// \param through   as of the certificate
-[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& through,
+/// \param waits_for  as waits_for() says of the certificate
+[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& waits_for,
                                              const std::string& original, const Correction& correction);
 
 /// Where drafts of amendments go.
@@ -73,14 +87,14 @@ struct DraftSink {
     std::function<void()> finish = {};
 };
 
-/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit or
-/// a verdict changes, and ranks them; on several cores, with the same result for any number of threads.
+/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit, a
+/// verdict or a text changes, and ranks them; on several cores, with the same result for any number of threads.
 /// \param archive  in which they were found
 void recalculate(std::vector<AffectedCertificate>& affected, archive::Archive& archive, const Correction& correction,
                  unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});
 
-/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then those of which
-/// nothing can be said, before those that stay.
+/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then texts, then those of
+/// which nothing can be said, before those that stay.
 void rank(std::vector<AffectedCertificate>& affected);
 
 /// For people, for programs (schema gumcert/archive-affected/1), as a table.

@@ -1,6 +1,7 @@
 #include "app/archive/archive_draft.h"
 
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -189,6 +190,8 @@ private:
         std::vector<std::string> pages;
         try {
             pages = reports::texts_of_pages(bytes);
+        } catch (const std::bad_alloc&) {
+            throw;  // says nothing of the document
         } catch (const std::exception& damaged) {
             refuse_document(file, std::string("its pages cannot be read: ") + damaged.what(),
                             "an archive keeps records and the documents that are made of them",

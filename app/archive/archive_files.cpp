@@ -128,6 +128,19 @@ ArchiveFile archive_file_of(std::string_view text) {
                                                     : ArchiveFile::other;
 }
 
+std::string file_name_of_number(std::string number) {
+    std::replace_if(
+        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
+    return number;
+}
+
+std::string certificate_of_evidence(std::string_view text) {
+    const json value = json::parse(text, nullptr, false);
+    return value.is_object() && value.value("schema", json()) == "gumcert/archive-evidence/1"
+               ? text_of(value, "certificate")
+               : std::string();
+}
+
 TrustedHeads::TrustedHeads(const std::vector<std::string>& files, const std::string& trust)
     : key_(trust.empty() ? "" : signing::ed25519_public_key(trust)) {
     for (const std::string& file : files) {

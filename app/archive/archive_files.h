@@ -14,6 +14,13 @@ namespace gumcert::app {
 enum class ArchiveFile { head, evidence, other };
 [[nodiscard]] ArchiveFile archive_file_of(std::string_view text);
 
+/// A name of a file in which nothing of a number of a certificate leads elsewhere: "EX-2026-0042_A1" of
+/// "EX-2026-0042/A1". Several numbers may give the same name.
+[[nodiscard]] std::string file_name_of_number(std::string number);
+
+/// The certificate that a file is evidence of; "" where it is no evidence.
+[[nodiscard]] std::string certificate_of_evidence(std::string_view text);
+
 /// Heads from elsewhere, and the key that they must be signed with.
 class TrustedHeads {
 public:

@@ -35,7 +35,12 @@ std::string as_text(const Recalculation& one) {
     for (const RecordChange& change : one.rerun.changes) {
         changes.push_back({static_cast<int>(change.kind), change.place, change.before, change.now});
     }
+    json texts = json::array();
+    for (const RecordChange& change : one.texts) {
+        texts.push_back({change.place, change.before, change.now});
+    }
     return dumped({{"changes", std::move(changes)},
+                   {"texts", std::move(texts)},
                    {"counts", one.rerun.counts},
                    {"made_by", {one.rerun.made_by.version, one.rerun.made_by.commit}},
                    {"kind", one.rerun.kind},
@@ -53,6 +58,10 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<ChangeKind>(change.at(0).get<int>()), change.at(1).get<std::string>(),
                                      change.at(2).get<std::string>(), change.at(3).get<std::string>()});
+    }
+    for (const json& change : value.at("texts")) {
+        one.texts.push_back({ChangeKind::other, change.at(0).get<std::string>(), change.at(1).get<std::string>(),
+                             change.at(2).get<std::string>()});
     }
     if (!value.at("cannot_say").is_null()) {
         one.rerun.not_evaluated = diagnostic_in(value.at("cannot_say"));
@@ -111,7 +120,7 @@ WorkToShare work_of(const std::vector<AffectedCertificate>& affected, const Corr
         .tasks = {}};
     for (const AffectedCertificate& one : affected) {
         shared.tasks.push_back(
-            {one.certificate.number, dumped({{"record", one.certificate.record}, {"through", one.through}})});
+            {one.certificate.number, dumped({{"record", one.certificate.record}, {"waits_for", waits_for(one)}})});
     }
     return identified(std::move(shared));
 }
@@ -146,7 +155,7 @@ std::size_t ArchiveWorker::do_some(const archive::SharedWork& work) {
             threads_.run(tasks.size(), [&](unsigned /*worker*/, std::size_t i) {
                 results[i] = work.kind == k_replay
                                  ? as_text(replay_record(records[i], tasks[i].name, 1, templates_))
-                                 : as_text(recalculation_of(tasks[i].name, text_of(inputs[i], "through"), records[i],
+                                 : as_text(recalculation_of(tasks[i].name, text_of(inputs[i], "waits_for"), records[i],
                                                             correction));
             });
             return results;

@@ -349,15 +349,36 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
     return done;
 }
 
+/// The files that an action with an output reads: no output takes the place of one.
+std::vector<fs::path> inputs_of(const ArchiveOptions& options) {
+    return {options.store, options.sign, options.since};
+}
+
+/// SQLite keeps a log and its index beside an archive: a file of another kind with that name would be taken for them, also
+/// when they are not there now.
+void require_not_beside_the_store(const fs::path& output, const ArchiveOptions& options) {
+    std::error_code error;
+    const fs::path place = fs::weakly_canonical(output, error);
+    for (const char* const ending : {"-wal", "-shm", "-journal"}) {
+        if (!archive::is_postgresql(options.store) &&
+            place == fs::weakly_canonical(options.store, error).concat(ending)) {
+            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0004", output.string(),
+                                                    "is the name of a file that SQLite keeps beside the archive",
+                                                    "inputs are never changed", "choose another name with -o"});
+        }
+    }
+}
+
 /// Output of a reading action: a file, or the terminal.
 class Output {
 public:
     /// Before anything of the archive is read.
     Output(std::string place, const ArchiveOptions& options, const CommonOptions& common)
-        : place_(place == "-" ? "" : std::move(place)), inputs_{options.store, options.sign}, quiet_(common.quiet) {
+        : place_(place == "-" ? "" : std::move(place)), inputs_(inputs_of(options)), quiet_(common.quiet) {
         if (!place_.empty()) {
             app::require_writable(place_);
             app::require_not_an_input(place_, inputs_);
+            require_not_beside_the_store(place_, options);
             at_start_ = begin_outputs({place_}, common);
         }
     }
@@ -378,13 +399,6 @@ private:
     bool quiet_;
     app::OutputsAtStart at_start_;
 };
-
-/// A name of a file in which nothing of the number leads elsewhere.
-std::string file_name_of_number(std::string number) {
-    std::replace_if(
-        number.begin(), number.end(), [](char c) { return c == '/' || c == '\\' || c == ':' || c == ' '; }, '_');
-    return number;
-}
 
 archive::Head::Signature signature_of(const std::string& bytes, const std::string& key) {
     signing::Ed25519Signature signature = signing::sign_ed25519(bytes, key);
@@ -408,11 +422,26 @@ std::optional<archive::Head> head_since_of(const ArchiveOptions& options) {
                : archive::head_from_json(text, options.since);
 }
 
+/// Several numbers, "N/1" and "N_1", have one name of a file. Whoever has not named the file does not know that it stands for
+/// another certificate.
+void require_own_evidence(const fs::path& file, const std::string& number) {
+    std::error_code error;
+    const std::string other =
+        fs::exists(file, error) ? app::certificate_of_evidence(app::read_file(file)) : std::string();
+    if (!other.empty() && other != number) {
+        refuse_usage(file.string(), "is evidence of " + text::one_line(other) + ", not of " + text::one_line(number),
+                     "evidence of two certificates stands in two files", "name another file with -o");
+    }
+}
+
 ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
     const std::string output =
-        options.output.empty() ? file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
+        options.output.empty() ? app::file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
     const auto store = opened(options, archive::Access::read_only);
     const Output file(output, options, common);
+    if (options.output.empty()) {
+        require_own_evidence(output, options.named.front());
+    }
     archive::Evidence evidence = archive::evidence_of(*store, options.named.front(), head_since_of(options));
     sign(evidence.head, options.sign);
     if (!options.sign.empty()) {
@@ -544,6 +573,7 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     if (fs::exists(file, error) || error) {
         refuse_usage(file.string(), "is there already", "a backup is a new file", "choose another name");
     }
+    require_not_beside_the_store(file, options);
     // A folder of a command that was killed goes when the next one is made.
     const fs::path place = file.has_parent_path() ? file.parent_path() : ".";
     const system::TemporaryFolder folder(place);

@@ -127,10 +127,11 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
                          "write to another place, and add the calibration to the file");
         }
     }
+    const std::vector<std::filesystem::path> inputs{file, trust_store};
     app::OutputsAtStart at_start;
     if (!output.empty() && output != "-") {
         app::require_writable(output);
-        app::require_not_an_input(output, {file});
+        app::require_not_an_input(output, inputs);
         at_start = begin_outputs({output}, common);
     }
     const imports::ImportedJob imported =
@@ -141,7 +142,7 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
         write_to_stdout(imported.job);
         return imported.negative ? negative_answer : done;
     }
-    write_outputs({{output, imported.job}}, {file}, at_start);
+    write_outputs({{output, imported.job}}, inputs, at_start);
     if (!common.quiet) {
         fmt::print("Written: {}\nNext: {} {}\n", output,
                    standard.empty() ? "keep the inputs that you need, write the model, gumcert run"

@@ -85,7 +85,9 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
             return *ended;
         }
     } catch (const std::invalid_argument& wrong) {
-        refuse_usage("command line", wrong.what(), "see gumcert --help", "correct the command");
+        std::string said = wrong.what();  // with words of the command line
+        archive::hide_passwords(said);
+        refuse_usage("command line", said, "see gumcert --help", "correct the command");
     }
     keep_ceilings(with_walls_of_command(a));
     if (a.documents.languages.size() > 2) {

@@ -12,17 +12,18 @@ namespace gumcert::archive {
 /// Whether an address is one of PostgreSQL, "postgresql://…" or "postgres://…"; every other one is a file of SQLite.
 [[nodiscard]] bool is_postgresql(const std::string& address);
 
-/// Overwrites the passwords of an address of PostgreSQL with x, wherever in a word of the command line it begins: other
-/// users of the machine can read those words. Every other word stays as it is.
+/// Overwrites with x the passwords of addresses (SCHEME://USER:PASSWORD@…) and behind password=, wherever in a word of the
+/// command line they stand: other users of the machine can read those words. Every other word stays as it is.
 void hide_passwords(std::span<char> word);
 
 /// A new archive with its first entry, and with what `fill` adds: all of it or nothing.
-/// \throws gum::StorageError  GC-ARCHIVE-0002 where it is there already, and others
+/// \throws gum::StorageError  GC-ARCHIVE-0002 where it is there already, -0006 where the address is one of something else, and
+///                            others
 [[nodiscard]] std::unique_ptr<Store> create_store(const std::string& address, const LogEntry& first,
                                                   const Fill& fill = {});
 
 /// An archive that is there.
-/// \throws gum::StorageError  GC-ARCHIVE-0001, -0003 where there is none, and others
+/// \throws gum::StorageError  GC-ARCHIVE-0001, -0003 where there is none, -0006 as above, and others
 [[nodiscard]] std::unique_ptr<Store> open_store(const std::string& address, Access access);
 
 /// A new archive with the log and the contents of another one: the same entries with the same hashes, so that heads and

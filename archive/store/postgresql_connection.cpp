@@ -1,7 +1,9 @@
 #include "archive/store/postgresql_connection.h"
 
 #include <array>
+#include <memory>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -68,6 +70,37 @@ std::string first_line(std::string_view text) {
         "key tells whether it was carried out");
 }
 
+/// Shows nothing of the address: what cannot be read may be a password.
+[[noreturn]] void refuse_address(const char* what) {
+    refuse_server(
+        "GC-ARCHIVE-0006", "postgresql://…", std::string("the address ") + what,
+        "an archive on a server has an address postgresql://HOST:PORT/DATABASE",
+        "correct the address; @, /, ? and % in user, password and parameters are written %40, %2F, %3F and %25");
+}
+
+/// libpq ends a password at the first @, and knows none where a / comes before: the rest of it would be a host, a port or a
+/// database, and stand in messages. What libpq says of an address that it cannot read holds parts of it, too.
+void require_readable(const std::string& address) {
+    const std::size_t begin = address.find("//") + 2;
+    const std::size_t at = address.find('@', begin);
+    if (at != std::string::npos && (at > address.find('/', begin) || address.find('@', at + 1) != std::string::npos)) {
+        refuse_address("has an @ that does not end user and password");
+    }
+    const std::unique_ptr<PQconninfoOption, decltype(&PQconninfoFree)> options(
+        PQconninfoParse(address.c_str(), nullptr), &PQconninfoFree);
+    if (options == nullptr) {
+        refuse_address("cannot be read");
+    }
+    for (const PQconninfoOption* option = options.get(); option->keyword != nullptr; ++option) {
+        const std::string_view keyword = option->keyword;
+        const std::string_view value = option->val == nullptr ? "" : option->val;
+        if ((keyword == "port" && value.find_first_not_of("0123456789,") != std::string_view::npos) ||
+            (keyword == "dbname" && value.find_first_of("/@") != std::string_view::npos)) {
+            refuse_address("cannot be read");
+        }
+    }
+}
+
 std::string or_default(const char* text, const char* otherwise) {
     return text == nullptr || *text == '\0' ? otherwise : text;
 }
@@ -87,6 +120,7 @@ std::int64_t PostgresqlRows::integer(int row, int index) const {
 }
 
 PostgresqlConnection::PostgresqlConnection(const std::string& address) : name_("postgresql://") {
+    require_readable(address);
     constexpr std::array<const char*, 4> names = {"dbname", "connect_timeout", "fallback_application_name", nullptr};
     const std::array<const char*, 4> values = {address.c_str(), "30", "gumcert", nullptr};
     connection_.reset(PQconnectdbParams(names.data(), values.data(), 1));
@@ -94,11 +128,8 @@ PostgresqlConnection::PostgresqlConnection(const std::string& address) : name_("
     if (connection == nullptr) {
         throw std::bad_alloc();
     }
-    // Where the address itself cannot be read, what libpq says of it may hold the password.
     if (PQhost(connection) == nullptr || PQdb(connection) == nullptr) {
-        refuse_server("GC-ARCHIVE-0006", "postgresql://…", "the address cannot be read",
-                      "an archive on a server has an address postgresql://HOST:PORT/DATABASE",
-                      "correct the address; ? and % in a password are written %3F and %25");
+        refuse_address("cannot be read");
     }
     name_ += or_default(PQhost(connection), "localhost") + ":" + or_default(PQport(connection), "5432") + "/" +
              or_default(PQdb(connection), "");

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -50,9 +51,11 @@ std::string select_entries(const char* rest) {
     return std::string("SELECT ") + k_entry_columns + " FROM log " + rest;
 }
 
-Database open_database(const fs::path& file, int flags) {
+/// \param address  of the file where it is opened in another way than by its name (SQLITE_OPEN_URI)
+Database open_database(const fs::path& file, int flags, const std::string& address = "") {
     sqlite3* opened = nullptr;
-    const int result = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_EXRESCODE, nullptr);
+    const int result = sqlite3_open_v2(address.empty() ? file.c_str() : address.c_str(), &opened,
+                                       flags | SQLITE_OPEN_EXRESCODE, nullptr);
     Database database(opened);
     if (result != SQLITE_OK) {
         refuse_sqlite(database.get(), result, file.string());
@@ -97,7 +100,9 @@ void prepare(sqlite3* database, const fs::path& file, Access access) {
     for (const Setting& setting : k_settings_of_readers) {
         set(database, setting, file);
     }
-    if (access == Access::read_and_write) {
+    if (access == Access::read_only) {
+        set(database, {"query_only", "ON", "1"}, file);
+    } else {
         for (const Setting& setting : k_settings_of_writers) {
             set(database, setting, file);
         }
@@ -117,6 +122,64 @@ void refuse_network_share(const fs::path& folder) {
                      "an archive lies on a disk of the machine that writes it",
                      "choose a folder of this machine, and copy backups to the share");
     }
+}
+
+/// What tells whether somebody writes a file.
+struct StateOfFile {
+    dev_t device = 0;
+    ino_t number = 0;
+    off_t size = 0;
+    std::int64_t changed_s = 0, changed_ns = 0;
+    bool has_log = false;  ///< SQLite keeps entries, or what it has to take back, in another file beside it
+
+    friend bool operator==(const StateOfFile&, const StateOfFile&) = default;
+};
+
+StateOfFile state_of(const fs::path& file) {
+    struct stat found {};
+    std::error_code error;
+    if (stat(file.c_str(), &found) != 0) {
+        return {};
+    }
+    const auto size_of = [&](const char* ending) {
+        const std::uintmax_t size = fs::file_size(file.string() + ending, error);
+        return error ? 0 : size;
+    };
+    return {.device = found.st_dev,
+            .number = found.st_ino,
+            .size = found.st_size,
+            .changed_s = found.st_mtim.tv_sec,
+            .changed_ns = found.st_mtim.tv_nsec,
+            .has_log = size_of("-wal") > 0 || size_of("-journal") > 0};
+}
+
+/// How SQLite reads a file and leaves nothing beside it.
+struct Reading {
+    int flags = SQLITE_OPEN_READONLY;
+    std::string address = {};  ///< as open_database() takes it
+    fs::path unlocked = {};    ///< file that is read without a lock; empty else
+};
+
+/// A reader of a file with a write-ahead log makes that log and its index, and only who may write takes them away again. So a
+/// file without entries in a log is opened as one that may be written, and written it is not (query_only). Where the folder
+/// cannot be written, SQLite could not make them: such a file is read as one that does not change, and looked at again
+/// afterwards. With entries in a log, reading stays reading: closing would else bring them into the file.
+Reading reading_of(const fs::path& file) {
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    if (error || state_of(real).has_log) {
+        return {};
+    }
+    if (faccessat(AT_FDCWD, real.parent_path().c_str(), W_OK, AT_EACCESS) == 0) {
+        return {.flags = SQLITE_OPEN_READWRITE};
+    }
+    constexpr std::string_view k_plain = "/-._~0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    std::string address = "file:";
+    for (const char c : real.string()) {
+        address += k_plain.find(c) != std::string_view::npos ? std::string(1, c)
+                                                             : "%" + encoding::hexadecimal(std::string_view(&c, 1));
+    }
+    return {.flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, .address = address + "?immutable=1", .unlocked = real};
 }
 
 std::vector<std::string> schema_lines(sqlite3* database, const std::string& name) {
@@ -168,7 +231,10 @@ bool make_file(const fs::path& file) {
 
 class SqliteStore : public Store {
 public:
-    SqliteStore(fs::path file, Database database) : file_(std::move(file)), database_(std::move(database)) {}
+    /// \param unlocked  as of Reading
+    /// \param before    its state when it was opened
+    SqliteStore(fs::path file, Database database, fs::path unlocked = {}, StateOfFile before = {})
+        : file_(std::move(file)), database_(std::move(database)), unlocked_(std::move(unlocked)), before_(before) {}
 
     [[nodiscard]] std::string name() const override { return file_.string(); }
 
@@ -259,6 +325,8 @@ public:
 private:
     fs::path file_;
     Database database_;
+    fs::path unlocked_;
+    StateOfFile before_;
 
     [[nodiscard]] std::optional<std::string> stored_bytes(const std::string& sha256) override {
         Statement row = statement("SELECT bytes FROM content WHERE sha256 = ?1");
@@ -277,7 +345,17 @@ private:
         } catch (...) {
             // Some troubles have rolled back already; what counts is why, and that is thrown.
             (void)sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+            require_unchanged();
             throw;
+        }
+        require_unchanged();
+    }
+
+    /// What was read of a file that changed meanwhile says nothing of it.
+    void require_unchanged() const {
+        if (!unlocked_.empty() && state_of(unlocked_) != before_) {
+            refuse_store("GC-ARCHIVE-0004", file_, "was written while it was read",
+                         "an archive in a folder that cannot be written is read while nobody writes it", "try again");
         }
     }
 };
@@ -408,10 +486,12 @@ std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
                      "check the name, or begin one with gumcert archive init");
     }
     refuse_network_share(file.parent_path());
-    Database database = open_database(file, access == Access::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
+    const Reading reading = access == Access::read_only ? reading_of(file) : Reading{.flags = SQLITE_OPEN_READWRITE};
+    const StateOfFile before = reading.unlocked.empty() ? StateOfFile{} : state_of(reading.unlocked);
+    Database database = open_database(file, reading.flags, reading.address);
     require_archive(database.get(), file);
     prepare(database.get(), file, access);
-    return std::make_unique<SqliteStore>(file, std::move(database));
+    return std::make_unique<SqliteStore>(file, std::move(database), reading.unlocked, before);
 }
 
 std::string schema_digest() {

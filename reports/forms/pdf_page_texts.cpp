@@ -4,9 +4,11 @@
 #include "reports/forms/qpdf_objects.h"
 #include "text/utf8.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
-#include <memory>
+#include <new>
+#include <stdexcept>
 #include <utility>
 
 namespace gumcert::reports {
@@ -43,6 +45,63 @@ unsigned code_of(std::string_view bytes) {
     return code;
 }
 
+constexpr std::size_t k_largest_content = std::size_t{32} << 20U;     // of a page, or a map of a font, unpacked
+constexpr std::size_t k_largest_of_document = std::size_t{1} << 30U;  // all of them, each time that one is read
+constexpr std::size_t k_largest_text = std::size_t{256} << 20U;       // of all pages
+constexpr std::size_t k_most_codes = std::size_t{1} << 20U;           // that one map states, repetitions among them
+constexpr unsigned k_last_code = 0xFFFFU;                             // codes have two bytes (Identity-H)
+
+[[noreturn]] void refuse_content(const std::string& what) {
+    throw std::length_error(what);
+}
+
+/// Takes what a stream unpacks to, up to a limit.
+class LimitedContent : public Pipeline {
+public:
+    explicit LimitedContent(std::size_t most) : Pipeline("content", nullptr), most_(most) {}
+    void write(unsigned char const* data, std::size_t length) override {
+        if (length > most_ - content_.size()) {
+            is_too_large_ = true;
+            throw std::length_error("too large");  // ends the unpacking; qpdf keeps it to itself
+        }
+        content_.append(reinterpret_cast<const char*>(data), length);
+    }
+    void finish() override {}
+    [[nodiscard]] bool is_too_large() const { return is_too_large_; }
+    [[nodiscard]] std::string take() { return std::move(content_); }
+
+private:
+    std::size_t most_;
+    std::string content_;
+    bool is_too_large_ = false;
+};
+
+/// Unpacks the streams of one document. What is packed twice can unpack to nothing, and take any time for it.
+class Unpacker {
+public:
+    [[nodiscard]] std::string content_of(Object stream) {
+        Object filters = stream.getDict().getKey("/Filter");
+        if (filters.isArray() && filters.getArrayNItems() > 1) {
+            refuse_content("a part is packed more than once");
+        }
+        LimitedContent content(std::min(k_largest_content, left_));
+        bool is_filtered = false;
+        stream.pipeStreamData(&content, &is_filtered, 0, qpdf_dl_all);
+        if (content.is_too_large()) {
+            refuse_content("a page unpacks to more than 32 MiB, or all of them to more than 1 GiB");
+        }
+        if (!is_filtered) {
+            refuse_content("a part is packed in a way that is not known");
+        }
+        std::string taken = content.take();
+        left_ -= taken.size();
+        return taken;
+    }
+
+private:
+    std::size_t left_ = k_largest_of_document;
+};
+
 /// A ToUnicode map is a small PostScript program; the tokens that matter are strings, arrays and the operators.
 class CodeReader : public Object::ParserCallbacks {
 public:
@@ -72,8 +131,8 @@ private:
             return;
         }
         const unsigned low = code_of(first.getStringValue());
-        const unsigned high = code_of(last.getStringValue());
-        for (unsigned code = low; code <= high && code - low < 0x10000U; ++code) {
+        const unsigned high = std::min(code_of(last.getStringValue()), k_last_code);
+        for (unsigned code = low; code <= high; ++code) {
             if (to.isArray()) {
                 put(first, code - low, to.getArrayItem(static_cast<int>(code - low)), 0);
             } else {
@@ -85,22 +144,29 @@ private:
         if (!code.isString() || !text.isString()) {
             return;
         }
+        if (++codes_ > k_most_codes) {
+            refuse_content("a font states more than 1048576 codes");
+        }
         std::string utf16 = text.getStringValue();
         if (!utf16.empty()) {
             utf16.back() = static_cast<char>(
                 static_cast<unsigned char>(static_cast<unsigned>(static_cast<unsigned char>(utf16.back())) + beyond));
         }
-        texts_[code_of(code.getStringValue()) + further] = from_utf16(utf16);
+        if (const unsigned of = code_of(code.getStringValue()) + further; of <= k_last_code) {
+            texts_[of] = from_utf16(utf16);
+        }
     }
 
     CodeTexts& texts_;
+    std::size_t codes_ = 0;
     std::vector<Object> operands_;
 };
 
-CodeTexts code_texts(Object font) {
+CodeTexts code_texts(Object font, Unpacker& unpacker) {
     CodeTexts texts;
     Object map = font.getKey("/ToUnicode");
     if (map.isStream()) {
+        (void)unpacker.content_of(map);  // only to see that it may be: the parser takes the stream itself
         CodeReader reader(texts);
         // The reader of page contents knows the same tokens.
         Object::parseContentStream(map, &reader);
@@ -130,12 +196,14 @@ std::string bare(const std::string& text) {
 }
 
 /// The decoded content of a page; of several streams with a blank between them, as if they were one.
-std::string content_of(Object page) {
+std::string content_of(Object page, Unpacker& unpacker) {
     std::string content;
     for (Object& part : page.getPageContents()) {
-        const std::shared_ptr<Buffer> data = part.getStreamData(qpdf_dl_all);
-        content.append(reinterpret_cast<const char*>(data->getBuffer()), data->getSize());
+        content += unpacker.content_of(part);
         content += '\n';
+        if (content.size() > 2 * k_largest_content) {
+            refuse_content("a page unpacks to more than 64 MiB");
+        }
     }
     return content;
 }
@@ -143,6 +211,8 @@ std::string content_of(Object page) {
 /// The texts of the fonts of a document, each read when a page first draws with it.
 class Fonts {
 public:
+    explicit Fonts(Unpacker& unpacker) : unpacker_(unpacker) {}
+
     /// \return null where there is no such font
     const CodeTexts* find(Object resources, const std::string& name) {
         Object font = resources.isDictionary() ? resources.getKey("/" + name) : Object::newNull();
@@ -151,25 +221,30 @@ public:
         }
         const auto [found, is_new] = known_.try_emplace(font.getObjGen());
         if (is_new) {
-            found->second = code_texts(font);
+            found->second = code_texts(font, unpacker_);
         }
         return &found->second;
     }
 
 private:
+    Unpacker& unpacker_;
     std::map<QPDFObjGen, CodeTexts> known_;
 };
 
-std::string text_of_page(Object page, Fonts& fonts) {
+/// \param most  length of the text
+std::string text_of_page(Object page, Fonts& fonts, Unpacker& unpacker, std::size_t most) {
     Object resources = page.getKey("/Resources");
     resources = resources.isDictionary() ? resources.getKey("/Font") : Object::newNull();
     std::string text;
-    for (const DrawnCodes& drawn : drawn_codes(content_of(page))) {
+    for (const DrawnCodes& drawn : drawn_codes(content_of(page, unpacker))) {
         const CodeTexts* font = fonts.find(resources, drawn.font);
         // Two bytes a code (Identity-H).
         for (std::size_t i = 0; font != nullptr && i + 1 < drawn.codes.size(); i += 2) {
             const auto found = font->find(code_of(std::string_view(drawn.codes).substr(i, 2)));
             text += found == font->end() ? "" : found->second;
+            if (text.size() > most) {
+                refuse_content("its pages have more than 256 MiB of text");
+            }
         }
     }
     return bare(text);
@@ -285,10 +360,19 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
     QPDF pdf;
     pdf.setSuppressWarnings(true);
     pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
-    Fonts fonts;
+    Unpacker unpacker;
+    Fonts fonts(unpacker);
     std::vector<std::string> texts;
+    std::size_t left = k_largest_text;
     for (const Object& page : pdf.getAllPages()) {
-        texts.push_back(text_of_page(page, fonts));
+        texts.push_back(text_of_page(page, fonts, unpacker, left));
+        left -= std::min(left, texts.back().size());
+    }
+    for (const QPDFExc& warning : pdf.getWarnings()) {
+        // qpdf goes on where an allocation failed; what it reads then is not what stands there.
+        if (std::string_view(warning.what()).find("std::bad_alloc") != std::string_view::npos) {
+            throw std::bad_alloc();
+        }
     }
     return texts;
 }

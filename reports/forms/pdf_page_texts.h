@@ -12,7 +12,9 @@ namespace gumcert::reports {
 
 /// The text of every page of a PDF as a reader copies it, by the ToUnicode maps of its fonts, in the order in which it
 /// is drawn and without blanks. Texts in pictures are not looked at.
-/// \throws std::exception of the reader if the file is no PDF
+/// \throws std::exception of the reader if the file is no PDF, and where a page or a map of a font is packed more than once,
+///                        unpacks to more than 32 MiB, all of them to more than 1 GiB, or the text is longer than 256 MiB;
+///                        std::bad_alloc says nothing of the file
 [[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
 
 /// A text without blanks and hyphens, as texts_of_pages() gives it.

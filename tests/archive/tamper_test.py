@@ -45,7 +45,10 @@ class Judges:
         self.process.stdin.write(f"{store} {head or ''}\n")
         self.process.stdin.flush()
         first = self.process.stdout.readline().strip()
-        second = list(verify_archive.findings(store, [head] if head else []))
+        try:
+            second = list(verify_archive.findings(store, [head] if head else []))
+        except OSError as trouble:  # exit code 5: nothing is said of what stands there
+            second = [str(trouble)]
         return (first == "sound", first), (not second, "; ".join(second[:3]))
 
     def agree(self, store, head, name, sound=None):

@@ -466,6 +466,71 @@ TEST_F(ArchiveOfALaboratory, RefusesASearchThatSaysTooMuchOrTooLittle) {
     }
 }
 
+/// Whatever an action with an output reads, it does not write there.
+TEST_F(ArchiveOfALaboratory, WritesOverNothingThatItReads) {
+    issue_the_example();
+    write_bytes(path("key.pem"),
+                "-----BEGIN PRIVATE KEY-----\n"
+                "MC4CAQAwBQYDK2VwBCIEINTuctv5E1hK1bbY8fdp+K06/nwoy/HU++CXqI9EdVhC\n"
+                "-----END PRIVATE KEY-----\n");
+    ASSERT_EQ(archive({"head", "-o", path("head.json"), "--sign", path("key.pem")}).code, 0);
+    ASSERT_EQ(archive({"export", "EX-2026-0042", "-o", path("evidence.json"), "--sign", path("key.pem")}).code, 0);
+    const auto state = [&] {
+        std::map<std::string, std::string> files;
+        for (const fs::directory_entry& one : fs::directory_iterator(folder())) {
+            const std::string name = one.path().filename().string();
+            if (one.is_regular_file() && name.find("-shm") == std::string::npos) {
+                files[name] = bytes_of(one.path());
+            }
+        }
+        return files;
+    };
+    for (const std::vector<std::string>& action :
+         {std::vector<std::string>{"head"}, std::vector<std::string>{"export", "EX-2026-0042"}}) {
+        for (const char* const since : {"head.json", "evidence.json"}) {
+            for (const std::string place : {"head.json", "evidence.json", "key.pem", "lab.archive", "lab.archive-wal",
+                                            "lab.archive-shm", "lab.archive-journal"}) {
+                if (place.ends_with(".json") && place != since) {
+                    continue;
+                }
+                std::vector<std::string> words = action;
+                words.insert(words.end(), {"--since", path(since), "--sign", path("key.pem"), "-o",
+                                           (folder() / "x" / ".." / place).string()});
+                const auto before = state();
+                const Ended ended = archive(words);
+                EXPECT_EQ(ended.code, 5) << action[0] << " -o " << place;
+                EXPECT_TRUE(tells(ended, "GC-STORE-0004")) << ended.err;
+                EXPECT_EQ(state(), before) << action[0] << " -o " << place;
+            }
+        }
+    }
+    EXPECT_EQ(archive({"backup", "-o", path("lab.archive-journal")}, "K. Keeper").code, 5);
+}
+
+/// "N/1" and "N_1" have one name of a file: evidence of the one does not take the place of that of the other.
+TEST_F(ArchiveOfALaboratory, KeepsEvidenceOfTwoCertificatesApart) {
+    begin();
+    const auto exported = [&](const std::string& number) {
+        return gumcert({"archive", "export", number, "--store", store(), "--share", GUMCERT_SOURCE_DIR},
+                       {.working_folder = folder()});
+    };
+
+    for (const char* const number : {"N/1", "N_1", "N/2"}) {
+        change_certificate([&](json& c) { c["number"] = number; });
+        evaluate("one");
+        ASSERT_EQ(archive(files("add", "one"), "R. Lin").code, 0);
+    }
+    EXPECT_EQ(exported("N/1").code, 0);
+    EXPECT_EQ(exported("N/1").code, 0) << "newer evidence of the same certificate";
+    const std::string first = bytes_of(folder() / "N_1-evidence.json");
+    const Ended other = exported("N_1");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_TRUE(tells(other, "is evidence of N/1, not of N_1")) << other.err;
+    EXPECT_EQ(bytes_of(folder() / "N_1-evidence.json"), first);
+    EXPECT_EQ(exported("N/2").code, 0);
+    EXPECT_EQ(archive({"export", "N_1", "-o", path("N_1-evidence.json")}).code, 0) << "by its name it is asked for";
+}
+
 TEST_F(ArchiveOfALaboratory, ProvesByHeadsAloneThatTheLogOnlyGrew) {
     issue_the_example();
     ASSERT_EQ(archive({"head", "-o", path("early.json")}).code, 0);

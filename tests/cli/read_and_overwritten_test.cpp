@@ -105,6 +105,19 @@ TEST_F(ReadAndOverwritten, ResultThatIsAnInputHasTheUnitThatIsAskedFor) {
     EXPECT_EQ(record["results"]["l"]["value"], 1500.0);
 }
 
+TEST_F(ReadAndOverwritten, AnImportLeavesItsTrustStore) {
+    const std::string certificate = (folder() / "certificate.xml").string();
+    const std::string trust = (folder() / "trust.pem").string();
+    write_bytes(certificate, "<x/>");
+    write_bytes(trust, "trusted");
+    for (const std::string& output : {certificate, trust}) {
+        const Ended ended = gumcert({"import", "dcc", certificate, "--trust", trust, "-o", output, "--json-messages"});
+        EXPECT_EQ(ended.code, 5) << output << ended.err;
+        EXPECT_EQ(codes(ended), std::vector<std::string>{"GC-STORE-0004"}) << output;
+    }
+    EXPECT_EQ(bytes_of(trust), "trusted");
+}
+
 /// No name of a file leads to exit 70, to a message without a place, or to waiting.
 TEST_F(ReadAndOverwritten, AnyNameIsToldWithItsPlace) {
     const fs::path job = budget("j.json", R"("y = a")", R"("a": {"value": 1, "u": 0.1})");

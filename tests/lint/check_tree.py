@@ -14,6 +14,8 @@ knows or would add; in a tree without git, at every file outside build folders.
 - a doc tag (\\param, \\return, \\throws) inside a line of text: each has a line of its own
 - a public header of the domain that declares functions without a unit test of its name in the mirrored folder:
   gum/a.h has tests/unit/gum/a_test.cpp. Structs, constants, macros and templates are no functions here.
+- a handler of std::exception, in a layer that reads files, without one of std::bad_alloc before it: memory that ends says nothing
+  of the file that is read, and is told as such
 - a layer of more than 25 units (a header with its source): it has more than one subject, and is to be divided by them
 """
 
@@ -74,6 +76,29 @@ def breaches(path):
                 yield number, f"links to {link[1]}, which does not exist"
         if CONFLICT.match(line):
             yield number, "conflict mark of a merge"
+
+
+HANDLER = re.compile(r"\}\s*catch \(([^)]*)\) \{")
+READERS = ("app/", "archive/", "imports/", "json/", "reports/", "signing/", "workbook/")
+TOLD_ABOVE = ("app/cli/",)  # programs, which tell what comes to them
+
+
+def handlers_that_blame_a_file(name, text):
+    """Lines of handlers of std::exception that take the end of the memory for a fault of what is read."""
+    if not name.startswith(READERS) or name.startswith(TOLD_ABOVE) or not name.endswith(".cpp"):
+        return
+    lines = text.split("\n")
+    of_try = {}  # by the indentation of their try
+    for number, line in enumerate(lines, start=1):
+        indentation = len(line) - len(line.lstrip())
+        if re.match(r"\s*try \{|.*\btry \{$", line):
+            of_try[indentation] = set()
+        caught = HANDLER.search(line)
+        if caught:
+            handlers = of_try.setdefault(indentation, set())
+            if caught[1].startswith("const std::exception&") and not any("bad_alloc" in one for one in handlers):
+                yield number
+            handlers.add(caught[1])
 
 
 def without_comments(text):
@@ -150,6 +175,10 @@ def main(arguments):
     for path in files:
         for number, reason in breaches(path):
             print(f"{path.relative_to(root).as_posix()}:{number}: {reason}")
+            found += 1
+        name = path.relative_to(root).as_posix()
+        for number in handlers_that_blame_a_file(name, path.read_text(encoding="utf-8") if path.suffix == ".cpp" else ""):
+            print(f"{name}:{number}: takes the end of the memory for a fault of the file; let std::bad_alloc through before")
             found += 1
     for layer, reason in full_layers(root, files):
         print(f"{layer}: {reason}")

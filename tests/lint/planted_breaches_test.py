@@ -246,6 +246,14 @@ class Tree(PlantedTree):
                 self.expect(self.scan(), 1, f"{path}:2: ", reason)
                 (self.root / path).unlink()
 
+    def test_memory_that_ends_blames_no_file(self):
+        handler = "    }} catch (const {}&) {{\n        a();\n"
+        others = handler.format("std::exception")
+        self.plant("imports/a.cpp", "try {\n        b();\n" + others + "    }\n")
+        self.expect(self.scan(), 1, "imports/a.cpp:3: ", "let std::bad_alloc through")
+        self.plant("imports/a.cpp", "    try {\n        b();\n" + handler.format("std::bad_alloc") + others + "    }\n")
+        self.expect(self.scan(), 0)
+
     def test_header_of_the_domain_without_a_test_by_its_name(self):
         declared = "namespace n {\n/// A sum; (of two).\n[[nodiscard]] double sum(double a, double b);\n}\n"
         for path, text in [

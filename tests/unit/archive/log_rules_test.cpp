@@ -274,7 +274,9 @@ TEST(BodyOfAnEntry, IsReadWithoutTrust) {
     const json body = *body_of(entry);
     EXPECT_EQ(text_in(body, "new", "state"), "");
     EXPECT_EQ(text_in(body, "old", "state"), "");
-    EXPECT_EQ(documents_in(body), std::vector<std::string>{""});
+    EXPECT_TRUE(documents_in(body).empty()) << "documents are a list";
+    entry.body = R"({"new":{"documents":[1,{"sha256":"a"}]}})";
+    EXPECT_EQ(documents_in(*body_of(entry)), (std::vector<std::string>{"", "a"}));
     EXPECT_TRUE(is_of_life("issued"));
     EXPECT_FALSE(is_of_life("backed-up"));
     EXPECT_EQ(kinds_of_life().size(), 8U);

@@ -41,6 +41,24 @@ TEST(PrintedHead, IsNothingElse) {
     }
 }
 
+/// From 1 to 2^63 - 1 entries (docs/adr/0059-the-head-on-the-certificate.md, 2).
+TEST(PrintedHead, HasASizeInItsRange) {
+    const std::string root(64, '0');
+    for (const auto& [size, is_head] : std::vector<std::pair<std::string, bool>>{{"1", true},
+                                                                                 {"9223372036854775807", true},
+                                                                                 {"9223372036854775808", false},
+                                                                                 {"9999999999999999999", false},
+                                                                                 {"10000000000000000000", false},
+                                                                                 {"0", false},
+                                                                                 {"01", false},
+                                                                                 {"-1", false},
+                                                                                 {"+1", false},
+                                                                                 {"", false}}) {
+        EXPECT_EQ(printed_heads_in("gumcert-head:" + size + ":" + root).size(), is_head ? 1U : 0U) << size;
+    }
+    EXPECT_TRUE(printed_heads_in("gumcert-head:1:" + std::string(64, 'A')).empty());
+}
+
 TEST(PrintedHead, HasItsPlaceBetweenTheFirstDraftAndTheDocument) {
     const PrintedHead head{5, "root"};
     EXPECT_EQ(fault_of(head, true, 5, 6), "");

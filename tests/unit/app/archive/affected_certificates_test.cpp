@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include "app/evaluate_job.h"
 #include "app/read_file.h"
 #include "archive/store/sqlite_store.h"
+#include "reports/record/record_value.h"
 #include "tests/support/archive_folder.h"
 #include "tests/support/sample_archive.h"
 
@@ -130,6 +132,7 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
         const WrongStandard wrong{"STD-" + std::to_string(standard), "2026-04-01",
                                   standard % 2 == 0 ? "" : "2026-06-30"};
         std::set<std::string> expected;
+        std::set<std::string> reached;  // withdrawn ones are no answer, but lead on
         for (bool grows = true; grows;) {
             grows = false;
             for (int i = 0; i < k_certificates; ++i) {
@@ -138,10 +141,13 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
                 const bool before = one.day.empty() || wrong.until.empty() || one.day <= wrong.until;
                 bool rests = one.standards.contains(standard) && before;
                 for (const int other : one.certificates) {
-                    rests = rests || expected.contains(number(other));
+                    rests = rests || reached.contains(number(other));
                 }
-                if (rests && after && !one.is_withdrawn) {
-                    grows = expected.insert(number(i)).second || grows;
+                if (rests && after) {
+                    grows = reached.insert(number(i)).second || grows;
+                    if (!one.is_withdrawn) {
+                        expected.insert(number(i));
+                    }
                 }
             }
         }
@@ -151,9 +157,57 @@ TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
     }
 }
 
+/// It may rest on anything, and what rests on it as well.
 TEST_F(ArchiveOfStandards, TellARecordThatCannotBeRead) {
     add("EX-1", "no record");
-    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), std::set<std::string>{"EX-1"});
+    add("EX-2", R"({"source": "EX-1"})");
+    add("EX-3", R"({"source": "EX-4"})");
+    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), (std::set<std::string>{"EX-1", "EX-2"}));
+}
+
+/// A withdrawal takes the certificate back, and nothing of what others have calibrated with it.
+TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
+    add("G-1", R"({"source": "STD-017"})");
+    add("G-2", R"({"source": "G-1"})");
+    add("G-3", R"({"source": "G-2"})");
+    add("G-4", "no record");
+    add("G-5", R"({"source": "G-4"})");
+    for (const char* const number : {"G-1", "G-2", "G-4"}) {
+        (void)archive_.advance(number, "withdrawn", by("R. Reviewer"));
+    }
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    ASSERT_EQ(affected.size(), 2U);
+    EXPECT_EQ(affected[0].certificate.number, "G-3");
+    EXPECT_EQ(affected[0].through, "G-2");
+    EXPECT_EQ(affected[0].through_state, "withdrawn");
+    EXPECT_EQ(affected[1].certificate.number, "G-5");
+    recalculate(affected, archive_,
+                {.standard = "STD-017", .corrected = "{}", .reason = "r", .templates = k_affected_tree / "templates"},
+                1);
+    const std::string text = affected_text(affected);
+    EXPECT_NE(text.find("through G-2, withdrawn: source"), std::string::npos) << text;
+    EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["through_state"], "withdrawn");
+    EXPECT_NE(affected_csv(affected).find(",withdrawn\n"), std::string::npos);
+    EXPECT_NE(waits_for(affected[0]).find("which was withdrawn"), std::string::npos);
+}
+
+/// Two numbers that differ in a character that no name of a file has do not share a folder.
+TEST_F(ArchiveOfStandards, HaveEachAFolderForItsDraft) {
+    std::set<std::string> numbers;
+    for (const char* const between : {"/", "_", ":", "\\", "-", "", "_1-"}) {
+        for (const char* const after : {"1", "1/A1-2", "1_A1"}) {
+            numbers.insert(std::string("N") + between + after);
+        }
+    }
+    for (const std::string& number : numbers) {
+        add(number, R"({"source": "STD-017"})");
+    }
+    std::set<std::string> folders;
+    for (const AffectedCertificate& one : find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1)) {
+        EXPECT_TRUE(folders.insert(one.draft_name).second) << one.draft_name;
+        EXPECT_EQ(one.draft_name.find_first_of("/\\: "), std::string::npos) << one.draft_name;
+    }
+    EXPECT_EQ(folders.size(), numbers.size());
 }
 
 TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
@@ -197,6 +251,63 @@ TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
     EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
     EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
               std::string::npos);
+}
+
+/// Whatever the register corrects: "same" is a certificate that would be printed alike.
+TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const auto evaluated = [&] {
+        return evaluate_job(folder / "end_gauge.json", CovarianceFile::none, 1, k_affected_tree / "templates").record;
+    };
+    const auto stated = [](const reports::EvaluationRecord& record) {
+        return reports::to_json_value(record)["certificate"]["data"];
+    };
+    const reports::EvaluationRecord record = evaluated();
+    add("EX-2026-0042", reports::to_canonical_json(record));
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string registered = read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const json plain = json::parse(registered, nullptr, true, true);
+    std::size_t texts = 0;
+    const json texts_of_standard = plain.flatten();
+    for (const auto& [pointer, value] : texts_of_standard.items()) {
+        if (!value.is_string()) {
+            continue;
+        }
+        json changed = plain;
+        changed[json::json_pointer(pointer)] = value.get<std::string>() + "9";
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(affected, archive_,
+                    {.standard = "STD-017",
+                     .corrected = changed.dump(),
+                     .reason = "r",
+                     .templates = k_affected_tree / "templates"},
+                    1);
+        const auto found = std::find_if(affected.begin(), affected.end(),
+                                        [](const auto& one) { return one.certificate.number == "EX-2026-0042"; });
+        ASSERT_NE(found, affected.end());
+        const Recalculation& recalculation = *found->recalculated;
+        const std::string outcome =
+            json::parse(affected_json({*found}, {}))["certificates"][0]["outcome"].get<std::string>();
+        if (recalculation.rerun.not_evaluated) {
+            EXPECT_EQ(outcome, "cannot_say") << pointer;
+            continue;
+        }
+        // The job evaluated anew, without the archive, is the oracle.
+        std::ofstream(folder / "laboratory" / "standards" / "STD-017.json") << changed.dump();
+        EXPECT_EQ(outcome == "same" || outcome == "printed" || outcome == "verdict",
+                  stated(evaluated()) == stated(record))
+            << pointer << " " << outcome;
+        EXPECT_EQ(found->draft_folder.empty(), outcome == "same") << pointer;
+        if (outcome == "text") {
+            ++texts;
+            EXPECT_EQ(affected[0].certificate.number, "EX-2026-0042") << "before what cannot be said";
+            EXPECT_NE(affected_text(affected).find(recalculation.texts.front().place), std::string::npos) << pointer;
+            EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["changes"][0]["kind"], "text");
+        }
+    }
+    EXPECT_GE(texts, 2U) << "certificate and issuer of the calibration in use";
 }
 
 /// A result that rests on more than the standard is moved by less of its own U than the standard by its.

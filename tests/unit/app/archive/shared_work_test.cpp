@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -92,12 +93,15 @@ protected:
 TEST_F(SharedWorkOfAnArchive, GivesWhatOneMachineGives) {
     std::string corrected = read_file(folder_ / "laboratory" / "standards" / "STD-017.json");
     corrected.replace(corrected.find("50.000623"), 9, "50.001623");
+    corrected.replace(corrected.find("NMI-2026-0117"), 13, "NMI-2026-9999");
     const Correction correction{
         .standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_shared_tree / "templates"};
     const WrongStandard wrong{"STD-017", "2026-03-02", ""};
     std::vector<AffectedCertificate> alone = find_affected(archive_, wrong, 1);
     std::vector<AffectedCertificate> shared = alone;
     recalculate(alone, archive_, correction, 2);
+    ASSERT_TRUE(
+        std::any_of(alone.begin(), alone.end(), [](const auto& one) { return !one.recalculated->texts.empty(); }));
 
     const WorkToShare work = work_of(shared, correction, "1.0 (commit x)");
     ArchiveWorker worker(archive_, table_, 2, k_shared_tree / "templates");

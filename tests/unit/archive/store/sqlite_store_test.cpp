@@ -1,9 +1,15 @@
 #include "archive/store/sqlite_store.h"
 
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
+#include <functional>
+#include <optional>
 
 #include "encoding/sha2.h"
 #include "tests/support/archive_folder.h"
@@ -74,6 +80,54 @@ TEST(SqliteStore, MessagesHoldNothingThatATerminalActsOn) {
         EXPECT_NE(error.diagnostics().front().what.find("unrecognized token"), std::string::npos);
         EXPECT_EQ(error.diagnostics().front().what.find('\x1b'), std::string::npos);
     }
+}
+
+/// Runs work as somebody whom the rights of files stop: not root.
+bool is_done_without_rights(const std::function<bool()>& work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        constexpr uid_t k_nobody = 65534;
+        const bool dropped =
+            geteuid() != 0 || (setgroups(0, nullptr) == 0 && setgid(k_nobody) == 0 && setuid(k_nobody) == 0);
+        _exit(dropped && work() ? 0 : 1);
+    }
+    int status = 1;
+    return waitpid(child, &status, 0) == child && status == 0;
+}
+
+/// SQLite takes no lock where it can write nothing: what is read while somebody writes says nothing.
+TEST(SqliteStore, IsReadWhereNothingCanBeWritten) {
+    const StoreFolder folder;
+    const LogEntry first = next_entry();
+    const std::filesystem::path file = folder.file("a #?%.archive");
+    (void)create_sqlite_store(file, first);
+    std::filesystem::permissions(file, std::filesystem::perms(0666));
+    std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0555));
+    EXPECT_TRUE(is_done_without_rights([&] {
+        const auto store = open_sqlite_store(file, Access::read_only);
+        std::optional<LogEntry> read;
+        store->read([&] { read = store->last_entry(); });
+        return read == first && store->own_problems().empty() &&
+               code_of([&] { store->write([] {}); }) == "GC-ARCHIVE-0006";
+    }));
+    EXPECT_TRUE(is_done_without_rights([&] {
+        const auto store = open_sqlite_store(file, Access::read_only);
+        const std::string told = code_of([&] { store->read([&] { std::ofstream(file, std::ios::app) << 'x'; }); });
+        return told == "GC-ARCHIVE-0004";
+    }));
+    std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
+}
+
+TEST(SqliteStore, LeavesNothingBehindWhenItWasRead) {
+    const StoreFolder folder;
+    (void)create_sqlite_store(folder.file(), next_entry());
+    {
+        const auto store = open_sqlite_store(folder.file(), Access::read_only);
+        store->read([&] { (void)store->last_entry(); });
+        EXPECT_EQ(code_of([&] { store->write([] {}); }), "GC-ARCHIVE-0006");
+    }
+    const std::filesystem::directory_iterator files(folder.file().parent_path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
 // tools/verify_archive.py has the same digest: a store with another schema is one of another version.

@@ -107,5 +107,67 @@ TEST(PdfPageTexts, RefuseATemplateThatPrintsAnotherDigit) {
     fs::remove_all(folder);
 }
 
+/// A stream with its entries beside the length.
+std::string stream(const std::string& data, const std::string& entries = "") {
+    return "<< /Length " + std::to_string(data.size()) + " " + entries + " >> stream\n" + data + "\nendstream";
+}
+
+/// A PDF of one page; object 4 and those behind it are given.
+std::string pdf_with(const std::string& contents, const std::vector<std::string>& objects) {
+    std::string pdf = "%PDF-1.7\n";
+    std::string table;
+    std::vector<std::string> all = {"<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
+                                    "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 9 9] /Contents " + contents +
+                                        " /Resources << /Font << /F << /Type /Font /ToUnicode 4 0 R >> >> >> >>"};
+    all.insert(all.end(), objects.begin(), objects.end());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        std::string offset = std::to_string(pdf.size());
+        table += offset.insert(0, 10 - offset.size(), '0') + " 00000 n \n";
+        pdf += std::to_string(i + 1) + " 0 obj\n" + all[i] + "\nendobj\n";
+    }
+    const std::string size = std::to_string(all.size() + 1);
+    return pdf + "xref\n0 " + size + "\n0000000000 65535 f \n" + table + "trailer << /Size " + size +
+           " /Root 1 0 R >>\nstartxref\n" + std::to_string(pdf.size()) + "\n%%EOF\n";
+}
+
+/// A small file can unpack to any size, and a small map of a font can state any number of codes.
+TEST(PdfPageTexts, EndWhereADocumentUnpacksToTooMuch) {
+    const std::string map = stream("1 beginbfchar <0041> <0061> endbfchar");
+    const std::string text = "BT /F 1 Tf <00410041> Tj ET";
+    const auto read = [](const std::string& pdf) -> std::string {
+        try {
+            return texts_of_pages(pdf).at(0);
+        } catch (const std::exception& refused) {
+            return refused.what();
+        }
+    };
+    EXPECT_EQ(read(pdf_with("5 0 R", {map, stream(text)})), "aa");
+    EXPECT_EQ(read(pdf_with("5 0 R", {map, stream("4254", "/Filter [/ASCIIHexDecode]")})), "");
+    EXPECT_THAT(read(pdf_with("5 0 R", {map, stream("4254", "/Filter [/ASCIIHexDecode /ASCIIHexDecode]")})),
+                HasSubstr("packed more than once"));
+    EXPECT_THAT(read(pdf_with("5 0 R", {map, stream("4254", "/Filter /NoSuch")})), HasSubstr("not known"));
+    const std::string most(std::size_t{32} << 20U, ' ');
+    EXPECT_EQ(read(pdf_with("5 0 R", {map, stream(most)})), "");
+    EXPECT_THAT(read(pdf_with("5 0 R", {map, stream(most + " ")})), HasSubstr("32 MiB"));
+    EXPECT_THAT(read(pdf_with("[5 0 R 5 0 R 5 0 R]", {map, stream(most)})), HasSubstr("64 MiB"));
+    EXPECT_THAT(read(pdf_with("5 0 R", {stream(most + " "), stream(text)})), HasSubstr("32 MiB"));
+    std::string ranges = "1 beginbfrange ";
+    for (int i = 0; i < 17; ++i) {
+        ranges += "<0000> <FFFFFFFF> <0061> ";
+    }
+    EXPECT_THAT(read(pdf_with("5 0 R", {stream(ranges + "endbfrange"), stream(text)})), HasSubstr("codes"));
+    // Each code draws half a megabyte.
+    std::string letters = "1 beginbfchar <0041> <";
+    for (std::size_t i = 0; i < (std::size_t{1} << 19U); ++i) {
+        letters += "0061";
+    }
+    std::string many = "BT /F 1 Tf <";
+    for (int i = 0; i < 600; ++i) {
+        many += "0041";
+    }
+    EXPECT_THAT(read(pdf_with("5 0 R", {stream(letters + "> endbfchar"), stream(many + "> Tj ET")})),
+                HasSubstr("256 MiB"));
+}
+
 }  // namespace
 }  // namespace gumcert::reports
