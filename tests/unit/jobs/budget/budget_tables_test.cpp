@@ -126,6 +126,21 @@ TEST(BudgetTables, AFaultOfTheTableIsNoFaultOfTheInputs) {
     expect_refusal(wrong, k_csv_separator, "tabs", {{"points.csv", with('\t')}});
 }
 
+TEST(BudgetTables, ShowLimitsWhereASpecificationNamesAPoint) {
+    const auto columns = [](const std::string& named) {
+        return shown(
+            read_budget(meter(k_columns, R"j(, "certificate": {"specifications": [{"id": "s", "results": [")j" + named +
+                                             R"j("], "unit": "mV", "rule": {"id": "DR-01"},
+                                                      "lower": -1, "upper": 1}]})j"),
+                        k_points)
+                .tables.at(0));
+    };
+    EXPECT_THAT(columns("E[2]"), testing::Contains("verdict:E"));
+    EXPECT_THAT(columns("E[2]"), testing::Contains("limit:E"));
+    EXPECT_THAT(columns("E"), testing::Contains("verdict:E"));
+    EXPECT_THAT(columns("E[3]"), testing::Not(testing::Contains("verdict:E"))) << "no such point";
+}
+
 TEST(BudgetTables, SayWhetherTheirRowsAreDrawn) {
     EXPECT_EQ(read_budget(meter(k_columns, R"j(, "tables": [{"plot": "none"}])j"), k_points).tables.at(0).plot, "none");
     EXPECT_EQ(read_budget(meter(k_columns, R"j(, "tables": [{"plot": "each"}])j"), k_points).tables.at(0).plot, "");
