@@ -147,7 +147,12 @@ std::vector<CsvHeaderField> csv_header(std::string_view bytes) {
             fields.push_back({{}, finder.at(i)});
         }
     }
-    return fields;
+    // What is no text, or is separated otherwise, has no names that could be right or wrong: read_csv_table says so.
+    ProblemList not_told("");
+    const std::size_t end = std::min(bytes.find_first_of("\r\n", start), bytes.size());
+    const bool is_text = check_text(bytes.substr(0, end), not_told).has_value();
+    const bool is_separated = fields.size() != 1 || fields.front().name.find_first_of(";\t|") == std::string::npos;
+    return is_text && is_separated ? fields : std::vector<CsvHeaderField>();
 }
 
 std::vector<std::string> keys_in_order(const JsonDocument& document, const std::string& pointer) {

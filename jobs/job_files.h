@@ -78,7 +78,8 @@ struct CsvHeaderField {
 
 /// The names in the first line of a table that is not blank, for readers whose columns are not known beforehand.
 ///
-/// It does not check the text: read_csv_table does. A field in double quotes is taken without them.
+/// None where the line is no UTF-8 text or its columns are separated by what read_csv_table refuses: that says what is
+/// wrong. A field in double quotes is taken without them.
 [[nodiscard]] std::vector<CsvHeaderField> csv_header(std::string_view bytes);
 
 /// The keys of an object of a document in the order in which they stand in the file, which nlohmann-json forgets.

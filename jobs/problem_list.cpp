@@ -77,6 +77,15 @@ void ProblemList::take(const ProblemList& other) {
     warnings_.beyond += other.warnings_.beyond;
 }
 
+void ProblemList::take(const ProblemList& other, const std::function<bool(const gum::Diagnostic&)>& if_told) {
+    for (const Messages::Entry& entry : other.refused_.entries) {
+        if (if_told(entry.diagnostic)) {
+            ++refused_count_;
+            refused_.add(entry.diagnostic, entry.group);
+        }
+    }
+}
+
 std::vector<gum::Diagnostic> ProblemList::refused() const {
     return refused_.closed(file_);
 }

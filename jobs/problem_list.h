@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ public:
     void note(const InputCode& code, std::string where, std::string what, std::string rule, std::string action);
     /// Puts everything that another list holds behind what is here.
     void take(const ProblemList& other);
+    /// \param if_told  which of its refusals; its warnings are left
+    void take(const ProblemList& other, const std::function<bool(const gum::Diagnostic&)>& if_told);
 
     [[nodiscard]] const std::string& file() const noexcept { return file_; }
     /// Number of refusals, those beyond the limit and the repeated ones included.

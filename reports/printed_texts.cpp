@@ -1,5 +1,7 @@
 #include "reports/printed_texts.h"
 
+#include "text/numbers.h"
+
 #include <algorithm>
 
 namespace gumcert::reports {
@@ -24,6 +26,10 @@ std::string joined(const std::vector<std::string>& texts) {
 
 Text with_unit(const Text& number, const std::string& unit) {
     return unit.empty() || number.empty() ? number : number + ("\u00A0" + unit);
+}
+
+std::string percent_text(double probability) {
+    return text::without_trailing_zeros(text::fixed(100.0 * probability, 6)) + " %";
 }
 
 }  // namespace gumcert::reports

@@ -20,4 +20,7 @@ namespace gumcert::reports {
 /// Number and unit with a blank that does not break; the number alone where there is no unit.
 [[nodiscard]] Text with_unit(const Text& number, const std::string& unit);
 
+/// A probability as it was stated: "95.45 %"
+[[nodiscard]] std::string percent_text(double probability);
+
 }  // namespace gumcert::reports

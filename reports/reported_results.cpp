@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 
 namespace gumcert::reports {
@@ -112,6 +113,24 @@ Text stated_uncertainty(const ReportedResult& reported, const Wording& words) {
 
 Text stated_uncertainty(const StatedValue& value, const Wording& words) {
     return value.reported ? interval_or(value.printed.U, *value.reported, words) : Text(value.printed.U);
+}
+
+std::vector<double> coverage_probabilities(const EvaluationRecord& record, const certificate::CertifiedTable& table,
+                                           const certificate::CertifiedColumn& column) {
+    // One result name can stand for many points, and each of them may state a probability of its own.
+    const bool has_points = table.argument && table.argument->name == "point";
+    std::map<std::string, double> of_point;
+    for (const Result& r : record.results) {
+        if ((r.quantity.empty() ? r.name : r.quantity) == column.result) {
+            of_point.emplace(has_points ? r.point : std::string(), r.coverage_probability);
+        }
+    }
+    std::vector<double> all;
+    for (std::size_t row = 0; row < column.values.size(); ++row) {
+        const auto found = of_point.find(has_points ? table.argument->printed.at(row) : std::string());
+        all.push_back(found == of_point.end() ? record.coverage_probability.number : found->second);
+    }
+    return all;
 }
 
 }  // namespace gumcert::reports

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "certificate/certified_results.h"
 #include "reports/document_text.h"
 #include "reports/record/evaluation_record.h"
 #include "reports/wording.h"
@@ -17,5 +18,10 @@ namespace gumcert::reports {
 /// U as printed, or "low … high" where only the coverage interval of Monte Carlo holds.
 [[nodiscard]] Text stated_uncertainty(const ReportedResult& reported, const Wording& words);
 [[nodiscard]] Text stated_uncertainty(const StatedValue& value, const Wording& words);
+
+/// Coverage probabilities of the values of a certified column: of its result, or of its point, where that states its own.
+[[nodiscard]] std::vector<double> coverage_probabilities(const EvaluationRecord& record,
+                                                         const certificate::CertifiedTable& table,
+                                                         const certificate::CertifiedColumn& column);
 
 }  // namespace gumcert::reports

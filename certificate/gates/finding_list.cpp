@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "certificate/result_names.h"
 #include "certificate/stated_text.h"
@@ -85,13 +86,32 @@ bool names_a_result(const Certificate& certificate, const std::vector<std::strin
     });
 }
 
-std::vector<std::string> result_names(const Certificate& certificate) {
+std::vector<std::string> names_of_no_result(const Certificate& certificate, const std::vector<std::string>& names) {
+    std::vector<std::string> none;
+    std::copy_if(names.begin(), names.end(), std::back_inserter(none),
+                 [&](const std::string& name) { return !names_a_result(certificate, {name}); });
+    return none;
+}
+
+std::vector<std::string> result_names(const Certificate& certificate, const std::vector<std::string>& meant) {
     std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        std::string quoted = text::in_quotes(name);
+        if (std::find(names.begin(), names.end(), quoted) == names.end()) {
+            names.push_back(std::move(quoted));
+        }
+    };
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
-            std::string name = text::in_quotes(column.result);
-            if (std::find(names.begin(), names.end(), name) == names.end()) {
-                names.push_back(std::move(name));
+            const bool is_point = std::any_of(meant.begin(), meant.end(), [&](const std::string& name) {
+                return name.starts_with(column.result + "[") && table.argument && table.argument->name == "point";
+            });
+            if (!is_point) {
+                add(column.result);
+                continue;
+            }
+            for (const std::string& point : table.argument->printed) {
+                add(column.result + "[" + point + "]");
             }
         }
     }

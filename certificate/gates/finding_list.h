@@ -59,8 +59,14 @@ private:
 /// Whether a result of the certificate has one of the names of a scope, a specification …
 [[nodiscard]] bool names_a_result(const Certificate& certificate, const std::vector<std::string>& names);
 
-/// Names of the results of a certificate in quotes, each once: of all points, where there is a table of them.
-[[nodiscard]] std::vector<std::string> result_names(const Certificate& certificate);
+/// Those of the names that no result of the certificate has.
+[[nodiscard]] std::vector<std::string> names_of_no_result(const Certificate& certificate,
+                                                          const std::vector<std::string>& names);
+
+/// Names of the results of a certificate in quotes, each once: of all points, where there is a table of them; and each
+/// point by itself, "E[10 mm]", where one of the names that were meant is that of a point.
+[[nodiscard]] std::vector<std::string> result_names(const Certificate& certificate,
+                                                    const std::vector<std::string>& meant);
 
 /// "ISO/IEC 17025:2017, 7.8.2.1 e" from "7.8.2.1 e".
 [[nodiscard]] std::string iso_17025(const std::string& clause);

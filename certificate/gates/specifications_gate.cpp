@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "gum/argument_check.h"
 #include "text/lists.h"
 #include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::certificate {
 
@@ -152,11 +154,18 @@ void specification(FindingList& found, const Certificate& certificate, std::size
     if (!s.lower && !s.upper && !s.limits) {
         found.major("D03", iso_17025("7.8.6.2 b"), where("upper"), name + " has no limit", "State the limit values.");
     }
-    if (!certificate.tables.empty() && !names_a_result(certificate, s.results)) {
+    const std::vector<std::string> unknown = names_of_no_result(certificate, s.results);
+    if (!certificate.tables.empty() && (!unknown.empty() || s.results.empty())) {
+        std::vector<std::string> quoted;
+        std::transform(unknown.begin(), unknown.end(), std::back_inserter(quoted),
+                       [](const std::string& one) { return text::in_quotes(one); });
         found.major("D07", iso_17025("7.8.6.2 a"), where("results"),
-                    name + " names no result of the certificate, so that nothing is decided by it",
+                    unknown.size() == s.results.size()
+                        ? name + " names no result of the certificate, so that nothing is decided by it"
+                        : name + " names " + text::listed(quoted, 8) +
+                              ", which no result of the certificate is called: nothing is decided there",
                     "Correct the names of the results; those of the certificate are " +
-                        text::listed(result_names(certificate), 8) + ".");
+                        text::listed(result_names(certificate, unknown), 8) + ".");
     }
 }
 

@@ -606,6 +606,7 @@ void BudgetInputs::read_points(const JsonObject& object, const std::optional<std
     fill_columns(job.points.size(), job);
     for (std::size_t i = 0; i < stated_.size(); ++i) {
         stated_[i].wanted += used_.back()[i] ? job.points.size() - before : 0;
+        stated_[i].is_table_refused = stated_[i].is_table_refused || (used_.back()[i] && job.points.size() == before);
     }
 }
 
@@ -796,7 +797,7 @@ void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
         return;
     }
     if (points == 0) {
-        return;  // the table was refused
+        return;
     }
     std::string names;
     for (const std::string& name : stated.silent) {
@@ -834,7 +835,13 @@ void BudgetInputs::finish_points(BudgetJob& job) {
         Stated& stated = stated_[i];
         const bool everywhere = stated.wanted > 0 && stated.points == stated.wanted && !stated.is_wanted_alone;
         if (!everywhere && stated.pending) {
-            if (stated.is_wanted_alone || (stated.wanted == 0 && !job.points.empty())) {
+            if (!stated.is_wanted_alone && stated.is_table_refused) {
+                // What the job leaves open may stand in the table that could not be read.
+                problems_.take(*stated.pending, [](const gum::Diagnostic& one) {
+                    return one.code != k_no_statement.code && one.code != k_incomplete_statement.code &&
+                           one.code != k_no_uncertainty.code;
+                });
+            } else if (stated.is_wanted_alone || (stated.wanted == 0 && !job.points.empty())) {
                 problems_.take(*stated.pending);
             } else {
                 refuse_unstated(stated, stated.wanted);

@@ -80,6 +80,7 @@ private:
         std::unique_ptr<ProblemList> pending;  ///< what is wrong with the base, in a job with points
         std::size_t wanted = 0;                ///< points whose results rest on the input
         bool is_wanted_alone = false;          ///< by a section without points
+        bool is_table_refused = false;         ///< of points that may state it
         std::size_t points = 0;                ///< of these, that state the input, or were refused for it
         std::vector<std::string> silent;       ///< names of the first points that leave it to the job
         std::map<std::string_view, std::size_t> overridden;  ///< keys of the base: points that replace them

@@ -443,10 +443,19 @@ private:
 
     // ---- what is left out -------------------------------------------------------------------------------------------
 
+    /// Whether a specification names a result, or a point of it that is here: "E", "E[10 mm]".
     [[nodiscard]] bool is_decided(const std::string& name) const {
+        const auto [first, end] = points_of(section_);
+        const auto begin_of_points = job_.points.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end_of_points = job_.points.begin() + static_cast<std::ptrdiff_t>(end);
+        const auto names = [&](const certificate::AgreedSpecification& s) {
+            return certificate::is_named(s.results, name) ||
+                   std::any_of(begin_of_points, end_of_points, [&](const gum::BudgetPoint& point) {
+                       return certificate::is_named(s.results, name + "[" + point.name + "]");
+                   });
+        };
         return job_.certificate &&
-               std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(),
-                           [&](const auto& s) { return certificate::is_named(s.results, name); });
+               std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(), names);
     }
 
     void group_by_range(TableRequest& table) const {

@@ -8,6 +8,7 @@
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
 #include "reports/point_headings.h"
+#include "reports/reported_results.h"
 #include "reports/result_names.h"
 #include "reports/view/decision_formula.h"
 #include "reports/view/point_table_view.h"
@@ -68,19 +69,6 @@ struct Column {
     }
 };
 
-/// Coverage probability of a value: of its result where that states its own.
-double probability_of(const EvaluationRecord& record, const Column& c, std::size_t row) {
-    // One result name can stand for many points, and each of them may state a probability of its own.
-    const bool has_points = c.table.argument && c.table.argument->name == "point";
-    const std::string point = has_points ? c.table.argument->printed[row] : "";
-    for (const Result& r : record.results) {
-        if ((r.quantity.empty() ? r.name : r.quantity) == c.column.result && (!has_points || r.point == point)) {
-            return r.coverage_probability;
-        }
-    }
-    return record.coverage_probability.number;
-}
-
 /// An element "si:name", or "si:nameXMLList" with one entry a row, or one where all are the same.
 void number_or_list(DccWriter& w, const Column& c, const std::string& name, const std::vector<std::string>& entries) {
     w.xml.element(c.list ? name + "XMLList" : name, c.list ? joined_list(entries) : entries.front());
@@ -94,8 +82,8 @@ void uncertainty(DccWriter& w, const Column& c, Stated stated) {
     };
     const std::string suffix = c.list ? "XMLList" : "";
     std::vector<std::string> probabilities;
-    for (std::size_t row = 0; row < c.column.values.size(); ++row) {
-        probabilities.push_back(d_si_probability(probability_of(w.record(), c, row)));
+    for (const double probability : coverage_probabilities(w.record(), c.table, c.column)) {
+        probabilities.push_back(d_si_probability(probability));
     }
     const auto u = [&] {
         number_or_list(w, c, "si:valueStandardMU", only([](const CertifiedValue& v) {

@@ -77,11 +77,6 @@ std::string squared(const std::string& people) {
     return people.empty() ? "" : is_simple(people) ? people + "²" : "(" + people + ")²";
 }
 
-/// "95.45 %"
-std::string percent_text(double probability) {
-    return text::without_trailing_zeros(text::fixed(100.0 * probability, 6)) + " %";
-}
-
 /// "a, b and 3 more"
 Text listed(const std::vector<std::string>& names, const Wording& words) {
     std::string text;

@@ -3,6 +3,7 @@
 #include "gum/quantity/unit.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
+#include "reports/view/certified_overview.h"
 #include "reports/view/certified_value_tables.h"
 #include "reports/view/decision_formula.h"
 #include "reports/view/point_table_view.h"
@@ -118,28 +119,30 @@ Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecif
     return from.range.empty() ? whole : from.range + ": " + whole;
 }
 
-Text limits_of_points(const certificate::PointLimits& limits, const AgreedSpecification& s, const Wording& words) {
+Text limits_of_points(const certificate::PointLimits& limits, const AgreedSpecification& s, bool in_results,
+                      const Wording& words) {
     Text text;
     for (const certificate::PointLimits::Accuracy& entry : limits.accuracy) {
         text += text.empty() ? accuracy(entry, s, words) : "; " + accuracy(entry, s, words);
     }
-    return text.empty() ? words("point_table", "limits_by_points") : text;
+    return text.empty() ? words("point_table", in_results ? "limits_by_points" : "limits_by_points_below") : text;
 }
 
+bool all_are_shown(const std::vector<Decided>& decided) {
+    return std::all_of(decided.begin(), decided.end(), [](const Decided& d) { return d.is_shown; });
+}
+
+/// As they were agreed: each is one number, in however many rows it stands and to whatever decimals there.
 Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecification& s, const Wording& words) {
     if (s.limits) {
-        return limits_of_points(*s.limits, s, words);
+        return limits_of_points(*s.limits, s, all_are_shown(decided), words);
     }
-    const auto lower = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.lower; }));
-    const auto upper = common(texts_of(decided, [](const Decided& d) { return d.value->verdict->printed.upper; }));
-    const std::string unit = decided.empty() ? gum::unit_for_people(s.unit) : decided.front().column->printed_unit;
-    const auto limit = [&](const char* key, const std::optional<std::string>& printed) {
-        return printed && !printed->empty()
-                   ? words("certificate", key) + " = " + with_unit(words.number(*printed), unit)
-                   : Text();
+    const std::string unit = gum::unit_for_people(s.unit);
+    const auto limit = [&](const char* key, const std::optional<double>& agreed) {
+        return agreed ? words("certificate", key) + " = " + with_unit(words.number(plain(*agreed)), unit) : Text();
     };
-    const Text low = limit("TL", lower);
-    const Text high = limit("TU", upper);
+    const Text low = limit("TL", s.lower);
+    const Text high = limit("TU", s.upper);
     return low.empty() || high.empty() ? low + high : low + "; " + high;
 }
 
@@ -185,40 +188,71 @@ Text risk_of_conditional_pass(const std::vector<Decided>& decided, const Wording
                         {{"risk", words.number(largest->printed.specific_risk)}});
 }
 
-/// D-1: by which rule and formula, with which guard band and risk. Each sentence is about the values that were decided so.
-void decision_sentences(CertificateBuilder& builder, const Wording& words, const std::vector<Decided>& all) {
-    using Formula = std::pair<std::string, std::string>;
-    const auto formula_of = [](const Decided& d) { return Formula(d.value->verdict->rule, d.value->verdict->formula); };
-    std::vector<Formula> formulas;
+bool is_undecided(const CertifiedValue& v) {
+    return v.verdict->verdict == "not_applicable";
+}
+
+/// Before what holds for some of the values: which ones.
+Text of_rows(const Text& sentence, const Certificate& certificate, const CertifiedOverview::Holds& rows,
+             const Wording& words) {
+    const Text names = enumerated(names_of_values(certificate, rows, words), words);
+    return words.filled("statement", "of_rows", {{"names", names}, {"sentence", sentence}});
+}
+
+/// Guard band and risks of values that were decided by one formula.
+Text width_and_risks(const std::vector<Decided>& decided, const Wording& words) {
+    const auto bands = common(texts_of(decided, [](const auto& d) {
+        return d.value->verdict->printed.guard_band + "\u00A0" + d.column->printed_unit;
+    }));
+    const auto risks =
+        common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
+    const std::string& band = decided.front().value->verdict->printed.guard_band;
+    const std::string& unit = decided.front().column->printed_unit;
+    Text text;
+    if (bands && !band.empty()) {
+        text += " " + words.filled("statement", "conformity_guard_band", {{"w", with_unit(words.number(band), unit)}});
+    }
+    if (risks && !risks->empty()) {
+        text += " " + words.filled("statement", "conformity_risk", {{"risk", words.number(*risks)}});
+    }
+    const Text conditional = risk_of_conditional_pass(decided, words);
+    return conditional.empty() ? text : text + " " + conditional;
+}
+
+/// D-1: by which rule and formula, with which guard band and risk. Each sentence is about the values that were decided
+/// so, or that were to be decided so and could not be, and names them where there are others.
+void decision_sentences(CertificateBuilder& builder, const Wording& words, const Certificate& certificate,
+                        const std::vector<Decided>& all) {
+    struct Way {
+        std::string rule, formula;
+        bool undecided = false;
+        bool operator==(const Way&) const = default;
+    };
+    const auto way_of = [](const CertifiedValue& v) {
+        return Way{v.verdict->rule, v.verdict->formula, is_undecided(v)};
+    };
+    std::vector<Way> ways;
     for (const Decided& d : all) {
-        const Formula one = formula_of(d);
-        const bool decided_by_it = !one.second.empty();  // else the note says why nothing is decided
-        if (decided_by_it && std::find(formulas.begin(), formulas.end(), one) == formulas.end()) {
-            formulas.push_back(one);
+        const Way one = way_of(*d.value);
+        const bool has_formula = !one.formula.empty();  // else the note says why there is none
+        if (has_formula && std::find(ways.begin(), ways.end(), one) == ways.end()) {
+            ways.push_back(one);
         }
     }
-    const std::string& unit = all.front().column->printed_unit;
-    for (const Formula& one : formulas) {
-        std::vector<Decided> decided;
-        std::copy_if(all.begin(), all.end(), std::back_inserter(decided),
-                     [&](const Decided& d) { return formula_of(d) == one; });
-        const auto bands =
-            common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.guard_band; }));
-        const auto risks =
-            common(texts_of(decided, [](const auto& d) { return d.value->verdict->printed.largest_specific_risk; }));
-        Text text = words.filled("statement", "conformity_sentence",
-                                 {{"rule", one.first}, {"formula", decision_formula(one.second, words)}});
-        if (bands && !bands->empty()) {
-            text += " " +
-                    words.filled("statement", "conformity_guard_band", {{"w", with_unit(words.number(*bands), unit)}});
+    const std::string& id = all.front().value->verdict->specification;
+    for (const Way& way : ways) {
+        std::vector<Decided> of_it;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(of_it),
+                     [&](const Decided& d) { return way_of(*d.value) == way; });
+        Text text = words.filled("statement", way.undecided ? "conformity_not_decided" : "conformity_sentence",
+                                 {{"rule", way.rule}, {"formula", decision_formula(way.formula, words)}});
+        if (!way.undecided) {
+            text += width_and_risks(of_it, words);
         }
-        if (risks && !risks->empty()) {
-            text += " " + words.filled("statement", "conformity_risk", {{"risk", words.number(*risks)}});
-        }
-        if (const Text conditional = risk_of_conditional_pass(decided, words); !conditional.empty()) {
-            text += " " + conditional;
-        }
-        builder.paragraph(text);
+        const auto is_one = [&](const CertifiedValue& v) {
+            return v.verdict && v.verdict->specification == id && way_of(v) == way;
+        };
+        builder.paragraph(of_it.size() == all.size() ? text : of_rows(text, certificate, is_one, words));
     }
 }
 
@@ -330,6 +364,7 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
     builder.section("conformity");
     std::set<std::string> used;
     std::vector<std::string> notes;
+    bool all_have_a_note = true;
     std::size_t number = 0;
     for (const AgreedSpecification& s : certificate.data.specifications) {
         const std::vector<Decided> decided = decided_by(certificate, s);
@@ -337,8 +372,8 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
             continue;
         }
         specification_rows(builder, words, s, decided);
-        decision_sentences(builder, words, decided);
-        if (std::all_of(decided.begin(), decided.end(), [](const Decided& d) { return d.is_shown; })) {
+        decision_sentences(builder, words, certificate, decided);
+        if (all_are_shown(decided)) {
             builder.paragraph(words("statement", "verdicts_in_tables"));
         } else {
             verdict_table(builder, words, s, decided, "conformity-" + std::to_string(number++));
@@ -346,20 +381,34 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
         for (const Decided& d : decided) {
             used.insert(d.value->verdict->verdict);
             const std::string& note = d.value->verdict->note;
+            all_have_a_note = all_have_a_note && !note.empty();
             if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) {
                 notes.push_back(note);
             }
         }
     }
-    if (used.empty()) {
+    const auto without = [&] {
+        const std::vector<Text> names = names_of_values(certificate, is_without_verdict, words);
+        if (!names.empty()) {
+            builder.paragraph(words.filled("statement", "conformity_without", {{"results", enumerated(names, words)}}));
+        }
+    };
+    if (certificate.data.specifications.empty()) {
         builder.paragraph(words("statement", "no_conformity"));
         return;
     }
+    if (used.empty()) {
+        without();
+        return;
+    }
     for (const std::string& note : notes) {
-        builder.paragraph(words.sentence(note));
+        const auto has_it = [&](const CertifiedValue& v) { return v.verdict && v.verdict->note == note; };
+        const bool for_all = all_have_a_note && notes.size() == 1;
+        builder.paragraph(for_all ? words.sentence(note) : of_rows(words.sentence(note), certificate, has_it, words));
     }
     verdict_meanings(builder, words, used);
     builder.paragraph(words("statement", "conformity_points"));
+    without();
 }
 
 }  // namespace gumcert::reports

@@ -3,8 +3,8 @@
 #include "certificate/address_lines.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
-#include "reports/result_names.h"
 #include "reports/view/certificate_conformity_section.h"
+#include "reports/view/certificate_uncertainty_section.h"
 #include "reports/view/certificate_view.h"
 #include "reports/view/certified_overview.h"
 
@@ -238,7 +238,8 @@ std::pair<const certificate::CertifiedColumn*, const certificate::CertifiedValue
 
 /// "l = 50000838 nm ± 68 nm, k = 2.16" where that is the whole of the results; else where they stand. A value with a
 /// mark (outside of the accreditation, external) stands where the mark is explained.
-Text results_in_one_line(const Certificate& certificate, const Wording& words, const std::string& coverage) {
+Text results_in_one_line(const EvaluationRecord& record, const Wording& words) {
+    const Certificate& certificate = *record.certificate;
     const auto only = only_value(certificate);  // Clang 14 lets no lambda below capture a structured binding
     const certificate::CertifiedColumn* column = only.first;
     const certificate::CertifiedValue* value = only.second;
@@ -258,7 +259,7 @@ Text results_in_one_line(const Certificate& certificate, const Wording& words, c
                              {"u", has_u ? quantity(value->printed_u) : Text()},
                              {"low", quantity(value->printed_low)},
                              {"high", quantity(value->printed_high)},
-                             {"p", words.number(coverage)}});
+                             {"p", stated_probability(record, {value}, words)}});
     }
     if (kind == Coverage::none || kind == Coverage::nothing) {
         return words("statement", "see_following_pages");
@@ -275,20 +276,15 @@ Text results_in_one_line(const Certificate& certificate, const Wording& words, c
     return text;
 }
 
-/// Names of the results that a specification holds for, each once; the first ones of many.
-Text decided_names(const std::vector<Text>& all) {
-    constexpr std::size_t k_most = 6;
-    std::vector<Text> names;
-    for (const Text& name : all) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            names.push_back(name);
-        }
+/// The values that a line of the first page is about; the first ones of many.
+Text summarised_names(const std::vector<Text>& names, const Wording& words) {
+    constexpr std::size_t k_most = 12;
+    constexpr std::size_t k_shown_of_more = 6;
+    if (names.size() <= k_most) {
+        return enumerated(names, words);
     }
-    Text text;
-    for (std::size_t i = 0; i < std::min(names.size(), k_most); ++i) {
-        text += (i == 0 ? Text() : Text(", ")) + names[i];
-    }
-    return names.size() > k_most ? text + ", …" : text;
+    return words.fill("and_more", {{"names", enumerated({names.begin(), names.begin() + k_shown_of_more}, words)},
+                                   {"count", std::to_string(names.size() - k_shown_of_more)}});
 }
 
 Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
@@ -298,32 +294,39 @@ Text superseded_mark(const EvaluationRecord& record, const Wording& words) {
 void summary_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     builder.section("summary");
-    Facts rows = {
-        {words("certificate", "results"), results_in_one_line(certificate, words, record.coverage_probability.text)}};
+    Facts rows = {{words("certificate", "results"), results_in_one_line(record, words)}};
     if (certificate.data.specifications.empty()) {
         rows.emplace_back(words("certificate", "conformity"), words("statement", "no_conformity"));
     }
     for (const certificate::AgreedSpecification& s : certificate.data.specifications) {
         std::vector<const certificate::Verdict*> verdicts;
-        std::vector<Text> names;
         for (const certificate::CertifiedTable& table : certificate.tables) {
             for (const certificate::CertifiedColumn& column : table.columns) {
                 for (const certificate::CertifiedValue& value : column.values) {
                     if (value.verdict && value.verdict->specification == s.id) {
                         verdicts.push_back(&*value.verdict);
-                        names.push_back(name_of_result(table.id, column.result, words));
                     }
                 }
             }
         }
+        const auto is_decided = [&](const certificate::CertifiedValue& v) {
+            return v.verdict && v.verdict->specification == s.id;
+        };
         if (!verdicts.empty()) {
+            const std::vector<Text> names = names_of_values(certificate, is_decided, words);
             rows.emplace_back(words("certificate", "conformity"),
                               words.filled("statement", "conformity_summary",
                                            {{"specification", document_of(s)},
-                                            {"results", decided_names(names)},
+                                            {"results", summarised_names(names, words)},
                                             {"verdicts", verdict_counts(verdicts, words)},
                                             {"rule", rule_with_alternative(s.rule, words)}}));
         }
+    }
+    const std::vector<Text> without = names_of_values(certificate, is_without_verdict, words);
+    if (!certificate.data.specifications.empty() && !without.empty()) {
+        rows.emplace_back(
+            words("certificate", "conformity"),
+            words.filled("statement", "conformity_without", {{"results", summarised_names(without, words)}}));
     }
     if (const auto& amendment = certificate.data.amendment) {
         rows.emplace_back(words("heading", "amendment"), amendment_sentence(*amendment, words));

@@ -66,7 +66,7 @@ void legend(CertificateBuilder& builder, const Wording& words, const CertifiedOv
     if (absent) {
         mark(words("statement", "not_applicable_mark"));
     }
-    if (overview.used().size() > 1) {
+    if (overview.has_letters() && !overview.used().empty()) {
         mark(words.filled("statement", "coverage_marks", {{"heading", words("heading", "statement_of_uncertainty")}}));
     }
     if (!text.empty()) {

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -98,11 +101,26 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 
+/// U that is the capability: what k and the coverage probability mean for it.
+Text sentence_of_raised(const CertifiedOverview& overview, const EvaluationRecord& record, const Wording& words) {
+    Text text = words("statement", "raised");
+    std::vector<const CertifiedValue*> with_k;
+    std::copy_if(overview.raised_values().begin(), overview.raised_values().end(), std::back_inserter(with_k),
+                 [](const CertifiedValue* v) { return !v->printed_k.empty(); });
+    if (!with_k.empty()) {
+        const std::optional<std::string> one_k = common(printed_k(with_k));
+        const Text k = one_k ? words.fill("k_one", {{"k", words.number(*one_k)}}) : Text("k");
+        text +=
+            " " + words.filled("statement", "raised_k", {{"k", k}, {"p", stated_probability(record, with_k, words)}});
+    }
+    return text;
+}
+
 Text coverage_sentence(Coverage c, const CertifiedOverview& overview, const EvaluationRecord& record,
                        const Wording& words) {
     const std::vector<const CertifiedValue*>& values = overview.values(c);
     const certificate::LocalisedText& own = record.certificate->profile.uncertainty_sentence;
-    const Text p = words.number(record.coverage_probability.text);
+    const Text p = stated_probability(record, values, words);
     const std::optional<std::string> one_k = common(printed_k(values));
     const Text k = one_k ? words.fill("k_one", {{"k", words.number(*one_k)}}) : Text("k");
     const bool ordinary = c == Coverage::normal || c == Coverage::student_t;
@@ -130,15 +148,6 @@ Text coverage_sentence(Coverage c, const CertifiedOverview& overview, const Eval
             break;
     }
     return words.fill("coverage_none", {});
-}
-
-/// "a, b, c" as each language writes it.
-Text listed(const std::vector<Text>& names, const Wording& words) {
-    Text text;
-    for (const Text& name : names) {
-        text += text.empty() ? name : words("document", "enumeration") + name;
-    }
-    return text;
 }
 
 /// Names of what the budget contains, each once.
@@ -179,12 +188,44 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
 
 }  // namespace
 
+Text stated_probability(const EvaluationRecord& record, const std::vector<const CertifiedValue*>& values,
+                        const Wording& words) {
+    const auto has_own = [&](const Result& r) { return r.coverage_probability != record.coverage_probability.number; };
+    if (std::none_of(record.results.begin(), record.results.end(), has_own)) {
+        return words.number(record.coverage_probability.text);
+    }
+    const std::set<const CertifiedValue*> these(values.begin(), values.end());
+    std::map<double, std::set<const CertifiedValue*>> by_probability;
+    for (const certificate::CertifiedTable& table : record.certificate->tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            const std::vector<double> probabilities = coverage_probabilities(record, table, column);
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                if (these.contains(&column.values[row])) {
+                    by_probability[probabilities[row]].insert(&column.values[row]);
+                }
+            }
+        }
+    }
+    Text text;
+    for (const auto& [p, of] : by_probability) {
+        const Text number = words.number(percent_text(p));
+        if (by_probability.size() == 1) {
+            return number;
+        }
+        const auto& some = of;  // Clang 14 lets no lambda capture a structured binding
+        const auto named = [&](const CertifiedValue& v) { return some.contains(&v); };
+        text += (text.empty() ? Text() : Text("; ")) + number + " (" +
+                enumerated(names_of_values(*record.certificate, named, words), words) + ")";
+    }
+    return text;
+}
+
 void uncertainty_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
                          const CertifiedOverview& overview) {
     builder.section("statement_of_uncertainty");
     if (overview.exact()) {
         builder.paragraph(words("statement", "exact_values"));
-    } else if (overview.used().empty()) {
+    } else if (overview.used().empty() && !overview.raised()) {
         builder.paragraph(words("statement", "no_uncertainty"));
     }
     for (const Coverage c : overview.used()) {
@@ -196,12 +237,12 @@ void uncertainty_section(CertificateBuilder& builder, const Wording& words, cons
         builder.paragraph(sentence);
     }
     if (overview.raised()) {
-        builder.paragraph(words("statement", "raised"));
+        builder.paragraph(sentence_of_raised(overview, record, words));
     }
     if (const std::vector<Text> names = contributions(record, words); !names.empty()) {
         const bool annexed = record.certificate->data.annexes != "none";
         builder.paragraph(words.filled("statement", annexed ? "contributions" : "contributions_in_record",
-                                       {{"names", listed(names, words)}}));
+                                       {{"names", enumerated(names, words)}}));
     }
     builder.paragraph(words.fill("validity", {}));
 }

@@ -5,7 +5,14 @@
 #include "reports/view/certified_overview.h"
 #include "reports/wording.h"
 
+#include <vector>
+
 namespace gumcert::reports {
+
+/// Coverage probability of some values: "95.45 %"; "95.45 % (E); 99 % (T[2 m])" where results state their own.
+[[nodiscard]] Text stated_probability(const EvaluationRecord& record,
+                                      const std::vector<const certificate::CertifiedValue*>& values,
+                                      const Wording& words);
 
 /// What the uncertainties of the certified tables mean: one sentence for each kind of coverage that occurs, chosen from
 /// the record; contributions that were considered, and what is not contained (ILAC-P14:09/2020).

@@ -1,8 +1,12 @@
 #include "reports/view/certified_overview.h"
 
 #include "reports/printed_texts.h"
+#include "reports/result_names.h"
+#include "reports/view/certified_value_tables.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace gumcert::reports {
 
@@ -11,6 +15,42 @@ namespace {
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
 using certificate::CertifiedValue;
+
+constexpr std::size_t k_least_rows_of_a_range = 4;
+
+/// "30 °", "10 µL": where a row stands.
+Text name_of_row(const CertifiedTable::Argument& argument, std::size_t row, const Wording& words) {
+    const std::string& printed = argument.printed.at(row);
+    return is_numeric(argument) ? with_unit(words.number(printed), argument.printed_unit) : Text(printed);
+}
+
+bool is_printed(const CertifiedValue& v) {
+    return !v.printed_value.empty() || v.verdict;
+}
+
+/// Rows of one column that a sentence is about.
+void name_rows(std::vector<Text>& names, const CertifiedTable& table, const CertifiedColumn& column,
+               const CertifiedOverview::Holds& named, const Wording& words) {
+    const Text result = name_of_result(table.id, column.result, words);
+    const auto holds = [&](std::size_t row) { return is_printed(column.values[row]) && named(column.values[row]); };
+    const auto name = [&](std::size_t row) {
+        return table.argument ? result + "[" + name_of_row(*table.argument, row, words) + "]" : result;
+    };
+    for (std::size_t first = 0; first < column.values.size();) {
+        std::size_t end = first;
+        while (end < column.values.size() && holds(end)) {
+            ++end;
+        }
+        if (end - first >= k_least_rows_of_a_range) {
+            names.push_back(words.filled("certificate", "from_to", {{"low", name(first)}, {"high", name(end - 1)}}));
+            first = end;
+        }
+        for (; first < end; ++first) {
+            names.push_back(name(first));
+        }
+        ++first;
+    }
+}
 
 constexpr std::array<Coverage, 6> k_coverages = {Coverage::normal,      Coverage::student_t, Coverage::convolution,
                                                  Coverage::monte_carlo, Coverage::interval,  Coverage::none};
@@ -50,7 +90,7 @@ CertifiedOverview::CertifiedOverview(const certificate::Certificate& certificate
                 if (c == Coverage::nothing) {
                     continue;
                 }
-                by_coverage_.at(static_cast<std::size_t>(c)).push_back(&v);
+                (v.raised ? raised_values_ : by_coverage_.at(static_cast<std::size_t>(c))).push_back(&v);
                 if (!v.printed_k.empty() && c != Coverage::interval) {
                     ks.push_back(v.printed_k);
                 }
@@ -77,13 +117,12 @@ bool CertifiedOverview::separates() const {
 
 std::string CertifiedOverview::letter(Coverage c) const {
     const auto at = std::find(used_.begin(), used_.end(), c);
-    return used_.size() < 2 || at == used_.end()
-               ? ""
-               : std::string("(") + static_cast<char>('a' + (at - used_.begin())) + ")";
+    return !has_letters() || at == used_.end() ? ""
+                                               : std::string("(") + static_cast<char>('a' + (at - used_.begin())) + ")";
 }
 
 std::string CertifiedOverview::note(const CertifiedValue& v) const {
-    std::string text = letter(coverage_of(v));
+    std::string text = v.raised ? "" : letter(coverage_of(v));  // # has a sentence of its own
     const auto mark = [&](const char* m) { text += (text.empty() ? "" : " ") + std::string(m); };
     if (is_outside(v)) {
         mark("*");
@@ -128,6 +167,45 @@ bool CertifiedOverview::any(const Holds& holds) const {
         }
     }
     return false;
+}
+
+std::vector<Text> names_of_values(const certificate::Certificate& certificate, const CertifiedOverview::Holds& named,
+                                  const Wording& words) {
+    std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // of a name: values, and those that are named
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            auto& [all, of_them] = counts[name_of_result(table.id, column.result, words).first()];
+            for (const CertifiedValue& v : column.values) {
+                all += is_printed(v) ? 1U : 0U;
+                of_them += is_printed(v) && named(v) ? 1U : 0U;
+            }
+        }
+    }
+    std::vector<Text> names;
+    for (const CertifiedTable& table : certificate.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            const Text result = name_of_result(table.id, column.result, words);
+            const auto& [all, of_them] = counts.at(result.first());
+            if (of_them < all) {
+                name_rows(names, table, column, named, words);
+            } else if (of_them > 0 && std::find(names.begin(), names.end(), result) == names.end()) {
+                names.push_back(result);
+            }
+        }
+    }
+    return names;
+}
+
+Text enumerated(const std::vector<Text>& names, const Wording& words) {
+    Text text;
+    for (const Text& name : names) {
+        text += text.empty() ? name : words("document", "enumeration") + name;
+    }
+    return text;
+}
+
+bool is_without_verdict(const CertifiedValue& v) {
+    return !v.printed_value.empty() && !v.verdict;
 }
 
 }  // namespace gumcert::reports

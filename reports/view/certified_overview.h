@@ -30,6 +30,7 @@ public:
     /// \param certificate  must outlive this object
     explicit CertifiedOverview(const certificate::Certificate& certificate);
 
+    /// Those whose U is what the evaluation found, not raised to the capability.
     [[nodiscard]] const std::vector<const certificate::CertifiedValue*>& values(Coverage c) const {
         return by_coverage_.at(static_cast<std::size_t>(c));
     }
@@ -44,6 +45,11 @@ public:
     [[nodiscard]] bool exact() const { return exact_; }
     /// Some U is the capability of the laboratory.
     [[nodiscard]] bool raised() const { return raised_; }
+    [[nodiscard]] const std::vector<const certificate::CertifiedValue*>& raised_values() const {
+        return raised_values_;
+    }
+    /// More than one sentence is needed for what U means, so that values have the letter or the mark of theirs.
+    [[nodiscard]] bool has_letters() const { return used_.size() + (raised_ ? 1U : 0U) > 1; }
     /// The profile wants what is outside of the accreditation in a section of its own.
     [[nodiscard]] bool separates() const;
 
@@ -63,7 +69,19 @@ private:
     const certificate::Certificate& certificate_;
     std::array<std::vector<const certificate::CertifiedValue*>, 7> by_coverage_;
     std::vector<Coverage> used_;
+    std::vector<const certificate::CertifiedValue*> raised_values_;
     bool k_column_ = false, nu_beside_k_ = false, raised_ = false, exact_ = false;
 };
+
+/// The values that a sentence is about, by name: "l" where it holds for all values of l, else each with its point,
+/// "E[10 mm]", and rows that follow each other by the first and the last of them, "E[10 mm] to E[90 mm]".
+[[nodiscard]] std::vector<Text> names_of_values(const certificate::Certificate& certificate,
+                                                const CertifiedOverview::Holds& named, const Wording& words);
+
+/// "a, b, c" as each language writes it.
+[[nodiscard]] Text enumerated(const std::vector<Text>& names, const Wording& words);
+
+/// Whether a value is printed, and no specification is about it.
+[[nodiscard]] bool is_without_verdict(const certificate::CertifiedValue& v);
 
 }  // namespace gumcert::reports

@@ -102,15 +102,18 @@ std::string printed_ratio(double ratio) {
     return certificate::printed_at_most(ratio, certificate::decimals_of(gum::round_significant(ratio, 3)));
 }
 
-/// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
-/// with what stands beside them, and that the printed value is inside of them where the verdict says so.
-/// \param shown  the decision from the printed numbers
-void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
+void print_limits(Verdict& verdict, int decimals) {
     const auto limit = [&](const std::optional<double>& l) {
         return l ? certificate::printed_limit(*l, decimals) : std::string();
     };
     verdict.printed.lower = limit(verdict.lower);
     verdict.printed.upper = limit(verdict.upper);
+}
+
+/// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
+/// with what stands beside them, and that the printed value is inside of them where the verdict says so.
+/// \param shown  the decision from the printed numbers
+void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
     // Acceptance limits follow from U: they end where value and limits end.
     int finest = decimals;
     for (const std::string& text : {verdict.printed.lower, verdict.printed.upper}) {
@@ -180,6 +183,8 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         return not_applicable(verdict, rule.problem);
     }
     verdict.formula = gum::decision_formula(rule.rule, rule.parameters, rule.limits);
+    const int decimals = value.printed_value.empty() ? 0 : certificate::decimals_of(value.printed_value);
+    print_limits(verdict, decimals);  // they were agreed for the value, whether or not it can be decided
     if (value.external) {
         return not_applicable(verdict,
                               "another laboratory provided the result, and its conformity is not decided here");
@@ -217,7 +222,7 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
                 "from the value.";
         }
     }
-    print(verdict, shown, certificate::decimals_of(value.printed_value));
+    print(verdict, shown, decimals);
     return verdict;
 }
 

@@ -1,5 +1,6 @@
 #include "certificate/gates/finding_list.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -83,6 +84,16 @@ TEST(FindingList, KnowsTheResultsOfTheCertificate) {
     EXPECT_TRUE(names_a_result(certificate, {"E*"}));
     EXPECT_FALSE(names_a_result(certificate, {"x", "EBB"}));
     EXPECT_FALSE(names_a_result(certificate, {}));
+    EXPECT_THAT(names_of_no_result(certificate, {"x", "l", "E*", "l[1]"}), testing::ElementsAre("x", "l[1]"));
+    EXPECT_THAT(result_names(certificate, {"x"}), testing::ElementsAre("\"l\"", "\"EAA\""));
+}
+
+TEST(FindingList, NamesThePointsWhereAPointWasMeant) {
+    Certificate certificate = passed_certificate();
+    certificate.tables[0].argument =
+        CertifiedTable::Argument{.name = "point", .unit = "", .printed_unit = "", .values = {{}}, .printed = {"pH 4"}};
+    EXPECT_THAT(result_names(certificate, {"l[pH4]"}), testing::ElementsAre("\"l[pH 4]\"", "\"EAA\""));
+    EXPECT_THAT(names_of_no_result(certificate, {"l[pH4]", "l[pH 4]"}), testing::ElementsAre("l[pH4]"));
 }
 
 TEST(FindingList, AddsTheGravestOfManyAndTheFirstOfEquals) {

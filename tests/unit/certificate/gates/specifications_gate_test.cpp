@@ -43,6 +43,14 @@ TEST(SpecificationsGate, WantsAPartner) {
                 testing::IsEmpty());
 }
 
+TEST(SpecificationsGate, TellsEachNameThatIsNoResult) {
+    const Finding some = only(after([](AgreedSpecification& s) { s.results = {"l", "l[10 mm]", "m"}; }));
+    expect_finding(some, "D07", "ISO/IEC 17025:2017, 7.8.6.2 a", k_major, "/specifications/0/results");
+    EXPECT_THAT(some.what, testing::HasSubstr("names \"l[10 mm]\", \"m\", which no result of the certificate"));
+    const Finding none = only(after([](AgreedSpecification& s) { s.results = {"m"}; }));
+    EXPECT_THAT(none.what, testing::HasSubstr("names no result of the certificate, so that nothing is decided"));
+}
+
 TEST(SpecificationsGate, WantsTheAuthorOfARuleOfOthers) {
     expect_finding(only(after([](AgreedSpecification& s) { s.rule.id = "DR-12"; })), "D10", k_rule, k_critical,
                    "/specifications/0/rule/prescribed_by");

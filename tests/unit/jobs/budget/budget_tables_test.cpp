@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -58,6 +59,86 @@ std::vector<std::string> shown(const certificate::TableRequest& table) {
         all.push_back(column.show + ":" + column.of);
     }
     return all;
+}
+
+/// A text as the form "Unicode text" of spreadsheets has it.
+std::string utf16(const std::string& text, bool little) {
+    std::string bytes = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : text) {
+        bytes += little ? std::string{c, '\0'} : std::string{'\0', c};
+    }
+    return bytes;
+}
+
+TEST(BudgetTables, AFaultOfTheTableIsNoFaultOfTheInputs) {
+    const std::string rows = "1,1.01,1.02\n2,2.01,2.02\n";
+    const std::string good = "V_s,V_x.1,V_x.2\n" + rows;
+    const auto with = [&](char separator) {
+        std::string text = good;
+        std::replace(text.begin(), text.end(), ',', separator);
+        return text;
+    };
+    struct Broken {
+        const char* name;
+        std::string bytes;
+        bool is_unreadable = false;  ///< nothing but this can be said of it
+    };
+    const std::vector<Broken> all = {
+        {"UTF-16, little", utf16(good, true), true},
+        {"UTF-16, big", utf16(good, false), true},
+        {"tabs", with('\t'), true},
+        {"bars", with('|'), true},
+        {"empty", "", true},
+        {"header only", "V_s,V_x.1,V_x.2\n", true},
+        {"Latin-1 in a row", good + "\xB5,1,1\n", true},
+        {"Latin-1 in the header", "V_s,V_x.1,V_x.2,\xB5\n1,1,1,1\n", true},
+        {"NUL", good + std::string(1, '\0'), true},
+        {"carriage returns", "V_s,V_x.1,V_x.2\r1,1.01,1.02\r", true},
+        {"blank in a key", "V_s,V_x. 1,V_x.2\n" + rows},
+        {"wrong key", "V_s,V_x.1,dV.K\n" + rows},
+        {"unknown column", "V_S,V_x.1,V_x.2\n" + rows},
+        {"column twice", "V_s,V_x.1,V_x.1\n" + rows},
+        {"quote", "V_s,V_x.1,\"V_x.2\n" + rows},
+        {"rows too short", "V_s,V_x.1,V_x.2\n1,1\n2,2\n"},
+        {"decimal commas", "V_s,V_x.1,V_x.2\n1,1,01,1,02\n2,2,01,2,02\n"},
+        {"not there", ""},
+    };
+    for (const Broken& broken : all) {
+        SCOPED_TRACE(broken.name);
+        std::vector<gum::Diagnostic> told;
+        try {
+            const bool is_there = std::string(broken.name) != "not there";
+            (void)read_budget(k_meter + R"j(, "points": {"file": "points.csv"})j",
+                              is_there ? test::BudgetFiles{{"points.csv", broken.bytes}} : test::BudgetFiles{});
+        } catch (const gum::DiagnosedError& error) {
+            told = error.diagnostics();
+        }
+        EXPECT_FALSE(told.empty());
+        EXPECT_TRUE(!broken.is_unreadable || told.size() == 1U) << told.size() << " messages";
+        for (const gum::Diagnostic& one : told) {
+            EXPECT_EQ(one.where.find("job.json"), std::string::npos) << gum::message(one);
+        }
+    }
+    // What the job states itself, and states wrongly, is told beside it.
+    std::string wrong = k_meter + R"j(, "points": {"file": "points.csv"})j";
+    wrong.replace(wrong.find("1e-6"), 4, "-1e-6");
+    expect_refusal(wrong, k_number_out_of_range, "-1e-06", {{"points.csv", with('\t')}});
+    expect_refusal(wrong, k_csv_separator, "tabs", {{"points.csv", with('\t')}});
+}
+
+TEST(BudgetTables, ShowLimitsWhereASpecificationNamesAPoint) {
+    const auto columns = [](const std::string& named) {
+        return shown(
+            read_budget(meter(k_columns, R"j(, "certificate": {"specifications": [{"id": "s", "results": [")j" + named +
+                                             R"j("], "unit": "mV", "rule": {"id": "DR-01"},
+                                                      "lower": -1, "upper": 1}]})j"),
+                        k_points)
+                .tables.at(0));
+    };
+    EXPECT_THAT(columns("E[2]"), testing::Contains("verdict:E"));
+    EXPECT_THAT(columns("E[2]"), testing::Contains("limit:E"));
+    EXPECT_THAT(columns("E"), testing::Contains("verdict:E"));
+    EXPECT_THAT(columns("E[3]"), testing::Not(testing::Contains("verdict:E"))) << "no such point";
 }
 
 TEST(BudgetTables, SayWhetherTheirRowsAreDrawn) {

@@ -24,9 +24,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-using Sections = std::function<void(CertificateBuilder&, const Wording&, const EvaluationRecord&)>;
+using SectionMaker = std::function<void(CertificateBuilder&, const Wording&, const EvaluationRecord&)>;
 
-json sections_of(const EvaluationRecord& record, const Sections& make, const std::string& language = "en") {
+json sections_of(const EvaluationRecord& record, const SectionMaker& make, const std::string& language = "en") {
     const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
     const Wording words(texts);
     CertificateBuilder builder(words);
@@ -269,7 +269,7 @@ TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
     const json sections = sections_of(test::certified_rotary_record(), closing_sections);
     const std::string text = text_of(sections, "conformity");
     EXPECT_THAT(text, HasSubstr("Specification=Drawing 1234, B, 3.2\n"));
-    EXPECT_THAT(text, HasSubstr("Tolerance limits=T_L = \u221210.00\u00A0″; T_U = 10.00\u00A0″\n"));
+    EXPECT_THAT(text, HasSubstr("Tolerance limits=T_L = \u221210\u00A0″; T_U = 10\u00A0″\n"));
     EXPECT_THAT(text, HasSubstr("Decision rule=DR-03: guarded acceptance, w = U (ILAC-G8:09/2019, 4.2.2)\n"));
     EXPECT_THAT(text, HasSubstr("Agreed=Example Customer, purchasing, 2026-11-02, Contract 88-2026\n"));
     EXPECT_THAT(text, HasSubstr("Conformity was decided by rule DR-03: A_U = T_U − U, A_L = T_L + U."));
@@ -284,7 +284,7 @@ TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
 
 TEST(CertificateStatement, ListsFindingsOnDraftsOnly) {
     EvaluationRecord record = test::certified_rotary_record();
-    const Sections findings = [](CertificateBuilder& builder, const Wording& words, const EvaluationRecord& r) {
+    const SectionMaker findings = [](CertificateBuilder& builder, const Wording& words, const EvaluationRecord& r) {
         findings_section(builder, words, *r.certificate);
     };
     record.certificate->findings = test::drafted(record).certificate->findings;

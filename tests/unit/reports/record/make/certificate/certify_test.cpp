@@ -612,8 +612,9 @@ TEST(Certify, SaysWhyNothingCanBeDecided) {
     record.results[0].k.reset();
     record.results[0].coverage = "none";
     record.results[0].printed.U.clear();
-    EXPECT_THAT(certified(record, data_with_rule("DR-03", 9.0, 10.0, "m")).verdict->note,
-                HasSubstr("no expanded uncertainty"));
+    const Verdict without_U = *certified(record, data_with_rule("DR-03", 9.0, 10.0, "m")).verdict;
+    EXPECT_THAT(without_U.note, HasSubstr("no expanded uncertainty"));
+    EXPECT_FALSE(without_U.printed.lower.empty() || without_U.printed.upper.empty());
 }
 
 TEST(Certify, NeverDropsASpecificationThatWasAgreedOn) {
@@ -625,6 +626,8 @@ TEST(Certify, NeverDropsASpecificationThatWasAgreedOn) {
     EXPECT_EQ(v.verdict, "not_applicable");
     EXPECT_EQ(v.formula, "AL = TL + U, AU = TU − U");
     EXPECT_THAT(v.note, HasSubstr("another laboratory provided"));
+    EXPECT_EQ(v.printed.lower + " " + v.printed.upper, "9.00 10.00") << "they were agreed all the same";
+    EXPECT_EQ(v.printed.acceptance_upper, "");
     EXPECT_THAT(ids(record), Contains("D05"));
 }
 
