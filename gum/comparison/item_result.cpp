@@ -225,7 +225,9 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
         // a result is scored.
         if (!assigned.scatter && result.k) {
             const EnUncertainty of_scores =
-                en_uncertainty(*result.u, *result.U, *result.k, nu, scheme.coverage_probability);
+                result.expanded_by == ExpandedBy::statement && of_items == 0.0
+                    ? en_uncertainty(*assigned.stated, scheme.coverage_probability)
+                    : en_uncertainty(*result.u, *result.U, *result.k, nu, scheme.coverage_probability);
             result.U_of_scores = of_scores.converted ? std::optional(of_scores.U) : std::nullopt;
         }
     }

@@ -6,6 +6,8 @@
 
 #include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/scores.h"
+#include "gum/coverage.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -28,17 +30,25 @@ double score_of(const ScoredResult& point, double scale) {
 
 /// U of a result as E_n takes it.
 EnUncertainty of_scores(const Scene& scene, const ResultUncertainty& uncertainty) {
-    return en_uncertainty(uncertainty.u, uncertainty.U, uncertainty.k, uncertainty.degrees_of_freedom,
-                          scene.scheme.coverage_probability);
+    return en_uncertainty(uncertainty, scene.scheme.coverage_probability);
+}
+
+/// u of a result as it meets the scatter of others: where its own distribution says U, the u that gives this U with its
+/// degrees of freedom. A result against a value that is exactly known then has its own U, by whatever way it is scored.
+double u_beside_scatter(const Scene& scene, const ResultUncertainty& laboratory) {
+    return laboratory.of_scores
+               ? laboratory.of_scores->U / coverage_factor(scene.score_probability(), laboratory.degrees_of_freedom)
+               : laboratory.u;
 }
 
 /// Scores against what the scatter of all other results says.
 SpreadDifference difference_by_scatter(const Scene& scene, std::size_t position, const ResultUncertainty& laboratory) {
     const ConsensusScatter& scatter = *scene.assigned.scatter;
     const auto at = static_cast<Eigen::Index>(position);
-    return spread_difference({laboratory.u, laboratory.degrees_of_freedom}, scatter.others[position],
-                             scene.item.u_of_item(), scatter.covariance[at], scatter.share[at],
-                             scatter.share[at] > 0.0 ? scatter.factor : 1.0, scene.score_probability());
+    return spread_difference({u_beside_scatter(scene, laboratory), laboratory.degrees_of_freedom},
+                             scatter.others[position], scene.item.u_of_item(), scatter.covariance[at],
+                             scatter.share[at], scatter.share[at] > 0.0 ? scatter.factor : 1.0,
+                             scene.score_probability());
 }
 
 bool is_scored_by_scatter(const Scene& scene) {
@@ -165,6 +175,16 @@ void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
     }
 }
 
+/// Whether the distribution of a result reaches farther out than its u and degrees of freedom tell, so that the limits
+/// of ζ do not hold for it: they are those of a normal distribution.
+bool is_beyond_zeta(const Scene& scene, const ScoredResult& point) {
+    if (!point.uncertainty || !point.uncertainty->of_scores) {
+        return false;
+    }
+    const double expected = coverage_factor(scene.score_probability(), point.uncertainty->degrees_of_freedom);
+    return point.uncertainty->of_scores->k > expected * (1.0 + k_same_coverage_factor);
+}
+
 /// The signals of all scores that a result has. Of z and z' the one that holds.
 std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const ScoredResult& point) {
     std::vector<std::pair<Score, Signal>> signals;
@@ -180,7 +200,9 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
         add(Score::z_prime, point.z_prime, signal_of_z);
     }
     add(Score::en, point.en, signal_of_en);
-    add(Score::zeta, point.zeta, signal_of_z);
+    if (!is_beyond_zeta(scene, point)) {
+        add(Score::zeta, point.zeta, signal_of_z);
+    }
     add(Score::en_audited, point.en_audited, signal_of_en);
     if (point.percent_of_allowed) {
         constexpr double k_all_that_is_allowed = 100.0;  // %

@@ -305,6 +305,12 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
                           " are not those of about 95 %: En takes U = k u with the factor for " +
                           in_percent(comparison.score_probability) +
                           " and the stated degrees of freedom in place of the stated U.");
+        const bool of_budget = std::any_of(
+            comparison.results.begin(), comparison.results.end(),
+            [](const gum::ScoredResult& result) { return result.of_scores && result.uncertainty->of_scores; });
+        if (of_budget) {
+            remarks.emplace_back("Of a budget, En takes U for this probability from its distribution.");
+        }
     }
     if (comparison.score_probability != job.coverage_probability) {
         remarks.push_back("En is defined for about 95 %: it takes expanded uncertainties for " +

@@ -376,6 +376,7 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
         point.U = shown(U, printed_uncertainty);
         point.k = shown(from.uncertainty->k, printed_score);
         point.nu = reports::finite_or_none(from.uncertainty->degrees_of_freedom);
+        point.coverage_probability = from.uncertainty->coverage_probability;
     }
     point.value = {from.value, printed_value(from.value, U)};
     if (from.of_scores) {

@@ -32,6 +32,7 @@ using ::testing::Not;
 
 const std::vector<std::string> k_languages = {"en", "de", "zh-Hant", "es"};
 const std::vector<std::string> k_verdicts = {"disagreement",
+                                             "side_refuted",
                                              "points_above_1",
                                              "correlation_unknown",
                                              "reference_not_better",
