@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "gum/argument_check.h"
 #include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
@@ -55,6 +57,29 @@ bool is_scored_by_scatter(const Scene& scene) {
     return scene.assigned.scatter && !scene.assigned.scatter->others.empty();
 }
 
+/// A difference that has no uncertainty and is not 0: the result and the assigned value are stated to be one quantity
+/// with all of their uncertainty in common, and they differ. No score says so, and none of the two can stand.
+void require_explained_difference(const Scene& scene, const ScoredResult& point) {
+    constexpr double k_roundings = 64.0;  // of the values and of the weights of a mean
+    constexpr double k_of_u = 1e-9;
+    if (*point.u_difference > 0.0 && *point.U_difference > 0.0) {
+        return;
+    }
+    const double rounding = k_roundings * std::numeric_limits<double>::epsilon() *
+                                (std::abs(point.value) + std::abs(point.assigned_value)) +
+                            k_of_u * point.uncertainty->u;
+    if (std::abs(point.difference) > rounding) {
+        refuse("GC-GUM-0031",
+               (scene.data.where.empty() ? "result of " : scene.data.where + ", result of ") +
+                   scene.scheme.participants[point.participant].id,
+               "D = " + text::shortest(point.difference) + " beside an uncertainty of D of 0, from u = " +
+                   text::shortest(point.uncertainty->u) + " and u(X) = " + text::shortest(*scene.item.u) +
+                   " with correlation " + text::shortest(*point.correlation),
+               "a score divides by it, so it must be greater than 0",
+               "State a smaller correlation: with this one both values have all of their uncertainty in common.");
+    }
+}
+
 /// u_D, U_D and with them E_n and ζ.
 void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResult& point) {
     const auto at = static_cast<Eigen::Index>(position);
@@ -79,6 +104,7 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
         point.U_difference =
             uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
     }
+    require_explained_difference(scene, point);
     if (const std::optional<ComparisonScore> score =
             score_of_difference(point.value, point.assigned_value, *point.u_difference, *point.U_difference)) {
         point.en = score->en;
