@@ -272,8 +272,19 @@ bool is_too_uncertain_to_clear(const Scene& scene, const ScoredResult& point) {
     return item.score == DecidingScore::difference && item.U && *item.U > *item.delta_E * k_rounding;
 }
 
+/// Whether a result is in the largest consistent subset, or in another one of that size that is consistent as well: the
+/// value that it is held against is one of several then.
+bool rests_on_choice(const Scene& scene, std::size_t position) {
+    const AssignedValue& assigned = scene.assigned;
+    const auto holds = [&](const std::vector<std::size_t>& positions) {
+        return std::find(positions.begin(), positions.end(), position) != positions.end();
+    };
+    return !assigned.in_another_subset.empty() &&
+           (holds(assigned.in_another_subset) || (holds(scene.data.contributing) && !holds(assigned.not_consistent)));
+}
+
 /// The strongest signal of all scores, and who gives it.
-void add_verdict(const Scene& scene, ScoredResult& point) {
+void add_verdict(const Scene& scene, std::size_t position, ScoredResult& point) {
     const std::vector<std::pair<Score, Signal>> signals = signals_of(scene, point);
     if (scene.item.score == DecidingScore::none || signals.empty()) {
         return;
@@ -281,6 +292,10 @@ void add_verdict(const Scene& scene, ScoredResult& point) {
     Signal strongest = Signal::none;
     for (const auto& [score, signal] : signals) {
         strongest = std::max(strongest, signal);
+    }
+    if (strongest != Signal::none && rests_on_choice(scene, position)) {
+        point.verdict = Verdict::inconclusive;
+        return;
     }
     for (const auto& [score, signal] : signals) {
         if (signal == strongest && signal != Signal::none) {
@@ -347,7 +362,7 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
         score_with_uncertainty(scene, position, point);
         score_audited(scene, position, point);
     }
-    add_verdict(scene, point);
+    add_verdict(scene, position, point);
     point.realism = realism_of(scene, point);
     return point;
 }

@@ -20,7 +20,7 @@ enum class Verdict {
     none,          ///< no signal
     warning,       ///< the strongest of all scores
     action,        ///< the strongest of all scores
-    inconclusive,  ///< no signal, but the assigned value is too uncertain to clear anybody
+    inconclusive,  ///< a signal that rests on the choice between consistent subsets; or no signal, but the assigned value is too uncertain to clear anybody
 };
 
 /// A stated u against u(X) and 1.5 s*.

@@ -150,6 +150,7 @@ void describe(Archive& a, Struct& r) {
     a("contributing", r.contributing, Range::not_negative);
     a("not_contributing", r.not_contributing);
     a("not_consistent", r.not_consistent);
+    a.added("in_another_subset", r.in_another_subset);
     a("missing", r.missing);
     a("weights", r.weights);
     a("consistency", r.consistency);
