@@ -20,10 +20,12 @@
 #include "jobs/rotary_table/rotary_table_job.h"
 #include "reports/record/make/budget/budget_record.h"
 #include "reports/record/make/budget/capability_inputs.h"
+#include "reports/record/make/circle_closure/circle_closure_findings.h"
 #include "reports/record/make/circle_closure/circle_closure_record.h"
 #include "reports/record/make/comparison/evaluate_comparison.h"
 #include "reports/record/make/rotary_table/fixture_budget_record.h"
 #include "reports/record/make/rotary_table/reference_comparison.h"
+#include "reports/record/make/rotary_table/rotary_findings.h"
 #include "reports/record/make/rotary_table/rotary_table_record.h"
 
 namespace gumcert::app {
@@ -142,11 +144,27 @@ Evaluation evaluate_circle_closure_job(const EvaluationTask& task) {
     return evaluation;
 }
 
+/// Records of the jobs that are compared, for what their makers find against them.
+reports::JobJudges judges_of_jobs() {
+    return {.rotary_table =
+                [](const jobs::RotaryTableJob& job, const gum::RotaryTableResult& result) {
+                    const reports::RotaryRecordParts parts{
+                        .fixture_budget = reports::fixture_budget_record(job, result.fixture), .comparison = {}};
+                    const reports::EvaluationRecord record = reports::rotary_table_record(job, result, parts, {}, "");
+                    return reports::JudgedJob{record.diagnostics, reports::rotary_findings(record)};
+                },
+            .circle_closure =
+                [](const jobs::CircleClosureJob& job, const gum::CircleClosureResult& result) {
+                    const reports::EvaluationRecord record = reports::circle_closure_record(job, result, {}, "");
+                    return reports::JudgedJob{record.diagnostics, reports::circle_closure_findings(record)};
+                }};
+}
+
 Evaluation evaluate_comparison_job(const EvaluationTask& task) {
     const jobs::ComparisonJob job = jobs::read_comparison_job(task.files, task.job_file);
     task.begin(job.files);
     Evaluation evaluation;
-    evaluation.record = reports::evaluate_comparison(job, task.held_files(job.files), task.progress);
+    evaluation.record = reports::evaluate_comparison(job, task.held_files(job.files), task.progress, judges_of_jobs());
     evaluation.negative = !evaluation.record.comparison->items_without_result.empty();
     if (job.certificate) {
         evaluation.waivers = job.certificate->waivers;

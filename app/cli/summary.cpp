@@ -186,8 +186,10 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     fmt::print("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(), actions,
                warnings);
     if (inconclusive > 0) {
-        fmt::print("{} cannot be judged: the assigned value is too uncertain for them, or of unknown uncertainty\n",
-                   inconclusive);
+        fmt::print(
+            "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
+            "several\n",
+            inconclusive);
     }
     const auto inconsistent = std::count_if(
         comparison.items.begin(), comparison.items.end(),
@@ -212,6 +214,7 @@ const char* verdict_text(const std::string& verdict) {
            : verdict == "agreement_few_points" ? "agreement; too few points to tell whether the uncertainties are right"
            : verdict == "uncertainty_not_confirmed" ? "agreement; whether the uncertainties are right cannot be told"
            : verdict == "points_above_1"            ? "more points above 1 than chance explains"
+           : verdict == "side_refuted"              ? "no verdict: the evaluation of a side refutes what it states"
            : verdict == "disagreement"              ? "disagreement"
                                                     : "";
 }

@@ -401,8 +401,10 @@ AuditedScore score_of(const reports::ComparisonPoint& point) {
     score.reference_value = point.reference_value.number;
     score.reference_u = point.reference_u.value_or(0.0);
     score.reference_U = point.reference_U.number.value_or(0.0);
-    score.k = point.k.number;
-    score.reference_k = point.reference_k;
+    // Of a budget k is that of the distribution of its result, for the probability that stands beside it: a k of 9 and one
+    // of 2 mean the same 95 % then.
+    score.k = point.coverage_probability ? std::nullopt : point.k.number;
+    score.reference_k = point.reference_coverage_probability ? std::nullopt : point.reference_k;
     score.en = point.En.number;
     score.zeta = point.zeta.number;
     score.z = point.z.number;

@@ -265,6 +265,9 @@ AssignedValue largest_subset(const LaboratoryData& data, double alpha) {
     }
     assigned.subset = subset.test;
     assigned.subset_unique = subset.unique;
+    for (const std::size_t i : subset.in_another) {
+        assigned.in_another_subset.push_back(data.contributing[i]);
+    }
     return assigned;
 }
 

@@ -50,6 +50,7 @@ struct AssignedValue {
     std::vector<std::size_t> not_consistent;  ///< contributing results outside the largest consistent subset
     std::optional<ConsistencyTest> subset;    ///< test of the largest consistent subset
     bool subset_unique = true;
+    std::vector<std::size_t> in_another_subset = {};  ///< of them, those that another one of this size holds
     std::set<std::string> ambiguous_sources;  ///< shared with results in more than one way, see SourceCovariance
 };
 

@@ -10,6 +10,12 @@ ResultUncertainty stated_expanded(double U, double k) {
     return {.u = U / k, .U = U, .k = k, .stated_as_expanded = true};
 }
 
+EnUncertainty en_uncertainty(const ResultUncertainty& uncertainty, double coverage_probability) {
+    return uncertainty.of_scores ? *uncertainty.of_scores
+                                 : en_uncertainty(uncertainty.u, uncertainty.U, uncertainty.k,
+                                                  uncertainty.degrees_of_freedom, coverage_probability);
+}
+
 std::string word_of(AssignedValueMethod method) {
     return std::string(k_assigned_value_words[static_cast<std::size_t>(method)]);
 }

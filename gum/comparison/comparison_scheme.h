@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "gum/comparison/scores.h"
 #include "gum/quantity/unit.h"
 
 namespace gumcert::gum {
@@ -27,7 +28,13 @@ struct ResultUncertainty {
     double k = 2.0;
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     bool stated_as_expanded = false;
+    /// What U covers, where the distribution of the result is known, as that of a budget is. k need not be t_p(ν) then.
+    std::optional<double> coverage_probability = {};
+    /// U as E_n takes it, where that distribution says it; none: by k and ν.
+    std::optional<EnUncertainty> of_scores = {};
 };
+/// U of a result as E_n takes it: that of its distribution, else as en_uncertainty() of its numbers.
+[[nodiscard]] EnUncertainty en_uncertainty(const ResultUncertainty& uncertainty, double coverage_probability);
 /// U as a laboratory states it, u = U/k.
 /// \throws InputError  GC-GUM-0001, -0003 unless both are greater than 0
 [[nodiscard]] ResultUncertainty stated_expanded(double U, double k = 2.0);

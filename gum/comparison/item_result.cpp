@@ -61,6 +61,9 @@ void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const 
         result.consistency_of_all = consistency_test(data.at(data.contributing), data.item->assigned_value.alpha);
     }
     result.subset_unique = assigned.subset_unique;
+    for (const std::size_t i : assigned.in_another_subset) {
+        result.in_another_subset.push_back(participant(i));
+    }
     result.correlation_known = assigned.correlation_known;
     result.shares_sources = given && !assigned.covariance.isZero(0.0);
     result.ambiguous_sources = data.ambiguous_sources;
@@ -225,7 +228,9 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
         // a result is scored.
         if (!assigned.scatter && result.k) {
             const EnUncertainty of_scores =
-                en_uncertainty(*result.u, *result.U, *result.k, nu, scheme.coverage_probability);
+                result.expanded_by == ExpandedBy::statement && of_items == 0.0
+                    ? en_uncertainty(*assigned.stated, scheme.coverage_probability)
+                    : en_uncertainty(*result.u, *result.U, *result.k, nu, scheme.coverage_probability);
             result.U_of_scores = of_scores.converted ? std::optional(of_scores.U) : std::nullopt;
         }
     }

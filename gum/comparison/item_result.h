@@ -77,9 +77,10 @@ struct ItemResult {
     /// Test of all contributing results where the largest consistent subset leaves some of them out.
     std::optional<ConsistencyTest> consistency_of_all = {};
     bool subset_unique = true;
-    bool correlation_known = true;                 ///< of the value with the results, see AssignedValue
-    bool shares_sources = false;                   ///< a given value, with results
-    std::set<std::string> ambiguous_sources = {};  ///< shared in more than one way, see SourceCovariance
+    std::vector<std::size_t> in_another_subset = {};  ///< of `not_consistent`, see ConsistentSubset::in_another
+    bool correlation_known = true;                    ///< of the value with the results, see AssignedValue
+    bool shares_sources = false;                      ///< a given value, with results
+    std::set<std::string> ambiguous_sources = {};     ///< shared in more than one way, see SourceCovariance
 
     /// Standard uncertainty of what homogeneity and stability of the item add.
     [[nodiscard]] double u_of_item() const;

@@ -3,8 +3,10 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,7 +64,10 @@ public:
     /// \param bound  subsets with a greater chi-square are of no interest
     /// \param any    the first subset that is found will do
     /// \return the best subset; infinite chi-square: none has a chi-square up to the bound
-    Subset best_of_size(std::size_t size, double bound, bool any) {
+    Subset best_of_size(std::size_t size, double bound, bool any) { return best_with(std::nullopt, size, bound, any); }
+    /// The same among the subsets that hold one of the results.
+    Subset best_with(std::optional<std::uint32_t> member, std::size_t size, double bound, bool any) {
+        member_ = member;
         size_ = size;
         bound_ = bound;
         any_ = any;
@@ -87,6 +92,8 @@ private:
         const double z = (x_[i] - y) / u_[i];
         return z * z;
     }
+    /// f as results are ordered by it: one that has to be a member comes before all others.
+    [[nodiscard]] double rank_of(std::uint32_t i, double y) const { return i == member_ ? -1.0 : f(i, y); }
     // Subsets that tie with the best one are still of interest: whether it is the only one is part of the answer.
     [[nodiscard]] double limit() const { return std::min(bound_, best_.chi_square * (1.0 + k_tie)); }
 
@@ -118,8 +125,8 @@ private:
     [[nodiscard]] Members smallest_at(double y, const Members& active) const {
         Members chosen = active;
         const auto smaller = [&](std::uint32_t a, std::uint32_t b) {
-            const double f_a = f(a, y);
-            const double f_b = f(b, y);
+            const double f_a = rank_of(a, y);
+            const double f_b = rank_of(b, y);
             return f_a < f_b || (f_a == f_b && a < b);
         };
         std::nth_element(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(size_ - 1), chosen.end(),
@@ -191,10 +198,10 @@ private:
         for (std::size_t j = 0; j < count; ++j) {
             // A parabola is largest at one of the ends of an interval, and smallest at its vertex x_i or, where that
             // lies outside, at the nearer end.
-            const double at_low = f(active[j], low);
-            const double at_high = f(active[j], high);
+            const double at_low = rank_of(active[j], low);
+            const double at_high = rank_of(active[j], high);
             const double x = x_[active[j]];
-            least_[j] = x >= low && x <= high ? 0.0 : std::min(at_low, at_high);
+            least_[j] = x >= low && x <= high && active[j] != member_ ? 0.0 : std::min(at_low, at_high);
             greatest_[j] = std::max(at_low, at_high);
         }
         // Inside: fewer than k others can be smaller. Outside: k others are.
@@ -241,9 +248,13 @@ private:
     void search(double low, double high, Members active) {
         // Members of a subset of interest have terms up to its chi-square, so the others are left behind.
         const double most = limit() * (1.0 + k_rounding_of_chi_square);
-        std::erase_if(active, [&](std::uint32_t i) {
+        const auto is_beyond = [&](std::uint32_t i) {
             return !(x_[i] >= low && x_[i] <= high) && std::min(f(i, low), f(i, high)) > most;
-        });
+        };
+        std::erase_if(active, is_beyond);
+        if (member_ && is_beyond(*member_)) {
+            return;
+        }
         if (active.size() < size_ || (any_ && !best_.members.empty())) {
             return;
         }
@@ -366,6 +377,7 @@ private:
     }
 
     std::vector<double> x_, u_;
+    std::optional<std::uint32_t> member_;  ///< of every subset
     std::size_t size_ = 0;
     double bound_ = k_infinity;
     bool any_ = false;
@@ -378,7 +390,25 @@ private:
 struct Largest {
     Subset subset;
     bool unique = true;
+    Members in_another = {};  ///< ascending, of those outside
 };
+
+/// Results outside the subset that another consistent subset of its size holds.
+Members in_another_subset(SubsetSearch& search, const Members& members, std::size_t n, double critical) {
+    constexpr std::size_t k_most_asked = 100;  // each takes a search
+    Members found;
+    std::size_t asked = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        if (std::binary_search(members.begin(), members.end(), i)) {
+            continue;
+        }
+        // Of very many that are left out the last ones are not asked: nothing is said against them then.
+        if (++asked > k_most_asked || !search.best_with(i, members.size(), critical, true).members.empty()) {
+            found.push_back(i);
+        }
+    }
+    return found;
+}
 
 /// Where k results are consistent, k − 1 of them are: leaving out the one with the greatest share of chi-square brings
 /// χ²/(k − 1) down or leaves it, while the critical value over its degrees of freedom grows (for α up to 0.3).
@@ -402,6 +432,7 @@ std::optional<Largest> largest_of_independent(const LaboratoryResults& results, 
     // The bisection stopped at the first subset of each size; for the final size the best one is wanted.
     Largest largest{.subset = search.best_of_size(possible, critical_value(possible, alpha), false)};
     largest.unique = search.is_unique();
+    largest.in_another = in_another_subset(search, largest.subset.members, n, critical_value(possible, alpha));
     return largest;
 }
 
@@ -432,20 +463,26 @@ bool next_combination(std::vector<std::size_t>& members, std::size_t n) {
     return false;
 }
 
-Largest best_of_correlated(const LaboratoryResults& results, std::size_t size) {
+Largest best_of_correlated(const LaboratoryResults& results, std::size_t size, double critical) {
     Largest largest;
+    std::set<std::uint32_t> consistent;  // in any subset that is
     std::vector<std::size_t> members(size);
     for (std::size_t i = 0; i < size; ++i) {
         members[i] = i;
     }
     do {
         const double chi_square = correlated_chi_square(results, members);
+        if (chi_square <= critical) {
+            consistent.insert(members.begin(), members.end());
+        }
         if (std::abs(chi_square - largest.subset.chi_square) <= k_tie * chi_square) {
             largest.unique = false;
         } else if (chi_square < largest.subset.chi_square) {
             largest = {.subset = {.members = Members(members.begin(), members.end()), .chi_square = chi_square}};
         }
     } while (next_combination(members, static_cast<std::size_t>(results.x.size())));
+    std::set_difference(consistent.begin(), consistent.end(), largest.subset.members.begin(),
+                        largest.subset.members.end(), std::back_inserter(largest.in_another));
     return largest;
 }
 
@@ -454,8 +491,9 @@ std::optional<Largest> largest_of_correlated(const LaboratoryResults& results, d
     // With correlations χ² is no sum of one term per result, which the search by intervals rests on: all subsets of a
     // size are compared.
     for (auto size = static_cast<std::size_t>(results.x.size()); size >= 2; --size) {
-        Largest largest = best_of_correlated(results, size);
-        if (largest.subset.chi_square <= critical_value(size, alpha)) {
+        const double critical = critical_value(size, alpha);
+        Largest largest = best_of_correlated(results, size, critical);
+        if (largest.subset.chi_square <= critical) {
             return largest;
         }
     }
@@ -498,6 +536,7 @@ ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, dou
     ConsistentSubset subset;
     subset.members.assign(largest->subset.members.begin(), largest->subset.members.end());
     subset.unique = largest->unique;
+    subset.in_another.assign(largest->in_another.begin(), largest->in_another.end());
     const LaboratoryResults members = selected_results(results, subset.members);
     subset.mean = spread_weights(weighted_mean(members), subset.members, static_cast<std::size_t>(results.x.size()));
     subset.test = consistency_test(members, alpha);

@@ -86,9 +86,13 @@ Differences differences_of(const MethodComparison& comparison) {
         const ComparedPoint& point = comparison.points[i];
         const auto at = static_cast<Index>(i);
         const double p = comparison.coverage_probability;
-        const EnUncertainty of_method = en_uncertainty(point.u, point.U, point.k, point.nu.value_or(k_infinity), p);
-        const EnUncertainty of_reference = en_uncertainty(point.reference_u, point.reference_U, point.reference_k,
-                                                          point.reference_nu.value_or(k_infinity), p);
+        const EnUncertainty of_method =
+            point.of_scores ? *point.of_scores
+                            : en_uncertainty(point.u, point.U, point.k, point.nu.value_or(k_infinity), p);
+        const EnUncertainty of_reference = point.reference_of_scores
+                                               ? *point.reference_of_scores
+                                               : en_uncertainty(point.reference_u, point.reference_U, point.reference_k,
+                                                                point.reference_nu.value_or(k_infinity), p);
         differences.of_method.push_back(of_method);
         differences.of_reference.push_back(of_reference);
         differences.method.push_back({point.value, point.u, of_method.U});

@@ -18,6 +18,9 @@ struct ComparedPoint {
     std::optional<double> nu = {};
     double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0, reference_k = 2.0;
     std::optional<double> reference_nu = {};
+    std::optional<double> p = {}, reference_p = {};  ///< that U covers, where the distribution of the value is known
+    /// U as E_n takes it, where the distribution of the value says it; none: by k and ν.
+    std::optional<EnUncertainty> of_scores = {}, reference_of_scores = {};
 };
 
 /// A method against a reference method.

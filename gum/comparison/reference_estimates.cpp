@@ -266,7 +266,7 @@ std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, doubl
             pair.u = difference.u;
             // E_n takes both U for one probability of about 95 %, as that of a laboratory against the value (ADR 0028).
             const auto U_of = [&](const ResultUncertainty& stated) {
-                return en_uncertainty(stated.u, stated.U, stated.k, stated.degrees_of_freedom, coverage_probability).U;
+                return en_uncertainty(stated, coverage_probability).U;
             };
             // Rounding may take |r| above 1.
             pair.U = uncertainty_of_difference(U_of(*first.uncertainty), U_of(*second.uncertainty),

@@ -75,6 +75,9 @@ struct ConsistentSubset {
     ReferenceValue mean;               ///< of the members; weights over all n, 0 outside
     ConsistencyTest test;              ///< of the members
     bool unique = true;                ///< no other subset of this size has the same chi-square (within 1e-9 relative)
+    /// Ascending: results outside that another consistent subset of this size holds. The choice against them is that of
+    /// the smallest chi-square, and no more. Of more than 100 results outside, those after the first 100 count as such.
+    std::vector<std::size_t> in_another = {};
 };
 inline constexpr std::size_t k_most_results_of_subset = 2000;           ///< independent ones
 inline constexpr std::size_t k_most_correlated_results_of_subset = 20;  ///< with a covariance

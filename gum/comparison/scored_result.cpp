@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "gum/argument_check.h"
 #include "gum/comparison/laboratory_covariance.h"
 #include "gum/comparison/scores.h"
+#include "gum/coverage.h"
+#include "text/numbers.h"
 
 namespace gumcert::gum {
 
@@ -28,21 +32,52 @@ double score_of(const ScoredResult& point, double scale) {
 
 /// U of a result as E_n takes it.
 EnUncertainty of_scores(const Scene& scene, const ResultUncertainty& uncertainty) {
-    return en_uncertainty(uncertainty.u, uncertainty.U, uncertainty.k, uncertainty.degrees_of_freedom,
-                          scene.scheme.coverage_probability);
+    return en_uncertainty(uncertainty, scene.scheme.coverage_probability);
+}
+
+/// u of a result as it meets the scatter of others: where its own distribution says U, the u that gives this U with its
+/// degrees of freedom. A result against a value that is exactly known then has its own U, by whatever way it is scored.
+double u_beside_scatter(const Scene& scene, const ResultUncertainty& laboratory) {
+    return laboratory.of_scores
+               ? laboratory.of_scores->U / coverage_factor(scene.score_probability(), laboratory.degrees_of_freedom)
+               : laboratory.u;
 }
 
 /// Scores against what the scatter of all other results says.
 SpreadDifference difference_by_scatter(const Scene& scene, std::size_t position, const ResultUncertainty& laboratory) {
     const ConsensusScatter& scatter = *scene.assigned.scatter;
     const auto at = static_cast<Eigen::Index>(position);
-    return spread_difference({laboratory.u, laboratory.degrees_of_freedom}, scatter.others[position],
-                             scene.item.u_of_item(), scatter.covariance[at], scatter.share[at],
-                             scatter.share[at] > 0.0 ? scatter.factor : 1.0, scene.score_probability());
+    return spread_difference({u_beside_scatter(scene, laboratory), laboratory.degrees_of_freedom},
+                             scatter.others[position], scene.item.u_of_item(), scatter.covariance[at],
+                             scatter.share[at], scatter.share[at] > 0.0 ? scatter.factor : 1.0,
+                             scene.score_probability());
 }
 
 bool is_scored_by_scatter(const Scene& scene) {
     return scene.assigned.scatter && !scene.assigned.scatter->others.empty();
+}
+
+/// A difference that has no uncertainty and is not 0: the result and the assigned value are stated to be one quantity
+/// with all of their uncertainty in common, and they differ. No score says so, and none of the two can stand.
+void require_explained_difference(const Scene& scene, const ScoredResult& point) {
+    constexpr double k_roundings = 64.0;  // of the values and of the weights of a mean
+    constexpr double k_of_u = 1e-9;
+    if (*point.u_difference > 0.0 && *point.U_difference > 0.0) {
+        return;
+    }
+    const double rounding = k_roundings * std::numeric_limits<double>::epsilon() *
+                                (std::abs(point.value) + std::abs(point.assigned_value)) +
+                            k_of_u * point.uncertainty->u;
+    if (std::abs(point.difference) > rounding) {
+        refuse("GC-GUM-0031",
+               (scene.data.where.empty() ? "result of " : scene.data.where + ", result of ") +
+                   scene.scheme.participants[point.participant].id,
+               "D = " + text::shortest(point.difference) + " beside an uncertainty of D of 0, from u = " +
+                   text::shortest(point.uncertainty->u) + " and u(X) = " + text::shortest(*scene.item.u) +
+                   " with correlation " + text::shortest(*point.correlation),
+               "a score divides by it, so it must be greater than 0",
+               "State a smaller correlation: with this one both values have all of their uncertainty in common.");
+    }
 }
 
 /// u_D, U_D and with them E_n and ζ.
@@ -69,6 +104,7 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
         point.U_difference =
             uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
     }
+    require_explained_difference(scene, point);
     if (const std::optional<ComparisonScore> score =
             score_of_difference(point.value, point.assigned_value, *point.u_difference, *point.U_difference)) {
         point.en = score->en;
@@ -165,6 +201,16 @@ void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
     }
 }
 
+/// Whether the distribution of a result reaches farther out than its u and degrees of freedom tell, so that the limits
+/// of ζ do not hold for it: they are those of a normal distribution.
+bool is_beyond_zeta(const Scene& scene, const ScoredResult& point) {
+    if (!point.uncertainty || !point.uncertainty->of_scores) {
+        return false;
+    }
+    const double expected = coverage_factor(scene.score_probability(), point.uncertainty->degrees_of_freedom);
+    return point.uncertainty->of_scores->k > expected * (1.0 + k_same_coverage_factor);
+}
+
 /// The signals of all scores that a result has. Of z and z' the one that holds.
 std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const ScoredResult& point) {
     std::vector<std::pair<Score, Signal>> signals;
@@ -180,7 +226,9 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
         add(Score::z_prime, point.z_prime, signal_of_z);
     }
     add(Score::en, point.en, signal_of_en);
-    add(Score::zeta, point.zeta, signal_of_z);
+    if (!is_beyond_zeta(scene, point)) {
+        add(Score::zeta, point.zeta, signal_of_z);
+    }
     add(Score::en_audited, point.en_audited, signal_of_en);
     if (point.percent_of_allowed) {
         constexpr double k_all_that_is_allowed = 100.0;  // %
@@ -224,8 +272,19 @@ bool is_too_uncertain_to_clear(const Scene& scene, const ScoredResult& point) {
     return item.score == DecidingScore::difference && item.U && *item.U > *item.delta_E * k_rounding;
 }
 
+/// Whether a result is in the largest consistent subset, or in another one of that size that is consistent as well: the
+/// value that it is held against is one of several then.
+bool rests_on_choice(const Scene& scene, std::size_t position) {
+    const AssignedValue& assigned = scene.assigned;
+    const auto holds = [&](const std::vector<std::size_t>& positions) {
+        return std::find(positions.begin(), positions.end(), position) != positions.end();
+    };
+    return !assigned.in_another_subset.empty() &&
+           (holds(assigned.in_another_subset) || (holds(scene.data.contributing) && !holds(assigned.not_consistent)));
+}
+
 /// The strongest signal of all scores, and who gives it.
-void add_verdict(const Scene& scene, ScoredResult& point) {
+void add_verdict(const Scene& scene, std::size_t position, ScoredResult& point) {
     const std::vector<std::pair<Score, Signal>> signals = signals_of(scene, point);
     if (scene.item.score == DecidingScore::none || signals.empty()) {
         return;
@@ -233,6 +292,10 @@ void add_verdict(const Scene& scene, ScoredResult& point) {
     Signal strongest = Signal::none;
     for (const auto& [score, signal] : signals) {
         strongest = std::max(strongest, signal);
+    }
+    if (strongest != Signal::none && rests_on_choice(scene, position)) {
+        point.verdict = Verdict::inconclusive;
+        return;
     }
     for (const auto& [score, signal] : signals) {
         if (signal == strongest && signal != Signal::none) {
@@ -299,7 +362,7 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
         score_with_uncertainty(scene, position, point);
         score_audited(scene, position, point);
     }
-    add_verdict(scene, point);
+    add_verdict(scene, position, point);
     point.realism = realism_of(scene, point);
     return point;
 }

@@ -20,7 +20,7 @@ enum class Verdict {
     none,          ///< no signal
     warning,       ///< the strongest of all scores
     action,        ///< the strongest of all scores
-    inconclusive,  ///< no signal, but the assigned value is too uncertain to clear anybody
+    inconclusive,  ///< a signal that rests on the choice between consistent subsets; or no signal, but the assigned value is too uncertain to clear anybody
 };
 
 /// A stated u against u(X) and 1.5 s*.
@@ -74,6 +74,7 @@ struct ScoredResult {
 /// The reference laboratory has a difference of 0 by definition, and no score. E_n with findings corrected has U'_D² =
 /// U_D² + (1 − w)² (U'² − U²), w the weight of the result: the assigned value stays as it is.
 /// \param item  result of the item, complete
+/// \throws InputError  GC-GUM-0031 a difference that is not 0 and has no uncertainty
 /// \return one a result of `data`, in its order
 [[nodiscard]] std::vector<ScoredResult> scored_results(const ComparisonScheme& scheme, const LaboratoryData& data,
                                                        const AssignedValue& assigned, const ItemResult& item);

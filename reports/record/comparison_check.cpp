@@ -108,6 +108,7 @@ private:
             }
             participants(at, "not_contributing", of.not_contributing);
             participants(at, "not_consistent", of.not_consistent);
+            participants(at, "in_another_subset", of.in_another_subset);
             participants(at, "missing", of.missing);
             for (std::size_t j = 0; j < of.weights.size(); ++j) {
                 participant(at, "weights", j, "/participant", of.weights[j].participant);

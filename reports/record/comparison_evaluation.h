@@ -104,10 +104,11 @@ struct ComparisonItemEvaluation {
     Shown<std::optional<double>> low = {}, high = {};  ///< coverage interval of the value by trials
     Shown<std::optional<double>> u_characterisation = {}, u_homogeneity = {}, u_stability = {};
     std::int64_t results = 0, contributing = 0;
-    std::vector<std::string> not_contributing = {};  ///< ids, stated in the job
-    std::vector<std::string> not_consistent = {};    ///< ids outside the largest consistent subset
-    std::vector<std::string> missing = {};           ///< ids without a result
-    std::vector<ResultWeight> weights = {};          ///< where the assigned value is linear in the results
+    std::vector<std::string> not_contributing = {};   ///< ids, stated in the job
+    std::vector<std::string> not_consistent = {};     ///< ids outside the largest consistent subset
+    std::vector<std::string> in_another_subset = {};  ///< of them, those that another consistent one of this size holds
+    std::vector<std::string> missing = {};            ///< ids without a result
+    std::vector<ResultWeight> weights = {};           ///< where the assigned value is linear in the results
     std::optional<ConsistencySummary> consistency = {};
     std::vector<ReferenceEstimate> estimates = {};  ///< of all methods that the data allow, side by side
     Shown<std::optional<double>> s_star = {};       ///< robust standard deviation of the results (algorithm A)

@@ -150,6 +150,7 @@ void describe(Archive& a, Struct& r) {
     a("contributing", r.contributing, Range::not_negative);
     a("not_contributing", r.not_contributing);
     a("not_consistent", r.not_consistent);
+    a.added("in_another_subset", r.in_another_subset);
     a("missing", r.missing);
     a("weights", r.weights);
     a("consistency", r.consistency);
@@ -284,6 +285,8 @@ void describe(Archive& a, Struct& r) {
     a.added("U_of_scores", r.U_of_scores, Range::not_negative);
     a.added("k_of_scores", r.k_of_scores, Range::positive);
     a.added("reference_U_of_scores", r.reference_U_of_scores, Range::not_negative);
+    a.added("coverage_probability", r.coverage_probability, Range::positive);
+    a.added("reference_coverage_probability", r.reference_coverage_probability, Range::positive);
     a.added("u_others", r.u_others, Range::not_negative);
     a.added("nu_others", r.nu_others, Range::positive);
     a.added("covariance_others", r.covariance_others);
@@ -332,7 +335,8 @@ void describe(Archive& a, Struct& r) {
     a.added("published_mean_abs_En", r.published_mean_abs_En, Range::not_negative);
     a.added("verdict", r.verdict,
             {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_not_confirmed",
-             "uncertainty_too_large", "reference_not_better", "correlation_unknown", "points_above_1", "disagreement"});
+             "uncertainty_too_large", "reference_not_better", "correlation_unknown", "points_above_1", "side_refuted",
+             "disagreement"});
     a.added("bias", r.bias);
 }
 
@@ -347,6 +351,15 @@ template <class Archive, certificate::Described<BudgetFile> Struct>
 void describe(Archive& a, Struct& r) {
     a("participant", r.participant);
     a("file", r.file);
+}
+
+template <class Archive, certificate::Described<RefutedSide> Struct>
+void describe(Archive& a, Struct& r) {
+    a("side", r.side);
+    a("file", r.file);
+    a("id", r.id);
+    a("message", r.message);
+    a("what", r.what);
 }
 
 template <class Archive, certificate::Described<Comparison> Struct>
@@ -381,6 +394,7 @@ void describe(Archive& a, Struct& r) {
     a.added("vectors", r.vectors);
     a.added("youden", r.youden);
     a.added("issuer", r.issuer);
+    a.added("refuted", r.refuted);
 }
 
 }  // namespace gumcert::reports

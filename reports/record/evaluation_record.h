@@ -393,6 +393,8 @@ struct ComparisonPoint {
     std::string reason = {};                              ///< why not
     Shown<std::optional<double>> k = {};
     std::optional<double> nu = {}, reference_k = {};
+    /// That U covers, where a budget says it: k is that of the distribution of its result then, and need not be t_p(nu).
+    std::optional<double> coverage_probability = {}, reference_coverage_probability = {};
     std::optional<double> correlation = {};  ///< r of value and reference value, as used in u_D and U_D
     Shown<std::optional<double>> z = {}, z_prime = {}, D_percent = {}, P_A = {};
     Shown<std::optional<double>> En_worst = {};    ///< for the worst plausible correlation, where r is not known
@@ -407,7 +409,7 @@ struct ComparisonPoint {
     /// Where the assigned value is made of results that scatter: its standard uncertainty as all other results show it,
     /// their degrees of freedom, their covariance with this result, the share of this result in the value, and the
     /// factor of U_D of a median. U_D = factor t_p(nu_D) (1 − share) √(u² + u_others² + u_item² − 2 cov), with u_item
-    /// of homogeneity and stability.
+    /// of homogeneity and stability; with coverage_probability, U as E_n takes it over t_p(nu) in place of u.
     std::optional<double> u_others = {}, nu_others = {}, covariance_others = {}, share = {}, factor_D = {}, nu_D = {};
     Shown<std::optional<double>> D_low = {}, D_high = {};  ///< coverage interval of D by trials
     std::string realism = {};  ///< of u: "plausible", "small", "large" against u(X) and 1.5 s*; "" where not judged
@@ -457,6 +459,14 @@ struct BudgetFile {
     std::string file;         ///< as the job names it
 };
 
+/// A side of a comparison of methods, or the measurement that is compared, whose own evaluation refutes what it states.
+struct RefutedSide {
+    std::string side, file;  ///< name, and the job of it; "" for the job of the record itself
+    std::string id;          ///< of the finding, "G01"; "" where it is none
+    std::string message;     ///< code of the message where it is no finding
+    std::string what;
+};
+
 struct Comparison {
     std::string reference_name;
     std::vector<double> contact_point_mm;
@@ -487,6 +497,8 @@ struct Comparison {
     std::vector<ParticipantSummary> participants = {};
     std::vector<VectorScore> vectors = {};
     std::vector<YoudenDiagram> youden = {};
+    /// What refutes a side: agreement is not said while one of these holds.
+    std::vector<RefutedSide> refuted = {};
     std::optional<ComparisonIssuer> issuer = {};  ///< none where the job has no certificate data
 };
 

@@ -213,6 +213,11 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
             builder.paragraph(words.filled("comparison_scores", "contradicted_U", {{"item", compared.name}}));
         }
     }
+    if (!item.in_another_subset.empty()) {
+        builder.paragraph(words.filled("comparison_scores", "another_subset",
+                                       {{"item", compared.name}, {"others", some_of(words, item.in_another_subset)}}));
+        return;
+    }
     const std::vector<std::string> names = with_signal(compared.points, "inconclusive");
     if (!names.empty()) {
         builder.paragraph(
@@ -257,8 +262,11 @@ void answer_of_many_items(CertificateBuilder& builder, const Wording& words, con
     sentence_of_items(builder, words, items, "contradicted_U_items", [](const ComparedItem& i) {
         return is_refuted(*i.item) && i.item->U_rests_on == "uncertainties";
     });
+    sentence_of_items(builder, words, items, "another_subset_items",
+                      [](const ComparedItem& i) { return !i.item->in_another_subset.empty(); });
     sentence_of_items(builder, words, items, "inconclusive_items", [](const ComparedItem& i) {
-        return any_point(i, [](const ComparisonPoint& p) { return p.signal == "inconclusive"; });
+        return i.item->in_another_subset.empty() &&
+               any_point(i, [](const ComparisonPoint& p) { return p.signal == "inconclusive"; });
     });
     sentence_of_items(builder, words, items, "open_items",
                       [](const ComparedItem& i) { return any_point(i, agreement_is_open); });

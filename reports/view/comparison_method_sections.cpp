@@ -35,15 +35,16 @@ Text direction_name(const Wording& words, const std::string& direction) {
 
 /// The gravest verdict of all directions: what holds for the method as a whole. Nothing where nothing was judged.
 const ComparisonSummary* gravest(const Comparison& c) {
-    static constexpr std::array<const char*, 9> k_order = {"disagreement",
-                                                           "points_above_1",
-                                                           "correlation_unknown",
-                                                           "reference_not_better",
-                                                           "uncertainty_too_large",
-                                                           "agreement_few_points",
-                                                           "uncertainty_not_confirmed",
-                                                           "agreement_reference_limited",
-                                                           k_validated};
+    static constexpr std::array<const char*, 10> k_order = {"disagreement",
+                                                            "side_refuted",
+                                                            "points_above_1",
+                                                            "correlation_unknown",
+                                                            "reference_not_better",
+                                                            "uncertainty_too_large",
+                                                            "agreement_few_points",
+                                                            "uncertainty_not_confirmed",
+                                                            "agreement_reference_limited",
+                                                            k_validated};
     for (const char* code : k_order) {
         const ComparisonSummary* found = nullptr;
         for (const ComparisonSummary& s : c.summary) {
@@ -80,6 +81,24 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
                          {"ratio", words.number(s.ratio_reference.text)}});
 }
 
+/// Each side that its own evaluation refutes, with what refutes it.
+void refuted_sides(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    std::vector<std::pair<std::string, std::string>> sides;
+    for (const RefutedSide& by : c.refuted) {
+        const std::string id = by.id.empty() ? by.message : by.id;
+        auto side = std::find_if(sides.begin(), sides.end(), [&](const auto& s) { return s.first == by.side; });
+        if (side == sides.end()) {
+            sides.emplace_back(by.side, id);
+        } else if (side->second.find(id) == std::string::npos) {
+            side->second += ", " + id;
+        }
+    }
+    for (const auto& [side, ids] : sides) {
+        builder.paragraph(
+            words.filled("comparison", side.empty() ? "refuted_self" : "refuted_side", {{"side", side}, {"ids", ids}}));
+    }
+}
+
 void verdict(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     const ComparisonSummary* whole = gravest(c);
     if (whole == nullptr) {
@@ -87,6 +106,7 @@ void verdict(CertificateBuilder& builder, const Wording& words, const Comparison
         return;
     }
     builder.paragraph(verdict_sentence(words, *whole));
+    refuted_sides(builder, words, c);
     if (whole->direction != "all" && c.summary.size() > 1) {
         builder.paragraph(words.filled("comparison", "verdict_of_direction",
                                        {{"direction", direction_name(words, whole->direction)}}));

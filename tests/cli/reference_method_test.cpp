@@ -75,6 +75,7 @@ protected:
 std::vector<std::string> row_of(const std::string& name, const std::string& direction, const json& summary) {
     static const std::map<std::string, std::string> k_verdicts{
         {"disagreement", "disagreement"},
+        {"side_refuted", "no verdict, a side is refuted"},
         {"points_above_1", "more points above 1 than by chance"},
         {"correlation_unknown", "agreement only if nothing is shared"},
         {"reference_not_better", "no proof: reference not better"},

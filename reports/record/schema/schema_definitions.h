@@ -125,6 +125,7 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<YoudenDiagram>{"comparison_youden"},
     DefinitionOf<YoudenPoint>{"comparison_youden_point"},
     DefinitionOf<BudgetFile>{"comparison_budget_file"},
+    DefinitionOf<RefutedSide>{"comparison_refuted_side"},
     DefinitionOf<ComparisonIssuer>{"comparison_issuer"},
 
     DefinitionOf<certificate::Certificate>{"certificate_of_record",

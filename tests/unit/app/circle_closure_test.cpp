@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/evaluate_job.h"
@@ -299,6 +300,45 @@ TEST(ComparedJobSide, TakesTheMeanOffWithItsCovariance) {
     side.covariance = Eigen::Matrix3d::Constant(4.0);
     reports::take_off_mean(side, 0.95);
     EXPECT_LT(side.covariance.cwiseAbs().maxCoeff(), 1e-14);
+}
+
+/// The verdict on a circle closure against what is true of it, where the closure is as stated.
+TEST(ComparedJobSide, WhatTheJobSaysAgainstItselfStandsInTheComparison) {
+    const auto compared = [](const Campaign& campaign, const std::string& repeatability) {
+        std::string points;
+        for (std::size_t j = 0; j < campaign.steps; ++j) {
+            const double truth = table_of(j, campaign.steps);
+            points += (j == 0 ? "" : ", ") + (R"({"point": ")" + std::to_string(360 * j / campaign.steps)) +
+                      R"(", "value": )" + std::to_string(truth) + R"(, "u": 0.01})";
+        }
+        return evaluate_job(MemoryFileSource(
+                                {{"job.json", R"({"schema": "gumcert/job/1", "kind": "comparison", "unit": "arcsec",
+                            "correlation": "none", "lab": {"name": "circle", "job": "closure.json"},
+                            "reference": {"name": "truth", "points": [)" +
+                                                  points + "]}}"},
+                                 {"closure.json", R"({"schema": "gumcert/job/1", "kind": "circle_closure", "axis": "C",
+                            "readings": "r.csv", "numbering": "with", "steps": )" +
+                                                      std::to_string(campaign.steps) + repeatability + "}"},
+                                 {"r.csv", csv_of(campaign)}}),
+                            "job.json", CovarianceFile::none, 1, k_closure_templates)
+            .record;
+    };
+    const EvaluationRecord sound = compared({}, R"(, "repeatability": {"u": 0.2, "nu": 50})");
+    EXPECT_TRUE(sound.comparison->refuted.empty());
+    EXPECT_NE(sound.comparison->summary.back().verdict, "side_refuted");
+    // Stated a quarter of what the readings scatter: C01, and a reading that nobody can believe: C03.
+    for (const auto& [campaign, repeatability, id] :
+         {std::tuple(Campaign{}, std::string(R"(, "repeatability": {"u": 0.05, "nu": 50})"), "C01"),
+          std::tuple(Campaign{.outlier = 2.0}, std::string(), "C03"),
+          std::tuple(Campaign{.drift = 1.0}, std::string(), "C04")}) {
+        const EvaluationRecord record = compared(campaign, repeatability);
+        const reports::Comparison& comparison = *record.comparison;
+        EXPECT_TRUE(std::any_of(comparison.refuted.begin(), comparison.refuted.end(),
+                                [&](const reports::RefutedSide& by) { return by.side == "circle" && by.id == id; }))
+            << id;
+        EXPECT_THAT(comparison.summary.back().verdict, testing::AnyOf("side_refuted", "disagreement")) << id;
+        EXPECT_THAT(codes(record), testing::Contains(testing::StartsWith("GC-CLOSURE-002"))) << id;
+    }
 }
 
 TEST(ComparedJobSide, BothMethodsAgreeOnTheSameTable) {

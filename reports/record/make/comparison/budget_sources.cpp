@@ -1,8 +1,11 @@
 #include "reports/record/make/comparison/budget_sources.h"
 
+#include <cmath>
 #include <optional>
 
 #include "gum/budget/budget_model.h"
+#include "gum/propagation.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::reports {
 
@@ -38,6 +41,51 @@ std::vector<UncertaintySource> uncertainty_sources(const gum::Budget& budget, co
         }
     }
     return sources;
+}
+
+std::set<std::string> sources_beyond_first_order(const gum::Budget& budget, const gum::BudgetResult& result,
+                                                 std::size_t point, std::size_t output) {
+    constexpr double k_most_beyond = 0.05;  // of u
+    const gum::BudgetPointResult& at = result.points[point];
+    const gum::BudgetOutputResult& of = at.outputs[output];
+    const double u = of.by_monte_carlo ? of.monte_carlo->standard_uncertainty : of.standard_uncertainty;
+    const auto row = static_cast<Eigen::Index>(output);
+    const Eigen::VectorXd x = gum::input_estimates(*at.model);
+    const double y = at.propagation.value(row);
+    const auto departs = [&](Eigen::Index column, double step) {
+        const double expected = at.propagation.jacobian(row, column) * step;
+        for (const double side : {-1.0, 1.0}) {
+            Eigen::VectorXd moved = x;
+            moved(column) += side * step;
+            double change = 0.0;
+            try {
+                change = at.model->evaluate(moved)(row) - y;
+            } catch (const gum::NoResultError&) {
+                return true;  // the model ends within u
+            }
+            if (!(std::abs(change - side * expected) <= k_most_beyond * u)) {
+                return true;
+            }
+        }
+        return false;
+    };
+    std::set<std::string> names;
+    const std::vector<gum::BudgetQuantity>& quantities = at.model->quantities();
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        if (quantities[q].symbol >= budget.inputs.size()) {
+            continue;  // a parameter of a fit has no source
+        }
+        const gum::BudgetInput& input = gum::input_at(
+            budget, quantities[q].symbol, budget.points.empty() ? std::nullopt : std::optional<std::size_t>(point));
+        for (std::size_t c = 0; c < input.components.size(); ++c) {
+            const gum::StatedQuantity& component = input.components[c];
+            const bool is_it = quantities[q].component == gum::BudgetQuantity::k_whole || quantities[q].component == c;
+            if (is_it && !component.source.empty() && departs(static_cast<Eigen::Index>(q), component.u)) {
+                names.insert(component.source);
+            }
+        }
+    }
+    return names;
 }
 
 }  // namespace gumcert::reports

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "gum/budget/budget.h"
@@ -18,5 +20,11 @@ namespace gumcert::reports {
                                                                       const gum::BudgetResult& result,
                                                                       std::size_t point, std::size_t output,
                                                                       const gum::Unit& unit, bool common_only = false);
+
+/// Sources of inputs in which a result is not linear: over x ± u(x) of an input the model departs from c u(x) by more
+/// than a twentieth of the u that is reported. First-order terms do not tell what it shares through them.
+[[nodiscard]] std::set<std::string> sources_beyond_first_order(const gum::Budget& budget,
+                                                               const gum::BudgetResult& result, std::size_t point,
+                                                               std::size_t output);
 
 }  // namespace gumcert::reports

@@ -34,18 +34,22 @@ MethodSide side_of_outputs(const gum::UncertaintyBudget& propagation, const Eige
 
 }  // namespace
 
-MethodSide side_of_job(const jobs::ComparisonSide& side, const gum::Unit& unit, double coverage_probability) {
+MethodSide side_of_job(const jobs::ComparisonSide& side, const gum::Unit& unit, double coverage_probability,
+                       const JobJudges& judges) {
     constexpr std::size_t k_motions = 6;
     constexpr std::size_t k_first_rotation = 3;
     std::vector<Index> rows;
     MethodSide out;
+    JudgedJob judged;
     if (side.circle_closure) {
         jobs::CircleClosureJob job = *side.circle_closure;
         job.monte_carlo.reset();
         for (const std::size_t angle : side.job_angles) {
             rows.push_back(static_cast<Index>(angle + (side.of_artefact ? job.measurement.steps : 0)));
         }
-        const gum::Propagation propagation = gum::evaluate_circle_closure(job, 1).propagation;
+        const gum::CircleClosureResult result = gum::evaluate_circle_closure(job, 1);
+        const gum::Propagation& propagation = result.propagation;
+        judged = judges.circle_closure(job, result);
         out = side_of_outputs(propagation, propagation.covariance(rows, rows), rows, unit, coverage_probability);
     } else {
         jobs::RotaryTableJob job = *side.rotary_table;
@@ -55,11 +59,21 @@ MethodSide side_of_job(const jobs::ComparisonSide& side, const gum::Unit& unit, 
         for (const std::size_t angle : side.job_angles) {
             rows.push_back(static_cast<Index>(k_motions * angle + k_first_rotation + axial));
         }
-        const gum::QuantityUncertainty reported = gum::evaluate_rotary_table(job, 1).reported;
+        const gum::RotaryTableResult result = gum::evaluate_rotary_table(job, 1);
+        const gum::QuantityUncertainty& reported = result.reported;
+        judged = judges.rotary_table(job, result);
         out = side_of_outputs(reported.budget, reported.covariance.of(rows), rows, unit, coverage_probability);
     }
-    out.remarks.push_back("Values, uncertainties and covariance of " + side.name + " come from the job " +
-                          side.job_file + ", evaluated by the law of propagation.");
+    out.origin = "Values, uncertainties and covariance of " + side.name + " come from the job " + side.job_file +
+                 ", evaluated by the law of propagation.";
+    for (gum::Diagnostic& said : judged.diagnostics) {
+        if (said.severity != gum::Severity::note) {
+            said.where = said.where.empty() ? side.job_file : side.job_file + ", " + said.where;
+            out.warnings.push_back(std::move(said));
+        }
+    }
+    add_remarks_of_evaluation("Job of " + side.name, out.warnings, out.remarks);
+    out.refuted = refuted_by(judged.findings, side.name, side.job_file);
     return out;
 }
 
@@ -78,6 +92,9 @@ void take_off_mean(MethodSide& side, double coverage_probability) {
         u.k = gum::coverage_factor(coverage_probability, u.degrees_of_freedom);
         u.U = u.k * u.u;
         u.stated_as_expanded = false;
+        // Less the mean it is another quantity: the distribution of the value does not say its U.
+        u.coverage_probability.reset();
+        u.of_scores.reset();
     }
 }
 

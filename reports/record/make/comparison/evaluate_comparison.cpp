@@ -45,10 +45,10 @@ std::vector<gum::Diagnostic> notes_on(const jobs::ComparisonJob& job, std::vecto
 
 reports::EvaluationRecord evaluate_comparison(const jobs::ComparisonJob& job,
                                               const std::vector<reports::InputFile>& files,
-                                              const gum::Progress& progress) {
+                                              const gum::Progress& progress, const JobJudges& judges) {
     std::vector<gum::Diagnostic> found;
     reports::Comparison comparison =
-        job.methods ? evaluate_methods(job, &found) : evaluate_laboratories(job, progress, &found);
+        job.methods ? evaluate_methods(job, &found, judges) : evaluate_laboratories(job, progress, &found);
     if (job.certificate) {
         const certificate::CertificateData& data = *job.certificate;
         comparison.languages = data.languages;

@@ -145,7 +145,8 @@ std::vector<reports::BudgetFile> budget_files(const jobs::ComparisonJob& job) {
 reports::Comparison evaluate_laboratories(const jobs::ComparisonJob& job, const gum::Progress& progress,
                                           std::vector<gum::Diagnostic>* notes) {
     jobs::RefusedItems refused_items = job.refused_items;
-    const std::vector<gum::ParticipantResult> results = results_with_budgets(job, progress, refused_items);
+    std::vector<std::string> of_budgets;
+    const std::vector<gum::ParticipantResult> results = results_with_budgets(job, progress, refused_items, of_budgets);
     const std::vector<gum::ParticipantResult> kept = without_refused(refused_items, results);
     const bool all_refused = kept.empty() && !results.empty();
     const gum::LaboratoryComparison evaluated =
@@ -163,6 +164,7 @@ reports::Comparison evaluate_laboratories(const jobs::ComparisonJob& job, const 
     const bool is_input = add_items_without_result(job, evaluated, comparison, problems);
     tell_problems(problems, comparison, is_input, notes);
     comparison.remarks = laboratory_remarks(job, evaluated, comparison);
+    comparison.remarks.insert(comparison.remarks.end(), of_budgets.begin(), of_budgets.end());
     if (notes != nullptr) {
         const std::vector<gum::Diagnostic> alike =
             gum::similar_source_names(source_names(job, results), job.different_sources);

@@ -28,9 +28,10 @@ std::string name_of(const jobs::MethodPoint& point) {
     return point.direction.empty() ? point.name : point.name + ", direction " + point.direction;
 }
 
-MethodSide side_of(const ComparisonJob& job, const MethodComparisonRequest& request, const ComparisonSide& side) {
+MethodSide side_of(const ComparisonJob& job, const MethodComparisonRequest& request, const ComparisonSide& side,
+                   const JobJudges& judges) {
     if (side.has_job()) {
-        return side_of_job(side, request.unit, job.coverage_probability);
+        return side_of_job(side, request.unit, job.coverage_probability, judges);
     }
     if (side.budget) {
         MethodBudget budget{*side.budget, side.budget_file, side.name, side.budget_points, {}};
@@ -65,7 +66,11 @@ gum::MethodComparison method_comparison(const ComparisonJob& job, const MethodSi
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
                                      .reference_k = of_reference.k,
-                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom)});
+                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom),
+                                     .p = of_method.coverage_probability,
+                                     .reference_p = of_reference.coverage_probability,
+                                     .of_scores = of_method.of_scores,
+                                     .reference_of_scores = of_reference.of_scores});
     }
     comparison.covariance = method.covariance;
     comparison.reference_covariance = reference.covariance;
@@ -123,10 +128,11 @@ void add_capability(const ComparisonSide& side, reports::Comparison& record) {
 
 }  // namespace
 
-reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::Diagnostic>* notes) {
+reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::Diagnostic>* notes,
+                                     const JobJudges& judges) {
     const MethodComparisonRequest& request = *job.methods;
-    MethodSide method = side_of(job, request, request.laboratory);
-    MethodSide reference = side_of(job, request, request.reference);
+    MethodSide method = side_of(job, request, request.laboratory, judges);
+    MethodSide reference = side_of(job, request, request.reference, judges);
     const bool takes_mean_off = request.laboratory.has_job() || request.reference.has_job();
     if (takes_mean_off) {
         take_off_mean(method, job.coverage_probability);
@@ -150,14 +156,23 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
     record.tolerance = shown(request.tolerance, printed_as_stated);
     record.method_budget = std::move(method.budget);
     record.reference_budget = std::move(reference.budget);
-    record.remarks = method.remarks;
-    record.remarks.insert(record.remarks.end(), reference.remarks.begin(), reference.remarks.end());
+    for (const MethodSide* side : {&method, &reference}) {
+        if (!side->origin.empty()) {
+            record.remarks.push_back(side->origin);
+        }
+        record.remarks.insert(record.remarks.end(), side->remarks.begin(), side->remarks.end());
+    }
     if (notes != nullptr) {
         *notes = gum::similar_source_names(source_names({&method, &reference}), job.different_sources);
+        for (const MethodSide* side : {&method, &reference}) {
+            notes->insert(notes->end(), side->warnings.begin(), side->warnings.end());
+        }
     }
     add_correlation(job, method, reference, comparison, record);
     add_method_comparison(comparison, request.unit.text(), record);
     add_capability(request.laboratory, record);
+    withhold_agreement(method.refuted, record);
+    withhold_agreement(reference.refuted, record);
     return record;
 }
 

@@ -149,6 +149,13 @@ bool has_inconclusive(const gum::LaboratoryComparison& comparison, const gum::It
     });
 }
 
+/// Whether the value that a result is held against is one of several: its subset is.
+bool is_of_one_of_several_subsets(const gum::LaboratoryComparison& comparison, const gum::ScoredResult& point) {
+    return std::any_of(comparison.items.begin(), comparison.items.end(), [&](const gum::ItemResult& item) {
+        return item.item == point.item && item.round == point.round && !item.in_another_subset.empty();
+    });
+}
+
 void add_assigned_value(ItemMessages& messages) {
     messages.add(
         {.code = "GC-COMPARE-0128",
@@ -159,7 +166,9 @@ void add_assigned_value(ItemMessages& messages) {
              "Take an assigned value with a smaller uncertainty: a reference laboratory, a reference material, or "
              "more results.",
          .severity = gum::Severity::warning},
-        [&](const gum::ItemResult& item) { return item.u && has_inconclusive(messages.comparison(), item); },
+        [&](const gum::ItemResult& item) {
+            return item.u && item.in_another_subset.empty() && has_inconclusive(messages.comparison(), item);
+        },
         [](const ComparisonItemEvaluation& item) {
             return "the assigned value, " + item.value.text +
                    (item.U.text.empty() ? "" : " with U = " + with_unit(item.U.text, item)) +
@@ -246,8 +255,13 @@ std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvalu
         " of freedom, p = " + printed_probability(all.p_value) + ". The largest consistent subset leaves out ";
     remark += text::listed(recorded.not_consistent) +
               ". Being left out says that a result does not fit the others, not that it is wrong.";
-    if (!item.subset_unique) {
-        remark += " Another subset of the same size fits as well: the choice between them is arbitrary.";
+    if (!recorded.in_another_subset.empty()) {
+        const std::string names = text::listed(recorded.in_another_subset);
+        remark += item.subset_unique ? " Another subset of the same size, with " + names +
+                                           ", is consistent as well; the one with the smallest chi-square was taken."
+                                     : " Another subset of the same size, with " + names +
+                                           ", has the same chi-square: the choice between them is arbitrary.";
+        remark += " No signal is given to a result that either of them holds.";
     }
     return remark;
 }
@@ -305,6 +319,12 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
                           " are not those of about 95 %: En takes U = k u with the factor for " +
                           in_percent(comparison.score_probability) +
                           " and the stated degrees of freedom in place of the stated U.");
+        const bool of_budget = std::any_of(
+            comparison.results.begin(), comparison.results.end(),
+            [](const gum::ScoredResult& result) { return result.of_scores && result.uncertainty->of_scores; });
+        if (of_budget) {
+            remarks.emplace_back("Of a budget, En takes U for this probability from its distribution.");
+        }
     }
     if (comparison.score_probability != job.coverage_probability) {
         remarks.push_back("En is defined for about 95 %: it takes expanded uncertainties for " +
@@ -402,8 +422,9 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
         remarks.push_back(std::to_string(small) + (small > 1 ? " results state" : " result states") +
                           " a standard uncertainty below that of the assigned value.");
     }
-    const std::size_t inconclusive = count_results(
-        comparison, [](const gum::ScoredResult& point) { return point.verdict == gum::Verdict::inconclusive; });
+    const std::size_t inconclusive = count_results(comparison, [&](const gum::ScoredResult& point) {
+        return point.verdict == gum::Verdict::inconclusive && !is_of_one_of_several_subsets(comparison, point);
+    });
     if (inconclusive > 0) {
         remarks.push_back("The assigned value is less certain than " + std::to_string(inconclusive) +
                           (inconclusive > 1 ? " results claim to be: small scores clear none of them."

@@ -303,6 +303,7 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
     item.contributing = static_cast<std::int64_t>(from.contributing);
     item.not_contributing = ids(scheme, from.not_contributing);
     item.not_consistent = ids(scheme, from.not_consistent);
+    item.in_another_subset = ids(scheme, from.in_another_subset);
     item.missing = ids(scheme, from.missing);
     for (const gum::ItemResult::Weight& weight : from.weights) {
         item.weights.push_back({scheme.participants[weight.participant].id,
@@ -376,6 +377,7 @@ ComparisonPoint point_record(const gum::ComparisonScheme& scheme, const gum::Par
         point.U = shown(U, printed_uncertainty);
         point.k = shown(from.uncertainty->k, printed_score);
         point.nu = reports::finite_or_none(from.uncertainty->degrees_of_freedom);
+        point.coverage_probability = from.uncertainty->coverage_probability;
     }
     point.value = {from.value, printed_value(from.value, U)};
     if (from.of_scores) {

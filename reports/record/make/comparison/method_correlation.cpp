@@ -75,9 +75,32 @@ std::vector<std::string> sources_in_both(const MethodComparisonRequest& request,
         .action = "State it alike in both budgets, or list the source in \"independent_sources\"."});
 }
 
+/// A source of both budgets that a result of Monte Carlo is not linear in.
+void refuse_unknown_covariance(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference) {
+    const MethodComparisonRequest& request = *job.methods;
+    const auto names_it = [](const MethodSide& side, const std::string& name) {
+        return std::any_of(side.sources.all.begin(), side.sources.all.end(), [&](const auto& of_point) {
+            return std::any_of(of_point.begin(), of_point.end(),
+                               [&](const gum::UncertaintySource& source) { return source.source == name; });
+        });
+    };
+    const auto require = [&](const MethodSide& side, const jobs::ComparisonSide& stated, const MethodSide& other) {
+        for (const std::string& name : side.not_linear_in) {
+            const bool is_independent = std::find(job.independent_sources.begin(), job.independent_sources.end(),
+                                                  name) != job.independent_sources.end();
+            if (!is_independent && (names_it(other, name) || other.not_linear_in.contains(name))) {
+                throw gum::InputError(covariance_not_known(stated.budget_file, stated.name, name));
+            }
+        }
+    };
+    require(method, request.laboratory, reference);
+    require(reference, request.reference, method);
+}
+
 void add_shared_sources(const ComparisonJob& job, const MethodSide& method, const MethodSide& reference,
                         gum::MethodComparison& comparison, reports::Comparison& record) {
     const MethodComparisonRequest& request = *job.methods;
+    refuse_unknown_covariance(job, method, reference);
     std::vector<std::string> ambiguous;
     record.shared_sources = found_sources(request, method, reference, job.independent_sources, ambiguous);
     std::vector<std::string> names;

@@ -58,6 +58,8 @@ ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodSc
     point.nu = from.nu;
     put_pair(from.reference_value, from.reference_U, point.reference_value, point.reference_U);
     point.reference_u = from.reference_u;
+    point.coverage_probability = from.p;
+    point.reference_coverage_probability = from.reference_p;
     point.reference_k = from.reference_k;
     if (score.of_scores) {
         point.U_of_scores = shown(score.of_scores->U, printed_uncertainty);

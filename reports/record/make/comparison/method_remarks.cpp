@@ -244,6 +244,12 @@ private:
                 " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
                 gum::round_significant(100.0 * result_.score_probability, 4) + " %" +
                 " and the stated degrees of freedom there.");
+            if (std::any_of(comparison_.points.begin(), comparison_.points.end(), [](const gum::ComparedPoint& point) {
+                    return (point.of_scores && point.of_scores->converted) ||
+                           (point.reference_of_scores && point.reference_of_scores->converted);
+                })) {
+                say("Of a budget, En takes U for this probability from its distribution.");
+            }
         }
     }
 

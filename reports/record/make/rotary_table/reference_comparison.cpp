@@ -153,7 +153,9 @@ gum::MethodComparison method_comparison(const RotaryTableJob& job, const gum::Qu
                                      .reference_u = of_reference.u,
                                      .reference_U = of_reference.U,
                                      .reference_k = of_reference.k,
-                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom)});
+                                     .reference_nu = reports::finite_or_none(of_reference.degrees_of_freedom),
+                                     .reference_p = of_reference.coverage_probability,
+                                     .reference_of_scores = of_reference.of_scores});
     }
     comparison.covariance = displacement.covariance.of(rows) / (gum::k_micrometre * gum::k_micrometre);
     comparison.correlation_unknown = job.reference->correlation == ReferenceCorrelation::unknown;
@@ -217,6 +219,9 @@ reports::Comparison reference_comparison(const RotaryTableJob& job, const gum::Q
     record.remarks.emplace_back(
         "The displacement of the contact point and its uncertainty are computed from the six error motions with "
         "respect to the axis average line; the readings are compared as they stand.");
+    if (!side.origin.empty()) {
+        record.remarks.push_back(side.origin);
+    }
     record.remarks.insert(record.remarks.end(), side.remarks.begin(), side.remarks.end());
 
     gum::MethodComparison comparison = method_comparison(job, displacement, points, side);

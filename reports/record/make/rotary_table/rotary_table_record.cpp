@@ -8,6 +8,7 @@
 #include "gum/coverage.h"
 #include "gum/rounding.h"
 #include "jobs/rotary_table/rotary_table_words.h"
+#include "reports/record/make/comparison/refuted_side.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/reported_choice.h"
 #include "reports/record/make/rotary_table/adjustment_record.h"
@@ -341,6 +342,9 @@ reports::EvaluationRecord rotary_table_record(const RotaryTableJob& job, const g
     const std::vector<gum::Diagnostic> remarks = rotary_remarks(record);
     record.diagnostics.insert(record.diagnostics.end(), remarks.begin(), remarks.end());
     record.comparison = parts.comparison;
+    if (record.comparison) {
+        withhold_agreement(refuted_by(rotary_findings(record), {}, {}), *record.comparison);
+    }
     if (result.monte_carlo) {
         fill_monte_carlo(record, job, result);
         report_rotary_results(record, job.coverage);

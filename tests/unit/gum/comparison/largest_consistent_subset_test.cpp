@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -75,6 +78,54 @@ TEST(LargestConsistentSubset, SayWhereAnotherSubsetIsAsGood) {
         largest_consistent_subset(results({0.0, 2.0, 4.0, 6.0, 8.0, 10.0}, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}));
     EXPECT_EQ(ladder.members.size(), 2u);
     EXPECT_FALSE(ladder.unique);
+}
+
+/// Against every subset: who is in another consistent one of the size that was found.
+TEST(LargestConsistentSubset, NamesWhoIsInAnotherConsistentSubset) {
+    std::mt19937_64 draw(7);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform(0.05, 0.5);
+    std::size_t with = 0;
+    std::size_t without = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const std::size_t n = 4 + static_cast<std::size_t>(trial % 5);
+        std::vector<double> x;
+        std::vector<double> u;
+        for (std::size_t i = 0; i < n; ++i) {
+            u.push_back(trial % 3 == 0 ? 0.1 : uniform(draw));
+            x.push_back(10.0 + normal(draw) * (trial % 2 == 0 ? 0.3 : 0.15) + (i == 0 ? 2.0 : 0.0));
+        }
+        LaboratoryResults labs = results(x, u);
+        ConsistentSubset found;
+        try {
+            found = largest_consistent_subset(labs);
+        } catch (const NoResultError&) {
+            continue;
+        }
+        std::set<std::size_t> expected;
+        for (std::uint32_t mask = 0; mask < (1U << n); ++mask) {
+            std::vector<std::size_t> members;
+            for (std::size_t i = 0; i < n; ++i) {
+                if ((mask >> i) % 2 == 1) {
+                    members.push_back(i);
+                }
+            }
+            if (members.size() == found.members.size() &&
+                consistency_test(selected_results(labs, members)).consistent) {
+                expected.insert(members.begin(), members.end());
+            }
+        }
+        for (const std::size_t member : found.members) {
+            expected.erase(member);
+        }
+        const std::vector<std::size_t> others(expected.begin(), expected.end());
+        EXPECT_EQ(found.in_another, others) << trial;
+        (others.empty() ? without : with) += 1;
+        labs.covariance = labs.u.array().square().matrix().asDiagonal();
+        EXPECT_EQ(largest_consistent_subset(labs).in_another, others) << trial << " by every subset";
+    }
+    EXPECT_GT(with, 20U);
+    EXPECT_GT(without, 20U);
 }
 
 TEST(LargestConsistentSubset, EqualValuesAndManyEqualResults) {

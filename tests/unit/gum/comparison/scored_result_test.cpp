@@ -144,5 +144,56 @@ TEST(ScoredResults, AnotherCoverageFactorIsBroughtTo95Percent) {
     EXPECT_FALSE(scores[2].of_scores);
 }
 
+TEST(ScoredResults, ADifferenceWithoutUncertaintyIsNotPassedOver) {
+    for (const double value : {10.25, 9.9999, 10.0, 10.0 + 1e-15}) {
+        test::StatedComparison stated = test::comparison_of({10.0, value, 9.9}, {0.1, 0.1, 0.2});
+        stated.scheme.items[0].assigned_value.method = AssignedValueMethod::reference;
+        stated.scheme.items[0].assigned_value.participant = "L1";
+        stated.scheme.correlations.push_back({.first = 0, .second = 1, .r = 1.0});
+        if (std::abs(value - 10.0) > 1e-9) {
+            try {
+                (void)scores_of(stated);
+                ADD_FAILURE() << value;
+            } catch (const InputError& refused) {
+                EXPECT_EQ(refused.diagnostics().front().code, "GC-GUM-0031");
+                EXPECT_NE(refused.diagnostics().front().where.find("result of L2"), std::string::npos);
+            }
+        } else {
+            EXPECT_FALSE(scores_of(stated)[1].en) << value;
+        }
+    }
+}
+
+/// A result of a budget: what its distribution says of U goes before its u and degrees of freedom.
+TEST(ScoredResults, TakeUOfADistributionAsItIs) {
+    test::StatedComparison stated = test::results_of_iso_13528_e4();
+    stated.scheme.items[0].sigma_pt.reset();
+    stated.scheme.items[0].delta_E.reset();
+    ResultUncertainty& heavy = *stated.results[0].uncertainty;  // D = −0.030
+    heavy = {.u = 0.0045, .U = 0.0405, .k = 9.0, .degrees_of_freedom = 5.4};
+    heavy.coverage_probability = 0.9545;
+    heavy.of_scores = EnUncertainty{.U = 0.0405, .k = 9.0, .converted = false};
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_FALSE(scores[0].of_scores);
+    EXPECT_NEAR(*scores[0].en, -0.030 / std::hypot(0.0405, 0.0082), 1e-9);
+    EXPECT_GT(std::abs(*scores[0].zeta), 3.0);
+    EXPECT_EQ(scores[0].verdict, Verdict::none) << "the limits of zeta are those of a normal distribution";
+    heavy.of_scores.reset();
+    EXPECT_EQ(scores_of(stated)[0].verdict, Verdict::action) << "by k and nu alone it is brought to t";
+}
+
+TEST(ScoredResults, NoSignalRestsOnTheChoiceOfASubset) {
+    test::StatedComparison stated = test::comparison_of({10.0, 10.05, 11.0, 11.05, 20.0}, {0.1, 0.1, 0.1, 0.1, 0.1});
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_GT(std::abs(*scores[2].en), 1.0);
+    for (const std::size_t in_one_of_them : {0U, 1U, 2U, 3U}) {
+        EXPECT_NE(scores[in_one_of_them].verdict, Verdict::action) << in_one_of_them;
+        EXPECT_TRUE(scores[in_one_of_them].verdict_by.empty());
+    }
+    EXPECT_EQ(scores[2].verdict, Verdict::inconclusive);
+    EXPECT_EQ(scores[4].verdict, Verdict::action) << "no consistent pair holds it";
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -753,13 +753,15 @@ TEST(EvaluateLaboratories, MedianByTrialsOfOtherResults) {
 }
 
 TEST(EvaluateLaboratories, WhatIsLeftOutIsSaid) {
-    // One source whole in both: their difference has no uncertainty.
-    ComparisonJob job = job_of({10.0, 10.3, 9.9}, {0.1, 0.1, 0.1});
+    // One source whole in both: their difference has no uncertainty, and is 0.
+    ComparisonJob job = job_of({10.0, 10.0, 9.9}, {0.1, 0.1, 0.1});
     job.items[0].assigned_value.method = AssignedValueMethod::reference;
     job.items[0].assigned_value.participant = "L1";
     job.correlations = {{0, 1, 1.0}};
     EXPECT_FALSE(evaluated(job).points[1].En.number);
     EXPECT_THAT(evaluated(job).remarks, testing::Contains(HasSubstr("1 result has no En")));
+    job.results[1].value = 10.3;  // what is the same in both cannot differ
+    EXPECT_THROW((void)evaluated(job), gum::InputError);
 
     // A vector whose quantities are one quantity.
     ComparisonJob vectors = job_of({10.0, 10.3}, {0.1, 0.1});

@@ -49,14 +49,17 @@ TEST(SideOfBudget, IsInTheUnitOfTheComparison) {
     EXPECT_NEAR(found.budget[0].contribution.number, 3000.0, 1e-9);
     ASSERT_EQ(found.sources.all.front().size(), 1U);
     EXPECT_EQ(found.sources.all.front().front().source, "laser");
-    EXPECT_EQ(found.remarks.front(), "Values and uncertainties of Method come from the budget budget.json.");
+    EXPECT_EQ(found.origin, "Values and uncertainties of Method come from the budget budget.json.");
 }
 
-TEST(SideOfBudget, HasTheCoverageProbabilityOfTheComparison) {
+TEST(SideOfBudget, KeepsTheUOfTheBudgetAndScoresForTheComparison) {
     const BudgetJob of_99 = sum_of_two(R"(, "coverage_probability": 0.99)");
-    const double k = gum::coverage_factor(0.95, INFINITY);
-    EXPECT_NEAR(side(of_99, "um", 0.95).uncertainty.front().k, k, 1e-12);
-    EXPECT_NEAR(side(of_99, "um", 0.95).uncertainty.front().U, 5.0 * k, 1e-9);
+    const gum::ResultUncertainty found = side(of_99, "um", 0.95).uncertainty.front();
+    EXPECT_EQ(found.coverage_probability, 0.99);
+    EXPECT_NEAR(found.U, 5.0 * gum::coverage_factor(0.99, INFINITY), 1e-9);
+    ASSERT_TRUE(found.of_scores);
+    EXPECT_TRUE(found.of_scores->converted);
+    EXPECT_NEAR(found.of_scores->U, 5.0 * gum::coverage_factor(0.95, INFINITY), 1e-9);
 }
 
 TEST(SideOfBudget, RefusesAValueWithoutUncertainty) {

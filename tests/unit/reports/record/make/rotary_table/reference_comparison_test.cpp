@@ -271,13 +271,17 @@ TEST(ReferenceComparison, EvaluatesTheBudgetAtEveryPoint) {
     EXPECT_EQ(job.reference_budget->points[1].name, "x 45°");
     const reports::Comparison comparison = reference_comparison(job, displacement());
     ASSERT_EQ(comparison.points.size(), 3U);
-    // u² = (0.1 X)² + 0.3² + 0.2², covariance 0.01 X_i X_j + 0.09, in µm; at the probability of the job, not 99 %.
+    // u² = (0.1 X)² + 0.3² + 0.2², covariance 0.01 X_i X_j + 0.09, in µm; U is that of the budget, for 99 %.
     const double u0 = std::sqrt(0.25 + 0.09 + 0.04);
     const double u1 = std::sqrt(0.04 + 0.09 + 0.04);
     const double u2 = std::sqrt(0.01 + 0.09 + 0.04);
     EXPECT_NEAR(comparison.points[0].reference_value.number, 5.0, 1e-12);
     EXPECT_NEAR(*comparison.points[0].reference_u, u0, 1e-12);
-    EXPECT_NEAR(*comparison.points[0].reference_U.number, k_factor * u0, 1e-12);
+    EXPECT_NEAR(*comparison.points[0].reference_U.number, gum::coverage_factor(0.99, INFINITY) * u0, 1e-12);
+    EXPECT_EQ(comparison.points[0].reference_coverage_probability, 0.99);
+    // E_n takes the one for the probability of the job.
+    ASSERT_TRUE(comparison.points[0].reference_U_of_scores);
+    EXPECT_NEAR(*comparison.points[0].reference_U_of_scores, k_factor * u0, 1e-9);
     EXPECT_NEAR(comparison.points[1].reference_value.number, -2.0, 1e-12);
     EXPECT_NEAR(*comparison.points[1].reference_u, u1, 1e-12);
     EXPECT_NEAR(*comparison.points[2].reference_u, u2, 1e-12);
@@ -326,8 +330,8 @@ TEST(ReferenceComparison, UsesDegreesOfFreedomOfTheBudget) {
     const double nu = std::pow(0.38, 2) / (0.0016 / 4.0);  // Welch-Satterthwaite
     ASSERT_TRUE(comparison.points[0].reference_k);
     // The convolution of a t-distribution with ν = 4 and the others has wider tails than t with their ν_eff.
-    EXPECT_GT(*comparison.points[0].reference_k, 1.01 * gum::coverage_factor(0.9545, nu));
-    EXPECT_LT(*comparison.points[0].reference_k, 1.1 * gum::coverage_factor(0.9545, nu));
+    EXPECT_GT(*comparison.points[0].reference_k, 1.01 * gum::coverage_factor(0.99, nu));
+    EXPECT_LT(*comparison.points[0].reference_k, 1.1 * gum::coverage_factor(0.99, nu));
 }
 
 TEST(ReferenceComparison, RefusesAReferenceValueWithoutUncertainty) {
