@@ -1,5 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
+#include "reports/plots/svg_drawing.h"
 #include "reports/point_headings.h"
 #include "reports/printable_text.h"
 
@@ -94,6 +95,17 @@ std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& co
     return column.result;
 }
 
+/// Whether a plot can show all numbers of a panel.
+bool is_of_ordinary_size(const PlotPanel& panel) {
+    const auto are_ordinary = [&](const PlotSeries& series) {
+        return std::all_of(series.points.begin(), series.points.end(), [&](const PlotPoint& p) {
+            return is_ordinary(p.x) && is_ordinary(p.y) && is_ordinary(p.U);
+        });
+    };
+    return std::all_of(panel.series.begin(), panel.series.end(), are_ordinary) &&
+           std::all_of(panel.limits.begin(), panel.limits.end(), [&](const PlotLimit& l) { return is_ordinary(l.y); });
+}
+
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     const certificate::PointColumn* const abscissa = abscissa_of(table);
     PlotSeries series{
@@ -165,7 +177,8 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
               .margin = abscissa != nullptr ? k_certified_margin : 0.0};
     for (const CertifiedColumn& column : table.columns) {
         PlotPanel panel = panel_of(table, column, words);
-        if (panel.series.front().points.size() < k_least_values) {
+        // A certificate of 1e15 Ω is not refused for its figure.
+        if (panel.series.front().points.size() < k_least_values || !is_of_ordinary_size(panel)) {
             return std::nullopt;
         }
         plot.panels.push_back(std::move(panel));
