@@ -83,16 +83,19 @@ struct CertifiedLimit {
 };
 
 /// What a result is called in the table, where the job says so; else its name.
-std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
+struct PanelName {
+    std::string stage, result;  ///< "Before the adjustment: " or ""
+};
+PanelName name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     if (table.layout) {
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
-                const std::string stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ";
-                return stage + heading_of_shown(table, shown, words).first();
+                return {.stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ",
+                        .result = heading_of_shown(table, shown, words).first()};
             }
         }
     }
-    return column.result;
+    return {.stage = "", .result = column.result};
 }
 
 /// Whether a plot can show all numbers of a panel.
@@ -135,8 +138,12 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
         }
     }
     const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
-    const std::string name = shortened(printable(name_of_panel(table, column, words)), 40);
-    PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
+    const PanelName name = name_of_panel(table, column, words);
+    // The heading says when it was measured; the axis, which is shorter, what.
+    PlotPanel panel{.heading = shortened(printable(name.stage + name.result), 40),
+                    .y_label = shortened(printable(name.result), 40) + unit,
+                    .series = {},
+                    .limits = {}};
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
     const std::size_t values = series.points.size();
