@@ -567,7 +567,43 @@ void describe(Archive& a, Struct& r) {
 
 template <class Archive, Described<Change> Struct>
 void describe(Archive& a, Struct& r) {
-    a("kind", r.kind, {"value", "U", "k", "interval", "verdict", "text"});
+    a("kind", r.kind,
+      {"value",
+       "U",
+       "k",
+       "nu_eff",
+       "u",
+       "interval",
+       "coverage",
+       "scope_entry",
+       "raised",
+       "external",
+       "specification",
+       "rule",
+       "verdict",
+       "note",
+       "limit_low",
+       "limit_high",
+       "acceptance_low",
+       "acceptance_high",
+       "conformance_probability",
+       "specific_risk",
+       "largest_specific_risk",
+       "false_accept",
+       "false_reject",
+       "test_uncertainty_ratio",
+       "cell",
+       "words",
+       "heading",
+       "role",
+       "stage",
+       "title",
+       "group",
+       "columns",
+       "text",
+       "number",
+       "flag",
+       "code"});
     a("where", r.where);
     a("before", r.before);
     a("after", r.after);

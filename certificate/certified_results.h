@@ -95,8 +95,11 @@ struct Finding {
 
 /// Something that an amendment states otherwise than the certificate that it amends or replaces, as both print it.
 struct Change {
-    std::string kind;   ///< "value", "U", "k", "interval", "verdict" of a result; "text" of the certificate data
-    std::string where;  ///< name of the result with its point; JSON pointer in the certificate data
+    /// "value", "U", "limit_low", "verdict" … of a result; "cell" (a number) and "words" of another column at a point;
+    /// "heading", "role", "stage", "title", "group" and "columns" of a table; "text", "number", "flag" (true or false) and
+    /// "code" (one of some words) of the certificate data
+    std::string kind;
+    std::string where;          ///< name of the result or column with its point; JSON pointer in the certificate data
     std::string before, after;  ///< "" where one of the two states nothing; of a verdict its code
 };
 

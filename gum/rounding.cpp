@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
@@ -15,6 +16,8 @@ constexpr int k_most_digits = 15;           // every decimal of 15 digits surviv
 constexpr int k_trusted_digits = 12;        // of a computed uncertainty, see RoundingMode::up
 constexpr int k_first_fixed_exponent = -4;  // 1e-4
 constexpr int k_last_fixed_exponent = 5;    // below 1e6
+constexpr int k_most_plain_decimals = 18;   // 20 characters: nobody counts more zeros behind the point
+constexpr double k_least_with_power = 1e15;
 
 /// ±digits × 10^exponent, digits without leading zeros ("0" for zero).
 struct Decimal {
@@ -157,7 +160,8 @@ std::string power_of_ten_text(const Decimal& number) {
 
 /// Text of a rounded number; every digit of it is significant.
 std::string document_text(const Decimal& number) {
-    return number.exponent > 0 ? power_of_ten_text(number) : fixed_text(number);
+    return number.exponent > 0 || number.exponent < -k_most_plain_decimals ? power_of_ten_text(number)
+                                                                           : fixed_text(number);
 }
 
 void require_digits(int digits) {
@@ -192,6 +196,19 @@ std::string round_to_quantum(double value, int decimals) {
                "Correct the number of decimals.");
     }
     return document_text(rounded(shortest_decimal(value), -decimals, RoundingMode::half_even));
+}
+
+std::string round_as_written(double value, int decimals) {
+    if (!(std::abs(value) >= k_least_with_power)) {
+        return round_to_quantum(value, decimals);
+    }
+    require_finite(value, "value to print");
+    Decimal number = rounded_to_digits(shortest_decimal(value), k_most_digits, RoundingMode::half_even);
+    while (number.digits.size() > 1 && number.digits.back() == '0') {
+        number.digits.pop_back();
+        ++number.exponent;
+    }
+    return document_text(number);
 }
 
 std::string round_significant(double value, int digits) {

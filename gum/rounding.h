@@ -13,7 +13,8 @@ namespace gumcert::gum {
 // break a tie: 3139.674 + 223.676, which double precision makes 3363.3499999999995, gives 3363.4.
 //
 // Text: '.' as the decimal sign, ASCII '-', no group separators, never a negative zero. Where the last rounded digit
-// stands above the unit digit, a power of ten keeps zeros out that are not significant: 1.23E+3, 1.0E+2, 0E+2.
+// stands above the unit digit, a power of ten keeps zeros out that are not significant: 1.23E+3, 1.0E+2, 0E+2. Where it
+// stands behind the 18th decimal, a power of ten keeps the zeros out that nobody counts: 2.01E-25.
 
 enum class RoundingMode {
     half_even,  ///< to the nearest, ties to the even digit
@@ -46,6 +47,13 @@ struct RoundedPair {
 /// \param decimals  −300 to 400
 /// \throws InputError  GC-GUM-0001 or -0041
 [[nodiscard]] std::string round_to_quantum(double value, int decimals);
+
+/// A number that somebody wrote, with the decimals with which it was written (text::most_decimals): (2e-12, 13) gives
+/// "0.0000000000020". From 1e15 on with a power of ten and the digits that it has: 1.5E+20. Reads back as what was written,
+/// where that had 15 significant digits at most.
+/// \param decimals  0 to 400
+/// \throws InputError  GC-GUM-0001 or -0041
+[[nodiscard]] std::string round_as_written(double value, int decimals);
 
 /// Rounds half-even to significant digits, for numbers that stand alone: u, χ², condition number, p-value.
 ///

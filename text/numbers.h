@@ -19,9 +19,8 @@ namespace gumcert::text {
 /// `decimals` digits behind the point: "1.50".
 [[nodiscard]] std::string fixed(double value, int decimals);
 
-/// The most decimals with which one of some numbers is written: "1.50" has 2, "7" has 0. One with an exponent has those of its
-/// shortest text without, "1.5e-3" 4, and one with more digits than a person writes those of 15 digits. 0 where a number is
-/// too small or large for that, or there is none.
+/// The most decimals with which one of some numbers is written: "1.50" has 2, "7" has 0. A power of ten moves the point,
+/// "1.50e-3" has 5, "2e3" none, and a number with more digits than a person writes has those of 15 digits. At most 340.
 [[nodiscard]] int most_decimals(std::span<const std::string> numbers);
 
 /// "1.50" as "1.5", "2.0" as "2"; a text without a point, or with an exponent, as it is.

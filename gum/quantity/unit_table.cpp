@@ -217,6 +217,20 @@ constexpr std::array k_ambiguous{
     AmbiguousUnit{"mGs", "the milligauss, or wrong: write mgauss"},
     AmbiguousUnit{"kGs", "the kilogauss, or wrong: write kgauss"},
     AmbiguousUnit{"G", "the gauss or the constant of gravitation: write gauss"},
+    // A prefix and a symbol that laboratories write for something else.
+    AmbiguousUnit{"pH", "the pH value or the picohenry: write 1, or 1e-12 H"},
+    AmbiguousUnit{"PH", "the pH value or the petahenry: write 1, or 1e15 H"},
+    AmbiguousUnit{"pK", "the pK value or the picokelvin: write 1, or 1e-12 K"},
+    AmbiguousUnit{"dH", "the German degree of hardness or the decihenry: write mmol/L, or 0.1 H"},
+    AmbiguousUnit{"fH", "the French degree of hardness or the femtohenry: write mmol/L, or 1e-15 H"},
+    AmbiguousUnit{"TH", "the French degree of hardness or the terahenry: write mmol/L, or 1e12 H"},
+    AmbiguousUnit{"EV", "the exposure value or the exavolt: write 1, eV or 1e18 V"},
+    AmbiguousUnit{"as", "the arcsecond or the attosecond: write arcsec, or 1e-18 s"},
+    AmbiguousUnit{"nt", "the nit or the nanotonne: write cd/m2, or mg"},
+    AmbiguousUnit{"mt", "the metric ton or the millitonne: write t, or kg"},
+    AmbiguousUnit{"MT", "the metric ton or the megatesla: write t, or 1e6 T"},
+    AmbiguousUnit{"Pt", "the pint or the petatonne: write mL, or 1e15 t"},
+    AmbiguousUnit{"PA", "the pascal or the petaampere: write Pa, or 1e15 A"},
 };
 
 template <class Visit>

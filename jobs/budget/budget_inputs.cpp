@@ -48,9 +48,9 @@ bool is_limit(std::string_view name) {
            certificate::k_limit_columns.end();
 }
 
-/// A number as it was written; the shortest text of one with an exponent.
-std::string plain_text(const std::string& written, double value) {
-    return written.find_first_not_of("0123456789.-") == std::string::npos ? written : text::shortest_plain(value);
+/// The digits of a number as they were written, without an exponent where people read it so.
+std::string digits_as_written(const std::string& written, double value) {
+    return gum::round_as_written(value, text::most_decimals({&written, 1}));
 }
 
 std::string small_letters(std::string text) {
@@ -69,7 +69,6 @@ double value_in_unit(const gum::BudgetInput& input) {
 
 constexpr std::string_view k_readings = "readings";  // the component that they make beside others
 constexpr std::string_view k_resolution = "resolution";
-constexpr int k_most_decimals = 15;  // a number in double precision has no more that mean something
 
 /// Readings of one input in a row of a file of points.
 struct FileReadings {
@@ -730,7 +729,7 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
     if (!has_words_[*column.information]) {
         into.values.back() = table.number(row, position, {});
         if (into.values.back()) {
-            into.printed.back() = plain_text(table.number_text(row, position), *into.values.back());
+            into.printed.back() = digits_as_written(table.number_text(row, position), *into.values.back());
         }
     } else if (const auto objection = name_objection(cell.text)) {
         problems.refuse(k_text_not_allowed, table.where(cell),
@@ -742,14 +741,15 @@ void BudgetInputs::read_information(const FileColumn& column, const CsvTable& ta
     }
 }
 
-void BudgetInputs::read_information(std::size_t column, const json& value, const std::string& where, BudgetJob& job) {
+void BudgetInputs::read_information(std::size_t column, const json& value, const std::string& at, BudgetJob& job) {
+    const std::string where = document_.where(at);
     certificate::PointColumn& into = job.point_columns[column];
     into.values.resize(job.points.size() + 1);  // points before may have left it out
     into.printed.resize(job.points.size() + 1);
     if (!has_words_[column]) {
         if (value.is_number()) {
             into.values.back() = value.get<double>();
-            into.printed.back() = text::shortest_plain(value.get<double>());
+            into.printed.back() = digits_as_written(document_.number_as_written(at), value.get<double>());
             return;
         }
         problems_.refuse(k_wrong_type, where, described(value), "must be a number",
@@ -777,7 +777,7 @@ void BudgetInputs::fill_columns(std::size_t points, BudgetJob& job) {
 void BudgetInputs::note_decimals(std::size_t input, std::size_t point, int decimals) {
     std::vector<int>& all = decimals_[input];
     all.resize(point + 1, -1);
-    all[point] = std::min(decimals, k_most_decimals);
+    all[point] = decimals;
 }
 
 std::optional<int> BudgetInputs::decimals(const std::string& input, std::size_t point) const {
@@ -787,6 +787,14 @@ std::optional<int> BudgetInputs::decimals(const std::string& input, std::size_t 
         return std::nullopt;
     }
     return found->second[point];
+}
+
+std::optional<int> BudgetInputs::decimals_of_job(const std::string& input) const {
+    const auto index = of_name_.find(input);
+    if (index == of_name_.end() || !stated_[index->second].keys || !stated_[index->second].keys->has("value")) {
+        return std::nullopt;
+    }
+    return stated_[index->second].keys->decimals_as_written("value");
 }
 
 void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
@@ -938,7 +946,7 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                 continue;
             }
             if (const auto own = information(key, job)) {
-                read_information(*own, value, document_.where(at), job);
+                read_information(*own, value, at, job);
                 continue;
             }
             const auto index = point_input(key, document_.where(at), job, problems_);
@@ -956,6 +964,8 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                     note_decimals(
                         *index, job.points.size(),
                         document_.decimals_as_written(object.pointer("observations")) + (readings->size() > 1 ? 1 : 0));
+                } else if (const json* stated = object.find("value"); stated != nullptr && stated->is_number()) {
+                    note_decimals(*index, job.points.size(), document_.decimals_as_written(object.pointer("value")));
                 }
                 const StatementKeys own(document_, at, keys_of<OverrideStatement>(), problems_);
                 overrides.emplace(*index, base.with(own));
@@ -1136,9 +1146,8 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             const auto found = overrides.find(input);
             const StatementKeys& before = found == overrides.end() ? *stated_[input].keys : found->second;
             const FileColumn& column = columns[read.first];
-            overrides.insert_or_assign(
-                input, before.with("observations", read.numbers, std::min(read.decimals, k_most_decimals), *table,
-                                   table->cell(row, read.first), *file->problems, column.name));
+            overrides.insert_or_assign(input, before.with("observations", read.numbers, read.decimals, *table,
+                                                          table->cell(row, read.first), *file->problems, column.name));
             ++stated_[input].overridden["observations"];
             note_decimals(input, job.points.size(), read.decimals + (read.numbers.size() > 1 ? 1 : 0));
         }

@@ -45,6 +45,8 @@ public:
     /// Decimals with which a point states the value of an input, or one more where it is a mean of several readings;
     /// nothing where the point does not state it by numbers of its own.
     [[nodiscard]] std::optional<int> decimals(const std::string& input, std::size_t point) const;
+    /// Those of the value that the job states for all points; nothing where it states none.
+    [[nodiscard]] std::optional<int> decimals_of_job(const std::string& input) const;
     /// Names and units of all inputs, for the equations.
     [[nodiscard]] std::vector<gum::InputSymbol> symbols() const;
     /// True when the specification of another input refers to it.
@@ -121,7 +123,7 @@ private:
     [[nodiscard]] std::optional<std::size_t> information(const std::string& name, BudgetJob& job);
     void read_information(const FileColumn& column, const CsvTable& table, std::size_t row, std::size_t position,
                           ProblemList& problems, BudgetJob& job);
-    void read_information(std::size_t column, const nlohmann::json& value, const std::string& where, BudgetJob& job);
+    void read_information(std::size_t column, const nlohmann::json& value, const std::string& at, BudgetJob& job);
     /// Every column has a value for each of the first `points`.
     static void fill_columns(std::size_t points, BudgetJob& job);
     void note_decimals(std::size_t input, std::size_t point, int decimals);

@@ -595,6 +595,14 @@ private:
         return number;
     }
 
+    /// With the decimals that were written; of a mean no more than double precision holds.
+    [[nodiscard]] static std::string as_written(double value, int decimals) {
+        constexpr int k_last_digit = 14;  // behind the first one
+        const int most =
+            value == 0.0 ? decimals : k_last_digit - static_cast<int>(std::floor(std::log10(std::abs(value))));
+        return gum::round_as_written(value, std::clamp(decimals, 0, std::max(most, 0)));
+    }
+
     /// The inputs that tables and limits name become columns of the points.
     void add_inputs() {
         std::set<std::string> wanted;
@@ -642,14 +650,16 @@ private:
                 const double value = stated.unit.from_si(total.value);
                 added.values.emplace_back(value);
                 if (const std::optional<int> decimals = inputs_.decimals(stated.name, p)) {
-                    added.printed.push_back(gum::round_to_quantum(value, *decimals));
+                    added.printed.push_back(as_written(value, *decimals));
                 } else if (is_computed(here) && total.u > 0.0) {
                     // Digits behind the uncertainty are those of a computation (JCGM 100:2008, 7.2.6).
                     added.printed.push_back(
                         gum::round_to_uncertainty(value, stated.unit.difference_from_si(total.u)).value);
                     added.decimals = "of_uncertainty";
                 } else {
-                    added.printed.push_back(text::shortest_plain(held(value)));
+                    const std::string shortest = text::shortest(held(value));
+                    added.printed.push_back(as_written(
+                        value, inputs_.decimals_of_job(stated.name).value_or(text::most_decimals({&shortest, 1}))));
                 }
             }
             job_.point_columns.push_back(std::move(added));

@@ -18,8 +18,8 @@ constexpr std::size_t k_label = 32;  // characters of a name beside a bar
 bool has_range_plot(const AuditedFileView& file) {
     return file.results.size() > 1 &&
            std::all_of(file.results.begin(), file.results.end(), [&file](const AuditedResultView& result) {
-               return result.unit == file.results.front().unit && std::isfinite(result.budget_U_number) &&
-                      std::isfinite(result.audited.number.U);
+               return result.unit == file.results.front().unit && is_ordinary(result.budget_U_number) &&
+                      is_ordinary(result.audited.number.U) && is_ordinary(result.capability_number.value_or(0.0));
            });
 }
 

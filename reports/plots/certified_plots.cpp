@@ -1,5 +1,6 @@
 #include "reports/plots/certified_plots.h"
 
+#include "reports/plots/svg_drawing.h"
 #include "reports/point_headings.h"
 #include "reports/printable_text.h"
 
@@ -82,16 +83,30 @@ struct CertifiedLimit {
 };
 
 /// What a result is called in the table, where the job says so; else its name.
-std::string name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
+struct PanelName {
+    std::string stage, result;  ///< "Before the adjustment: " or ""
+};
+PanelName name_of_panel(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
     if (table.layout) {
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             if (shown.show == "value" && shown.of == column.result && !shown.role.empty()) {
-                const std::string stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ";
-                return stage + heading_of_shown(table, shown, words).first();
+                return {.stage = shown.stage.empty() ? "" : words("point_table", shown.stage).first() + ": ",
+                        .result = heading_of_shown(table, shown, words).first()};
             }
         }
     }
-    return column.result;
+    return {.stage = "", .result = column.result};
+}
+
+/// Whether a plot can show all numbers of a panel.
+bool is_of_ordinary_size(const PlotPanel& panel) {
+    const auto are_ordinary = [&](const PlotSeries& series) {
+        return std::all_of(series.points.begin(), series.points.end(), [&](const PlotPoint& p) {
+            return is_ordinary(p.x) && is_ordinary(p.y) && is_ordinary(p.U);
+        });
+    };
+    return std::all_of(panel.series.begin(), panel.series.end(), are_ordinary) &&
+           std::all_of(panel.limits.begin(), panel.limits.end(), [&](const PlotLimit& l) { return is_ordinary(l.y); });
 }
 
 PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, const Wording& words) {
@@ -123,8 +138,12 @@ PlotPanel panel_of(const CertifiedTable& table, const CertifiedColumn& column, c
         }
     }
     const std::string unit = column.printed_unit.empty() ? "" : " / " + column.printed_unit;
-    const std::string name = shortened(printable(name_of_panel(table, column, words)), 40);
-    PlotPanel panel{.heading = name, .y_label = name + unit, .series = {}, .limits = {}};
+    const PanelName name = name_of_panel(table, column, words);
+    // The heading says when it was measured; the axis, which is shorter, what.
+    PlotPanel panel{.heading = shortened(printable(name.stage + name.result), 40),
+                    .y_label = shortened(printable(name.result), 40) + unit,
+                    .series = {},
+                    .limits = {}};
     const std::string tolerance = words("certificate", "tolerance_limit").first();
     const std::string acceptance = words("certificate", "acceptance_limit").first();
     const std::size_t values = series.points.size();
@@ -165,7 +184,8 @@ std::optional<Plot> certified_plot(const CertifiedTable& table, const std::strin
               .margin = abscissa != nullptr ? k_certified_margin : 0.0};
     for (const CertifiedColumn& column : table.columns) {
         PlotPanel panel = panel_of(table, column, words);
-        if (panel.series.front().points.size() < k_least_values) {
+        // A certificate of 1e15 Ω is not refused for its figure.
+        if (panel.series.front().points.size() < k_least_values || !is_of_ordinary_size(panel)) {
             return std::nullopt;
         }
         plot.panels.push_back(std::move(panel));

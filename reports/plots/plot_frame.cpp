@@ -1,5 +1,6 @@
 #include "reports/plots/plot_frame.h"
 
+#include "reports/printable_text.h"
 #include "text/utf8.h"
 
 #include <algorithm>
@@ -147,6 +148,27 @@ double label_width(const std::string& text, double size) {
     return text_width(text, size) + 0.5 * size * static_cast<double>(wide);
 }
 
+void draw_upright_title(Drawing& drawing, double x, double y, double height, const std::string& title) {
+    constexpr double k_size = 11.0;
+    constexpr double k_least_size = 8.0;
+    constexpr double k_beyond = 12.0;  // half of what two panels leave between them
+    const double room = height + k_beyond;
+    const double width = label_width(title, k_size);
+    if (width <= room) {
+        drawing.upright_text(x, y, title, k_size);
+        return;
+    }
+    const double size = std::max(k_least_size, k_size * room / width);
+    std::string shown = title;
+    const std::size_t unit_at = std::min(title.rfind(" / "), title.size());
+    const std::string name = title.substr(0, unit_at);
+    const std::string unit = title.substr(unit_at);
+    for (std::size_t most = name.size(); label_width(shown, size) > room && most > 1; --most) {
+        shown = shortened(name, most) + unit;
+    }
+    drawing.upright_text(x, y, shown, size);
+}
+
 std::string shortened_name(const std::string& name, std::size_t most) {
     constexpr std::size_t k_end = 8;
     std::vector<std::size_t> starts;  // of the characters
@@ -189,8 +211,8 @@ void draw_up_ticks(Drawing& drawing, const PlotFrame& frame) {
 
 void draw_up_axis(Drawing& drawing, const PlotFrame& frame, const std::string& title) {
     draw_up_ticks(drawing, frame);
-    drawing.upright_text(frame.x - room_for_axis(frame.up) + k_title_size + 1.0, frame.y + 0.5 * frame.height, title,
-                         k_title_size);
+    draw_upright_title(drawing, frame.x - room_for_axis(frame.up) + k_title_size + 1.0, frame.y + 0.5 * frame.height,
+                       frame.height, title);
 }
 
 void draw_across_grid(Drawing& drawing, const PlotFrame& frame) {

@@ -48,6 +48,11 @@ void require_finite(const std::string& where, std::initializer_list<double> numb
 
 /// Width of a text, about, in drawing units; ideographs count as squares.
 [[nodiscard]] double label_width(const std::string& text, double size);
+/// The title of an axis that goes up: in smaller type where it is longer than the axis, and shortened, but for its unit,
+/// where that is not enough, so that titles of panels that stand below each other do not touch.
+/// \param y       middle of the axis
+/// \param height  of the axis
+void draw_upright_title(Drawing& drawing, double x, double y, double height, const std::string& title);
 
 /// An exponent in superscript digits: "⁻¹²".
 [[nodiscard]] std::string superscript(int exponent);

@@ -139,6 +139,11 @@ void Drawing::marker(PlotMarker kind, double x, double y, double r) {
     }
 }
 
+bool is_ordinary(double number) {
+    constexpr double k_most = 1e11;
+    return std::abs(number) < k_most;
+}
+
 void require_ordinary(const std::string& where, std::initializer_list<double> numbers) {
     constexpr double k_most = 1e12;
     for (const double v : numbers) {

@@ -49,6 +49,8 @@ public:
     void marker(PlotMarker kind, double x, double y, double r);
 };
 
+/// Whether a plot can show a number, with the room that is left around it: not those that require_ordinary() refuses.
+[[nodiscard]] bool is_ordinary(double number);
 /// \throws gum::NoResultError  for a number whose tick label could not be read
 void require_ordinary(const std::string& where, std::initializer_list<double> numbers);
 

@@ -248,7 +248,7 @@ void draw_panel(Drawing& drawing, const PlotPanel& panel, const PlotFrame& frame
     }
     draw_outline(drawing, frame);
     draw_across_ticks(drawing, frame, with_axis);
-    drawing.upright_text(frame.x - 38.0, frame.y + 0.5 * frame.height, panel.y_label, 11.0);
+    draw_upright_title(drawing, frame.x - 38.0, frame.y + 0.5 * frame.height, frame.height, panel.y_label);
 }
 
 /// A low panel from zero up, with ticks at both ends only.
@@ -590,7 +590,7 @@ std::string svg(const DensityPlot& plot) {
     draw_outline(drawing, frame);
     draw_across_ticks(drawing, frame);
     draw_across_title(drawing, frame, plot.x_label);
-    drawing.upright_text(frame.x - 10.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
+    draw_upright_title(drawing, frame.x - 10.0, frame.y + 0.5 * frame.height, frame.height, plot.y_label);
     return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 
@@ -626,7 +626,7 @@ std::string svg(const HistogramPlot& plot) {
     draw_outline(drawing, frame);
     draw_across_ticks(drawing, frame);
     draw_across_title(drawing, frame, plot.x_label);
-    drawing.upright_text(frame.x - 44.0, frame.y + 0.5 * frame.height, plot.y_label, 11.0);
+    draw_upright_title(drawing, frame.x - 44.0, frame.y + 0.5 * frame.height, frame.height, plot.y_label);
     return plot_document(plot.id, plot.title, plot.description, height, drawing);
 }
 

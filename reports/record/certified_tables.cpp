@@ -158,43 +158,34 @@ std::string unit_in_group(const certificate::TableRequest& table, const std::str
     return found;
 }
 
-/// The rows of a group in the unit of the group, with as many decimals as the finest of them was written with. A value that
-/// was computed keeps its own: zeros behind the place at which its uncertainty ends would claim what nobody knows.
+/// The rows of a group in the unit of the group, each with the decimals that it has: zeros up to those of another row would
+/// claim digits that nobody wrote and no display showed. A value that was computed may end above the unit digit.
 certificate::PointColumn in_group(const certificate::PointColumn& all, const std::vector<std::size_t>& rows,
                                   const std::string& unit) {
     certificate::PointColumn column = all;
     column.values.clear();
     column.printed.clear();
-    int decimals = 0;
     for (const std::size_t row : rows) {
         column.values.push_back(all.values[row]);
         column.printed.push_back(all.printed[row]);
-        if (all.values[row]) {
-            decimals = std::max(decimals, certificate::decimals_of(all.printed[row]));
-        }
     }
-    const bool is_computed = all.decimals == "of_uncertainty";
     if (unit == all.unit) {
-        for (std::size_t i = 0; i < column.values.size() && !is_computed; ++i) {
-            if (column.values[i]) {
-                column.printed[i] = gum::round_to_quantum(*column.values[i], decimals);
-            }
-        }
         return column;
     }
+    const bool is_computed = all.decimals == "of_uncertainty";
     const gum::Unit from = gum::Unit::parse(all.unit);
     const gum::Unit to = gum::Unit::parse(unit);
     constexpr double k_noise = 1e-9;
     const double factor = to.difference_from_si(from.difference_to_si(1.0));
     const int shift = static_cast<int>(std::floor(std::log10(factor) + k_noise));
-    decimals = std::max(0, decimals - shift);
     column.unit = unit;
     column.printed_unit = gum::unit_for_people(unit);
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         if (std::optional<double>& value = column.values[i]) {
             value = to.from_si(from.to_si(*value));
             const int own = certificate::decimals_of(column.printed[i]) - shift;
-            column.printed[i] = gum::round_to_quantum(*value, is_computed ? own : decimals);
+            column.printed[i] =
+                is_computed ? gum::round_to_quantum(*value, own) : gum::round_as_written(*value, std::max(own, 0));
         }
     }
     return column;

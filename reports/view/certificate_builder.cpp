@@ -29,6 +29,12 @@ std::optional<std::size_t> fraction_length(const std::string& text, const std::s
     return at == std::string::npos ? 0 : text.size() - at;
 }
 
+/// Characters; of UTF-8 those that begin one.
+std::size_t length_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 bool is_decimal(const std::string& text) {
     const std::size_t from = text.starts_with("\u2212") ? std::string("\u2212").size() : text.starts_with('-') ? 1 : 0;
     return from < text.size() && text.find_first_not_of("0123456789.", from) == std::string::npos;
@@ -70,6 +76,23 @@ std::string with_decimal_signs(const std::string& drawing, const std::string& si
         at = end + std::string("</text>").size();
     }
     return out + drawing.substr(at);
+}
+
+std::vector<std::string> pads_of(const std::vector<std::string>& texts, const std::string& sign) {
+    constexpr std::size_t k_most = 20;  // characters; decimals of all sizes do not stand below each other
+    std::size_t longest = 0;
+    for (const std::string& text : texts) {
+        longest = std::max(longest, fraction_length(text, sign).value_or(0));
+    }
+    std::vector<std::string> pads(texts.size());
+    std::size_t widest = 0;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (const auto length = fraction_length(texts[i], sign); length && *length < longest) {
+            pads[i] = (*length == 0 ? sign : "") + std::string(longest - std::max<std::size_t>(*length, 1), '0');
+            widest = std::max(widest, length_of(texts[i]) + pads[i].size());
+        }
+    }
+    return widest <= k_most ? pads : std::vector<std::string>(texts.size());
 }
 
 std::string plain(double v) {
@@ -165,11 +188,13 @@ void CertificateBuilder::table(const std::string& id, const Text& caption, const
         // As Wording::number() prints it, and in one language: a number has no second one.
         return columns[column].number ? wording_.number(rows[row][column].first()).first() : rows[row][column].first();
     };
-    std::vector<std::size_t> longest(columns.size(), 0);
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            longest[c] = std::max(longest[c], fraction_length(shown(r, c), sign).value_or(0));
+    std::vector<std::vector<std::string>> pads;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        std::vector<std::string> texts;
+        for (std::size_t r = 0; r < rows.size() && columns[c].number; ++r) {
+            texts.push_back(shown(r, c));
         }
+        pads.push_back(texts.empty() ? std::vector<std::string>(rows.size()) : pads_of(texts, sign));
     }
     json heads = json::array();
     for (const Column& column : columns) {
@@ -185,13 +210,9 @@ void CertificateBuilder::table(const std::string& id, const Text& caption, const
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const std::string text = shown(r, c);
             absent_cells_ += text.empty() ? 1U : 0U;
-            std::string pad;
-            if (const auto length = fraction_length(text, sign); columns[c].number && length && *length < longest[c]) {
-                pad = (*length == 0 ? sign : "") + std::string(longest[c] - std::max<std::size_t>(*length, 1), '0');
-            }
             cells.push_back({{"text", text.empty() ? absent : printable(text)},
                              {"also", also(rows[r][c], languages)},
-                             {"pad", pad},
+                             {"pad", pads[c][r]},
                              {"align", align_of(columns[c])}});
         }
         lines.push_back({{"cells", std::move(cells)}, {"kind", name_of(r < kinds.size() ? kinds[r] : RowKind::plain)}});

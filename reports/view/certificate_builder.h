@@ -103,6 +103,10 @@ void put(nlohmann::json& object, const std::string& key, const Text& text, const
 
 /// A drawing whose texts that are plain numbers (ticks of the axes, above all) have a decimal sign of the language.
 [[nodiscard]] std::string with_decimal_signs(const std::string& drawing, const std::string& sign);
+/// What stands invisibly behind the numbers of a column, so that they stand below each other by their decimal sign: zeros
+/// up to the longest fraction. None where that would be wider than anybody compares.
+/// \param texts  as they are shown, with the decimal sign of the document
+[[nodiscard]] std::vector<std::string> pads_of(const std::vector<std::string>& texts, const std::string& sign);
 
 /// Degrees of freedom, as certificate::printed_degrees_of_freedom prints them; a word for infinitely many.
 [[nodiscard]] Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words);

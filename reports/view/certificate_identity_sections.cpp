@@ -11,8 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,16 @@ std::size_t number_of(const std::string& token) {
 /// Whether a part of a JSON pointer is one in a list.
 bool is_position(const std::string& token) {
     return !token.empty() && token.size() < 9 && token.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// What a part of the certificate data, or something that is printed of a result, is called in the list of changes.
+Text word_of_change(const std::string& name, const Wording& words) {
+    if (name == "interval") {
+        return words("label", "symmetric");
+    }
+    return words.has("change", name)        ? words("change", name)
+           : words.has("certificate", name) ? words("certificate", name)
+                                            : Text(name);
 }
 
 /// Lines of an address with the country, joined by commas.
@@ -384,12 +396,9 @@ nlohmann::json issued_status(const Wording& words, const EvaluationRecord& recor
 }
 
 Text place_of_change(const certificate::Change& change, const Wording& words) {
-    if (change.kind != "text") {
-        return change.kind == "value" ? Text(change.where)
-                                      : change.where + ": " +
-                                            (change.kind == "verdict"    ? words("certificate", "verdict")
-                                             : change.kind == "interval" ? words("label", "symmetric")
-                                                                         : Text(change.kind));
+    if (!change.where.starts_with('/')) {
+        const bool is_place = change.kind == "value" || change.kind == "cell" || change.kind == "words";
+        return is_place ? Text(change.where) : change.where + ": " + word_of_change(change.kind, words);
     }
     Text text;
     std::string rest = change.where;
@@ -397,24 +406,46 @@ Text place_of_change(const certificate::Change& change, const Wording& words) {
         const std::size_t end = std::min(rest.find('/', 1), rest.size());
         const std::string token = rest.substr(1, end - 1);
         rest = rest.substr(end);
+        if (is_position(token)) {
+            text = text + " " + Text(std::to_string(number_of(token) + 1));
+            continue;
+        }
         const std::string heading = token == "standards"        ? "traceability"
                                     : token == "method"         ? "method_used"
                                     : token == "specifications" ? "conformity"
                                                                 : token;
-        const Text word = text.empty() && words.has("heading", heading)      ? words("heading", heading)
-                          : !text.empty() && words.has("certificate", token) ? words("certificate", token)
-                          : !text.empty() && is_position(token) ? Text(std::to_string(number_of(token) + 1))
-                                                                : Text(token);
-        text = text.empty() ? word : text + (is_position(token) ? " " : ": ") + word;
+        const Text word = text.empty() && words.has("heading", heading) && heading != "adjustment"
+                              ? words("heading", heading)
+                              : word_of_change(token, words);
+        text = text.empty() ? word : text + ": " + word;
     }
     return text;
 }
 
 Text side_of_change(const certificate::Change& change, const std::string& side, const Wording& words) {
-    if (change.kind == "verdict" && words.has("verdict_name", side)) {
+    const std::string& kind = change.kind;
+    if (kind == "verdict" && words.has("verdict_name", side)) {
         return words("verdict_name", side);
     }
-    return change.kind == "text" ? Text(side) : words.number(side);
+    if (kind == "flag" || kind == "raised" || kind == "external") {
+        return side == "true"    ? words("change_value", "yes")
+               : side == "false" ? words("change_value", "no")
+                                 : Text(side);
+    }
+    if (kind == "role" || kind == "stage") {
+        return words.has("point_table", side) ? words("point_table", side) : Text(side);
+    }
+    if (kind == "code" || kind == "coverage") {
+        const std::string word = kind == "coverage" && side == "none" ? "no_coverage" : side;
+        return words.has("change_value", word) ? words("change_value", word) : Text(side);
+    }
+    if (kind == "note") {
+        return words.sentence(side);
+    }
+    static constexpr std::array<std::string_view, 8> k_words{"text",  "words",   "heading",       "title",
+                                                             "group", "columns", "specification", "rule"};
+    const bool is_text = kind == "scope_entry" || std::find(k_words.begin(), k_words.end(), kind) != k_words.end();
+    return is_text ? Text(side) : words.number(side);
 }
 
 Facts item_facts(const Wording& words, const certificate::Item& item) {

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -248,11 +250,14 @@ std::vector<std::pair<Text, std::size_t>> stages_of(const std::vector<const Layo
     return any ? stages : std::vector<std::pair<Text, std::size_t>>();
 }
 
-// Room on a page, as templates/pdf/certificate.typ sets tables of more than eight columns on A4 upright: bold, 8.2 pt.
+// Room on a page, as templates/pdf/certificate.typ sets tables on A4 upright: bold, 8.2 pt where there are more than eight
+// columns, else 8.5 pt.
 constexpr double k_page = 480.0;  // [pt] 172 mm, and some points for what is not looked at
 constexpr double k_em = 8.2;      // [pt]
+constexpr double k_larger = 8.5 / 8.2;
+constexpr std::size_t k_few_columns = 8, k_many_columns = 11;
 constexpr double k_column_of_words = 40.0;
-constexpr double k_insets = 6.4;
+constexpr double k_gap = 0.095;             // [em] between groups of three digits, where there are more than four
 constexpr std::size_t k_longest_part = 11;  // letters of a word that is hyphenated
 constexpr double k_uneven_parts = 1.15;
 constexpr double k_second_language = 0.85;
@@ -287,6 +292,27 @@ double width_of(std::string_view text) {
     return width;
 }
 
+/// Left and right of the cells of a column.
+double insets_of(std::size_t columns) {
+    return columns > k_many_columns ? 6.4 : columns > k_few_columns ? 8.0 : 9.0;
+}
+
+/// A number as it is shown, with what stands invisibly behind it, and gaps behind groups of three digits.
+double width_of_number(const std::string& text, const std::string& pad) {
+    constexpr std::size_t k_without_gaps = 4;
+    std::size_t gaps = 0;
+    std::size_t digits = 0;
+    for (const char c : text + pad + ' ') {
+        if (c >= '0' && c <= '9') {
+            ++digits;
+        } else {
+            gaps += digits > k_without_gaps ? (digits - 1) / 3 : 0;
+            digits = 0;
+        }
+    }
+    return width_of(text) + width_of(pad) + k_gap * k_em * static_cast<double>(gaps);
+}
+
 /// Width of the longest part of a text that is not broken into lines.
 double width_of_words(const std::string& text) {
     double widest = 0.0;
@@ -309,7 +335,7 @@ struct ColumnWidth {
     double whole = 0.0;      ///< in one line
 };
 
-ColumnWidth width_of(const LayoutColumn& column, const Rows& lines, std::size_t position) {
+ColumnWidth width_of(const LayoutColumn& column, const Rows& lines, std::size_t position, const Wording& words) {
     ColumnWidth width;
     const auto see = [&](double least, double whole) {
         width.least = std::max(width.least, least);
@@ -322,24 +348,34 @@ ColumnWidth width_of(const LayoutColumn& column, const Rows& lines, std::size_t 
     }
     const double unit = column.column.unit.empty() ? 0.0 : width_of("/ " + column.column.unit);
     see(unit, unit);
+    std::vector<std::string> numbers;
     for (const std::vector<Text>& line : lines) {
         const std::string& cell = line[position].first();
-        see(column.column.number ? width_of(cell) : width_of_words(cell), width_of(cell));
+        if (column.column.number) {
+            numbers.push_back(words.number(cell).first());
+        } else {
+            see(width_of_words(cell), width_of(cell));
+        }
     }
-    width.least += k_insets;
-    width.whole += k_insets;
-    width.with_room = column.column.number ? width.least : std::max(width.least, k_column_of_words + k_insets);
+    const std::vector<std::string> pads = pads_of(numbers, words.decimal_sign());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double number = width_of_number(numbers[i], pads[i]);
+        see(number, number);
+    }
+    width.with_room = column.column.number ? width.least : std::max(width.least, k_column_of_words);
     return width;
 }
 
 /// Whether columns fit side by side: where the template gives them their widths, or where it leaves them to the setter,
 /// who makes the widest ones equal until all fit.
 bool fit_on_a_page(const std::vector<ColumnWidth>& columns) {
+    const double insets = insets_of(columns.size());
+    const double size = columns.size() > k_few_columns ? 1.0 : k_larger;
     double with_room = 0.0;
     std::vector<double> whole;
     for (const ColumnWidth& column : columns) {
-        with_room += column.with_room;
-        whole.push_back(column.whole);
+        with_room += size * column.with_room + insets;
+        whole.push_back(size * column.whole + insets);
     }
     if (with_room <= k_page) {
         return true;
@@ -356,14 +392,28 @@ bool fit_on_a_page(const std::vector<ColumnWidth>& columns) {
         widest = whole[i];
     }
     return std::all_of(columns.begin(), columns.end(),
-                       [&](const ColumnWidth& column) { return column.least <= widest; });
+                       [&](const ColumnWidth& column) { return size * column.least + insets <= widest; });
+}
+
+/// The first of some columns that has another text in every row; the first one where none has.
+std::size_t column_that_tells_rows(const std::vector<std::size_t>& columns, const Rows& lines) {
+    const auto tells = [&](std::size_t column) {
+        std::set<std::string> texts;
+        for (const std::vector<Text>& line : lines) {
+            texts.insert(line[column].first());
+        }
+        return texts.size() == lines.size();
+    };
+    const auto found = std::find_if(columns.begin(), columns.end(), tells);
+    return found == columns.end() ? columns.front() : *found;
 }
 
 /// The columns of each table that what is shown becomes: one, where it fits on a page.
-std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutColumn>& columns, const Rows& lines) {
+std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutColumn>& columns, const Rows& lines,
+                                                       const Wording& words) {
     std::vector<ColumnWidth> widths;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        widths.push_back(width_of(columns[i], lines, i));
+        widths.push_back(width_of(columns[i], lines, i, words));
     }
     const auto fit = [&](const std::vector<std::size_t>& some, const std::vector<std::size_t>& others) {
         std::vector<ColumnWidth> both;
@@ -402,11 +452,11 @@ std::vector<std::vector<std::size_t>> columns_of_parts(const std::vector<LayoutC
     }
     const std::size_t end_of_leading = leading.size();
     std::vector<std::vector<std::size_t>> parts = {leading};
-    // Where points have so many columns that a result hardly fits beside them, their first one says which row it is.
+    // Where points have so many columns that a result hardly fits beside them, one of them says which row it is.
     const bool all_fit = std::all_of(blocks.begin(), blocks.end(),
                                      [&](const std::vector<std::size_t>& block) { return fit(leading, block); });
     if (!all_fit && leading.size() > 1) {
-        leading.resize(1);
+        leading = {column_that_tells_rows(leading, lines)};
     }
     for (const std::vector<std::size_t>& block : blocks) {
         const bool has_result = parts.back().size() > leading.size() && parts.back().back() >= end_of_leading;
@@ -460,7 +510,7 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
         return;
     }
     const Text marks = overview.meaning_of_marks(words, marked);
-    const std::vector<std::vector<std::size_t>> parts = columns_of_parts(columns, lines);
+    const std::vector<std::vector<std::size_t>> parts = columns_of_parts(columns, lines, words);
     for (std::size_t p = 0; p < parts.size(); ++p) {
         std::vector<const LayoutColumn*> of_part;
         std::vector<Column> heads;

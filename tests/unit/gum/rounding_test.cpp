@@ -79,7 +79,25 @@ TEST(RoundToUncertainty, VeryLargeAndVerySmall) {
     EXPECT_EQ(round_to_uncertainty(6.02214076e23, 1.5e16), (RoundedPair{"6.02214076E+23", "1.5E+16"}));
     EXPECT_EQ(round_to_uncertainty(1.23456e-7, 2.5e-9), (RoundedPair{"0.0000001235", "0.0000000025"}));
     EXPECT_EQ(round_to_uncertainty(1e300, 0.5).value.size(), 304U);
-    EXPECT_EQ(round_to_uncertainty(0.0, std::numeric_limits<double>::denorm_min(), 1).value.substr(0, 4), "0.00");
+    EXPECT_EQ(round_to_uncertainty(0.0, std::numeric_limits<double>::denorm_min(), 1),
+              (RoundedPair{"0E-324", "5E-324"}));
+    // Zeros that nobody counts become a power of ten, of both alike.
+    EXPECT_EQ(round_to_uncertainty(2.01e-16, 1.2e-17), (RoundedPair{"0.000000000000000201", "0.000000000000000012"}));
+    EXPECT_EQ(round_to_uncertainty(2.01e-17, 1.2e-18), (RoundedPair{"2.01E-17", "1.2E-18"}));
+}
+
+TEST(RoundAsWritten, KeepsTheDigitsThatWereWritten) {
+    EXPECT_EQ(round_as_written(2e-12, 13), "0.0000000000020");
+    EXPECT_EQ(round_as_written(-2.50e-9, 11), "-0.00000000250");
+    EXPECT_EQ(round_as_written(1000.0, 0), "1000");
+    EXPECT_EQ(round_as_written(123456789012345.0, 0), "123456789012345");
+    EXPECT_EQ(round_as_written(1.5e20, 0), "1.5E+20");
+    EXPECT_EQ(round_as_written(-1e15, 0), "-1E+15");
+    EXPECT_EQ(round_as_written(1.2000000000000002e20, 0), "1.2E+20") << "traces of a conversion";
+    EXPECT_EQ(round_as_written(2.01e-25, 27), "2.01E-25");
+    EXPECT_EQ(round_as_written(0.0, 2), "0.00");
+    EXPECT_EQ(code_of<InputError>([] { (void)round_as_written(std::numeric_limits<double>::infinity(), 0); }),
+              "GC-GUM-0001");
 }
 
 TEST(RoundToUncertainty, ValueBelowTheQuantum) {

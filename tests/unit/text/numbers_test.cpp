@@ -49,7 +49,14 @@ TEST(Numbers, DecimalsAreCountedAsTheyAreWritten) {
     EXPECT_EQ(most({"1.5e-3"}), 4);
     EXPECT_EQ(most({"0.1", "0.30000000000000004"}), 1) << "traces of a conversion";
     EXPECT_EQ(most({"-0.000100000"}), 9);
-    EXPECT_EQ(most({"0.10", "1e-30"}), 0) << "nobody writes the second one without an exponent";
+    EXPECT_EQ(most({"1.50e-3"}), 5) << "its zero was written";
+    EXPECT_EQ(most({"0.10", "1e-30"}), 30);
+    EXPECT_EQ(most({"1.00e-30", "0.10"}), 32) << "in any order";
+    EXPECT_EQ(most({"2.5e+3", "1E2"}), 0);
+    EXPECT_EQ(most({"2.01E-12"}), 14);
+    EXPECT_EQ(most({"3.0000000000000004e-20"}), 20) << "traces of a conversion";
+    EXPECT_EQ(most({"0e-99999999999"}), 340);
+    EXPECT_EQ(most({"1e99999999999"}), 0);
     EXPECT_EQ(most({}), 0);
 }
 

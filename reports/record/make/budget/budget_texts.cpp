@@ -23,6 +23,9 @@ std::string printed_estimate(double value, double u) {
 
 namespace {
 
+/// Zeros behind the number up to those of the finest of a series: not up to those of 1e-30.
+constexpr int k_most_filled_decimals = 18;
+
 /// The number that was written, without the traces of conversion.
 double written_number(double value) {
     std::array<char, 32> text{};
@@ -40,23 +43,19 @@ std::string as_stated(double value) {
 }
 
 std::vector<std::string> series_as_stated(std::span<const double> values, int least) {
-    // With decimals that are known each number was written without an exponent.
-    const double least_plain = least > 0 ? 1e-15 : 1e-4;
     std::vector<std::string> texts;
     texts.reserve(values.size());
+    std::vector<int> decimals;
+    decimals.reserve(values.size());
     int most = std::max(least, 0);
-    bool is_plain = true;
     for (const double value : values) {
-        texts.push_back(text::shortest_plain(written_number(value), least_plain));
-        is_plain = is_plain && texts.back().find('e') == std::string::npos;
-        most = is_plain ? std::max(most, certificate::decimals_of(texts.back())) : 0;
+        const std::string shortest = text::shortest(written_number(value));
+        decimals.push_back(text::most_decimals({&shortest, 1}));
+        most = std::max(most, decimals.back());
     }
-    for (std::string& text : texts) {
-        const int lacking = is_plain ? most - certificate::decimals_of(text) : 0;
-        if (lacking > 0) {
-            text += text.find('.') == std::string::npos ? "." : "";
-            text.append(static_cast<std::size_t>(lacking), '0');
-        }
+    const bool are_filled = most <= k_most_filled_decimals;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        texts.push_back(gum::round_as_written(written_number(values[i]), are_filled ? most : decimals[i]));
     }
     return texts;
 }

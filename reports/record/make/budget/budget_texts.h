@@ -16,10 +16,10 @@ namespace gumcert::reports {
 [[nodiscard]] std::string printed_estimate(double value, double u);
 /// A number that a person wrote, after it went to SI and back: 15 digits at most, without the traces of conversion.
 [[nodiscard]] std::string as_stated(double value);
-/// Numbers of one series that a person wrote, as as_stated() but without exponents from 0.0001 up to 1e15, all with as many
-/// decimals as the one that has the most: a reading of 10.10 beside one of 10.12 keeps the resolution of its display. Where
-/// one has an exponent, none gets more decimals.
-/// \param least  decimals with which one of them is known to have been written, 15 at most
+/// Numbers of one series that a person wrote, as as_stated() but without exponents below 1e15, all with as many decimals as
+/// the one that has the most: a reading of 10.10 beside one of 10.12 keeps the resolution of its display. Where that would
+/// be more than 18, each has its own.
+/// \param least  decimals with which one of them is known to have been written
 [[nodiscard]] std::vector<std::string> series_as_stated(std::span<const double> values, int least = 0);
 /// Probability of a test; "< 0.0001" below that.
 [[nodiscard]] std::string printed_p_value(double p);

@@ -277,6 +277,29 @@ TEST(Unit, AdviceForAmbiguousNamesCanBeFollowed) {
     }
 }
 
+// What laboratories write for something else is not taken for a multiple of a unit, also not in a product.
+TEST(Unit, NamesInUseInLaboratoriesAreNoMultiples) {
+    for (const char* name :
+         {"pH",  "PH",  "pK",  "dH",  "fH",  "TH",  "EV",   "as",   "nt",   "mt",   "MT",   "Pt",  "PA",  "kt",
+          "kts", "at",  "pt",  "PS",  "ppt", "mb",  "ct",   "Gs",   "hp",   "cal",  "gal",  "ton", "oz",  "Btu",
+          "pHs", "pKa", "HV",  "HB",  "HRC", "NTU", "FNU",  "DN",   "dBm",  "dBu",  "VAC",  "VDC", "Vpp", "Vrms",
+          "RH",  "%RH", "%rF", "Nm",  "KN",  "Kg",  "rH",   "IU",   "CFU",  "mpy",  "SCFM", "cfm", "bpm", "mpg",
+          "dpi", "lpm", "cps", "°dH", "°fH", "°TH", "psig", "psia", "bara", "barg", "kp",   "mWS", "ata", "kVAr"}) {
+        const std::string text = name;
+        EXPECT_NE(code_of(text), "") << text;
+        EXPECT_NE(code_of(text + "/m"), "") << text;
+    }
+    const std::vector<std::string> cures = told_to_write("pH");
+    ASSERT_EQ(cures.size(), 2U);
+    EXPECT_EQ(Unit::parse(cures[0]).dimension(), Unit::parse("1").dimension());
+    EXPECT_EQ(Unit::parse(cures[1]).to_si(1.0), 1e-12);
+    // Multiples that laboratories do use stand.
+    for (const char* multiple : {"uH", "mH", "nH", "H",  "mK", "uK", "mT", "uT", "kV", "MV",  "mV", "pF", "ns",
+                                 "ps", "fs", "mg", "ug", "kA", "pA", "dB", "mL", "uL", "hPa", "Mt", "kPa"}) {
+        EXPECT_EQ(code_of(multiple), "") << multiple;
+    }
+}
+
 TEST(Unit, ScaleOfATemperatureTakesPrefixes) {
     const Unit millidegree = Unit::parse("m°C");
     EXPECT_TRUE(millidegree.is_celsius_temperature());

@@ -47,6 +47,40 @@ TEST(SvgPlot, KeepsTheRulesForEveryRenderer) {
     }
 }
 
+/// Whatever the titles and the height of the panels are: those of neighbours do not touch, and the unit stays.
+TEST(SvgPlot, KeepsTitlesOfAxesOffEachOther) {
+    const std::regex form(
+        "<text x=\"([^\"]*)\" y=\"([^\"]*)\" font-size=\"([^\"]*)\" text-anchor=\"middle\"[^>]*rotate[^>]*>([^<]*)<");
+    for (const std::size_t length : {1U, 20U, 30U, 40U, 80U}) {
+        for (const double height : {60.0, 110.0, 150.0, 300.0}) {
+            for (const std::string letter : {"n", "差"}) {
+                std::string name;
+                for (std::size_t i = 0; i < length; ++i) {
+                    name += letter;
+                }
+                Plot plot = one_panel(-2.0, 3.0);
+                plot.panel_height = height;
+                plot.columns = 1;
+                plot.panels.front().y_label = name + " / mV";
+                plot.panels.push_back(plot.panels.front());
+                const std::string drawing = svg(plot);
+                double end = -1e9;
+                int titles = 0;
+                for (std::sregex_iterator found(drawing.begin(), drawing.end(), form); found != std::sregex_iterator();
+                     ++found, ++titles) {
+                    const std::string title = (*found)[4];
+                    const double half = 0.5 * label_width(title, std::stod((*found)[3]));
+                    const double middle = std::stod((*found)[2]);
+                    EXPECT_GE(middle - half, end) << title << " at a height of " << height;
+                    EXPECT_THAT(title, testing::EndsWith(" / mV"));
+                    end = middle + half;
+                }
+                EXPECT_EQ(titles, 2) << name;
+            }
+        }
+    }
+}
+
 /// Left and upper end, width and height of the texts whose words are given.
 std::vector<std::array<double, 4>> boxes_of(const std::string& drawing, const std::string& words) {
     std::vector<std::array<double, 4>> boxes;

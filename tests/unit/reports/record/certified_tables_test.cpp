@@ -93,7 +93,7 @@ TEST(CertifiedTables, HoldAGroupOfPointsEachInItsUnits) {
     EXPECT_EQ(tables[0].argument->printed, (std::vector<std::string>{"1", "3"}));
     const certificate::PointColumn& reference = tables[0].layout->columns.at(0);
     EXPECT_EQ(reference.printed_unit, "mV");
-    EXPECT_EQ(reference.printed, (std::vector<std::string>{"50.00", "100.00"})) << "the decimals that were written";
+    EXPECT_EQ(reference.printed, (std::vector<std::string>{"50.00", "100"})) << "the decimals that were written";
     EXPECT_EQ(tables[0].columns.at(0).values.size(), 2U);
     EXPECT_EQ(tables[1].layout->columns.at(0).printed, (std::vector<std::string>{"10"}));
     EXPECT_EQ(tables[1].layout->columns.at(0).unit, "V");

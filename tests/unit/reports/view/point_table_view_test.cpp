@@ -154,6 +154,49 @@ TEST(PointTableView, PutsStagesUnderOneHead) {
     EXPECT_EQ(cells.at(1).at("span"), "2");
 }
 
+TEST(PointTableView, PutsNumbersBelowEachOtherWhereThatIsNotTooWide) {
+    EXPECT_THAT(pads_of({"1.5", "10", "–", "2.25"}, "."), ElementsAre("0", ".00", "", ""));
+    EXPECT_THAT(pads_of({"1,5", "10"}, ","), ElementsAre("", ",0"));
+    EXPECT_THAT(pads_of({"100000000.6008", "1.0000009906"}, "."), ElementsAre("000000", ""));
+    EXPECT_THAT(pads_of({"1000000", "0.000000000002010"}, "."), ElementsAre("", "")) << "decimals of all sizes";
+}
+
+/// Numbers of seventeen characters in eight columns do not fit side by side, though the heads do.
+TEST(PointTableView, DividesATableBeforeANumberBreaks) {
+    certificate::Certificate certificate = table_of_points();
+    certificate::CertifiedTable& table = certificate.tables[0];
+    for (const char* role : {"reference", "indication"}) {
+        certificate::PointColumn column = table.layout->columns[0];
+        column.name = role;
+        column.role = role;
+        column.printed = {"0.000000000002000", "0.000000000004", "0.000000000006"};
+        table.layout->columns.push_back(column);
+        table.layout->shown.insert(table.layout->shown.begin() + 1, shown("column", role, role));
+    }
+    const auto tables = [&] {
+        const json texts = json::parse(read_asset(assets().templates / "wording" / "en.json"));
+        const Wording words(texts);
+        const CertifiedOverview overview(certificate);
+        CertificateBuilder builder(words);
+        builder.section("certified_results");
+        layout_table(
+            builder, words, table, "t", [](const CertifiedValue&) { return true; }, overview);
+        return builder.take().at(0).at("blocks");
+    };
+    EXPECT_EQ(tables().size(), 1U);
+    for (CertifiedValue& v : table.columns[0].values) {
+        v.printed_value = "0.000000000000010";
+        v.printed_U = "0.000000000000028";
+        v.verdict->printed.upper = "0.000000000000050";
+        v.verdict->printed.lower = "\u22120.000000000000050";
+    }
+    const auto head_of_second = [&] { return heads(tables().at(1).at("table").at(0)).front(); };
+    EXPECT_EQ(tables().size(), 2U);
+    EXPECT_EQ(head_of_second(), "Nominal value / V");
+    table.layout->columns[0].printed = {"1.0", "1.0", "1.0"};
+    EXPECT_EQ(head_of_second(), "Indication / V") << "the nominal value does not say which row it is";
+}
+
 TEST(PointTableView, KnowsWhichTablesShowVerdicts) {
     certificate::Certificate certificate = table_of_points();
     EXPECT_TRUE(shows_verdict(certificate.tables[0], "E"));

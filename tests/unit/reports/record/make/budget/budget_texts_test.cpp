@@ -31,7 +31,10 @@ TEST(BudgetTexts, NumbersOfASeriesHaveEqualDecimals) {
     EXPECT_EQ(series_as_stated(std::vector{10.0, 7.0}), (Texts{"10", "7"}));
     EXPECT_EQ(series_as_stated(std::vector{100000.0, 100000.5}), (Texts{"100000.0", "100000.5"}));
     EXPECT_EQ(series_as_stated(std::vector{5.1e-6, 5e-6}, 7), (Texts{"0.0000051", "0.0000050"}));
-    EXPECT_EQ(series_as_stated(std::vector{1e-30, 0.5}), (Texts{"1e-30", "0.5"})) << "no decimals to add";
+    EXPECT_EQ(series_as_stated(std::vector{1.002e-6, 1e-6}), (Texts{"0.000001002", "0.000001000"}));
+    EXPECT_EQ(series_as_stated(std::vector{2.01e-12, 2e-12}, 15), (Texts{"0.000000000002010", "0.000000000002000"}));
+    EXPECT_EQ(series_as_stated(std::vector{1e-30, 0.5}), (Texts{"1E-30", "0.5"})) << "no decimals to add";
+    EXPECT_EQ(series_as_stated(std::vector{2.5e20, 0.5}), (Texts{"2.5E+20", "0.5"}));
     EXPECT_TRUE(series_as_stated({}).empty());
 }
 

@@ -2,9 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <concepts>
+#include <initializer_list>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "certificate/certificate_fields.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/reports/certified_sample.h"
 
@@ -60,6 +67,138 @@ TEST(AmendedRecord, TellsResultsThatCameAndWent) {
     EXPECT_EQ(changes[0].before, "");
     EXPECT_EQ(changes[1].where, earlier.tables.front().columns.front().result);
     EXPECT_EQ(changes[1].after, "");
+}
+
+/// A table as a job asks for it: a column of words, one of numbers, a result with limits.
+certificate::Certificate certificate_with_layout() {
+    certificate::Certificate c = *test::certified_budget_record().certificate;
+    certificate::CertifiedTable& table = c.tables.front();
+    table.columns.resize(1);
+    certificate::CertifiedColumn& column = table.columns.front();
+    column.result = "E";
+    column.printed_unit = "mg";
+    certificate::CertifiedValue value = column.values.front();
+    value.verdict.emplace();
+    value.verdict->verdict = "pass";
+    value.verdict->printed.lower = "\u22121.6";
+    value.verdict->printed.upper = "1.6";
+    column.values = {value, value};
+    table.argument.emplace();
+    table.argument->name = "point";
+    table.argument->values = {{}, {}};
+    table.argument->printed = {"1", "2"};
+    certificate::TableLayout& layout = table.layout.emplace();
+    layout.shown = {{.show = "column", .of = "mark", .heading = {}, .role = "", .stage = ""},
+                    {.show = "value", .of = "E", .heading = {}, .role = "", .stage = ""},
+                    {.show = "limit", .of = "E", .heading = {}, .role = "", .stage = ""}};
+    certificate::PointColumn mark;
+    mark.name = "mark";
+    mark.heading = "Mark";
+    mark.values = {{}, {}};
+    mark.printed = {"1 mg", "500 mg"};
+    certificate::PointColumn nominal = mark;
+    nominal.name = "nominal";
+    nominal.values = {5.1, 5.2};
+    nominal.printed = {"5.1000", "5.2000"};
+    nominal.printed_unit = "mm";
+    layout.columns = {mark, nominal};
+    return c;
+}
+
+TEST(AmendedRecord, TellsCellsLimitsAndHeadingsThatDiffer) {
+    const certificate::Certificate earlier = certificate_with_layout();
+    const auto changed = [&](const auto& change) {
+        certificate::Certificate later = certificate_with_layout();
+        change(later.tables.front());
+        return said(changes_between(earlier, later));
+    };
+    EXPECT_EQ(changed([](auto&) {}), "");
+    EXPECT_EQ(changed([](auto& t) { t.layout->columns[0].printed[0] = "1 mg **"; }),
+              "words mark [1]: 1 mg -> 1 mg **\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->columns[1].printed[0] = "5.1001"; }),
+              "cell nominal [1]: 5.1000\u00A0mm -> 5.1001\u00A0mm\n");
+    EXPECT_EQ(changed([](auto& t) { t.columns[0].values[1].verdict->printed.upper = "5"; }),
+              "limit_high E [2]: 1.6\u00A0mg -> 5\u00A0mg\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->columns[0].heading = "Marking"; }), "heading mark: Mark -> Marking\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->title = "Weights"; }), "title E:  -> Weights\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->shown.pop_back(); }), "columns E: mark, E, limit(E) -> mark, E\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->group = "class F1"; }),
+              "group E [1]:  -> class F1\ngroup E [2]:  -> class F1\n");
+    EXPECT_EQ(changed([](auto& t) { t.argument->printed[0] = "one"; }).find("limit"), std::string::npos)
+        << "a result that came is told by its value";
+}
+
+/// Gives one text after the other of what is described another value, and counts them.
+class OtherText {
+public:
+    explicit OtherText(int position, std::string at = "") : position_(position), at_(std::move(at)) {}
+
+    std::string changed;  ///< where the text stands that was changed
+
+    template <class Type, class... Rule>
+    void operator()(const char* key, Type& v, const Rule&...) {
+        look(at_ + "/" + key, v);
+    }
+    template <class Type>
+    void operator()(const char* key, Type& v, std::initializer_list<const char*>) {
+        look(at_ + "/" + key, v);
+    }
+    template <class Type, class... Rule>
+    void added(const char* key, Type& v, const Rule&...) {
+        look(at_ + "/" + key, v);
+    }
+    template <class Fields>
+    void group(const char* key, const Fields& fields) {
+        const std::string before = std::exchange(at_, at_ + "/" + key);
+        fields(*this);
+        at_ = before;
+    }
+
+private:
+    int position_;
+    std::string at_;
+
+    template <class Type>
+    void look(const std::string& at, Type& v) {
+        if constexpr (std::same_as<Type, std::string>) {
+            if (position_-- == 0) {
+                v += "x";
+                changed = at;
+            }
+        } else if constexpr (std::same_as<Type, bool>) {
+            if (position_-- == 0) {
+                v = !v;
+                changed = at;
+            }
+        } else if constexpr (std::same_as<Type, std::optional<certificate::Verdict>>) {
+            const std::string before = std::exchange(at_, at);
+            describe(*this, *v);
+            at_ = before;
+        }
+    }
+};
+
+/// A member that somebody adds is compared, or is named here with the reason.
+TEST(AmendedRecord, ComparesEveryPrintedTextOfAValue) {
+    const std::set<std::string> left_out{"/outside_because",                // follows from the entry of the scope
+                                         "/printed_capability",             // from the scope
+                                         "/verdict/formula",                // from the rule
+                                         "/verdict/printed/guard_band",     // from the limits of acceptance
+                                         "/verdict/verdict_from_printed"};  // a check of the verdict, not printed
+    certificate::Certificate earlier = certificate_with_layout();
+    earlier.tables.front().columns.front().values.front().printed_low = "1";
+    earlier.tables.front().columns.front().values.front().printed_high = "2";
+    int position = 0;
+    for (std::string changed = "-"; !changed.empty(); ++position) {
+        certificate::Certificate later = earlier;
+        OtherText other(position);
+        describe(other, later.tables.front().columns.front().values.front());
+        changed = other.changed;
+        const std::string found = said(changes_between(earlier, later));
+        EXPECT_EQ(found.empty(), changed.empty() || left_out.contains(changed)) << changed << "\n" << found;
+        EXPECT_LE(std::count(found.begin(), found.end(), '\n'), 1) << found;
+    }
+    EXPECT_GT(position, 25);
 }
 
 /// The code of the refusal, or "" where the changes were stated.
