@@ -91,6 +91,25 @@ std::vector<StatedResult> stated_results(std::string_view bytes, const std::stri
     return results;
 }
 
+/// Whether a text of the wording is the mark of a document. They are found by their names, not listed: a document of a new
+/// kind or state has a mark of its own, and is none that may be issued.
+bool is_mark(std::string_view group, std::string_view key) {
+    if (group == "document") {
+        return key == "draft" || key == "superseded" || key == "mark" ||
+               (key.ends_with("_mark") && !key.ends_with("end_mark"));
+    }
+    return key == "mark";
+}
+
+DocumentWords::Mark mark_of(const std::string& text) {
+    const std::size_t open = text.find('{');
+    const std::size_t close = text.find('}');
+    const bool is_filled = open != std::string::npos && close != std::string::npos && open < close;
+    return {.text = text,
+            .before = reports::without_blanks(text.substr(0, is_filled ? open : std::string::npos)),
+            .behind = reports::without_blanks(is_filled ? text.substr(close + 1) : "")};
+}
+
 std::size_t verdicts_of_a_row(const certificate::TableLayout& layout) {
     return static_cast<std::size_t>(
         std::count_if(layout.shown.begin(), layout.shown.end(), [](const auto& c) { return c.show == "verdict"; }));
@@ -112,9 +131,14 @@ DocumentWords document_words(const std::filesystem::path& templates) {
                 words.verdicts.emplace_back(reports::without_blanks(word.get<std::string>()), code);
             }
         }
-        for (const char* const mark : {"draft", "mark"}) {
-            if (const std::string text = text_of(part_of(wording, "document"), mark); !text.empty()) {
-                words.marks.push_back(reports::without_blanks(text));
+        for (const auto& [group, texts] : wording.items()) {
+            if (!texts.is_object()) {
+                continue;  // the language
+            }
+            for (const auto& [key, text] : texts.items()) {
+                if (text.is_string() && is_mark(group, key)) {
+                    words.marks.push_back(mark_of(text.get<std::string>()));
+                }
             }
         }
     }
@@ -391,8 +415,8 @@ bool PrintedDocument::has_in_parts(const Row& row, const DocumentWords& words) c
 
 std::string PrintedDocument::disagreement_with(const certificate::Certificate& certificate,
                                                const DocumentWords& words) const {
-    if (is_marked(words)) {
-        return "is marked as a draft or a specimen";
+    if (std::string mark = mark_on(words); !mark.empty()) {
+        return mark;
     }
     std::size_t from = 0;
     for (const CertifiedTable& table : certificate.tables) {
@@ -408,14 +432,24 @@ std::string PrintedDocument::disagreement_with(const certificate::Certificate& c
     return {};
 }
 
-bool PrintedDocument::is_marked(const DocumentWords& words) const {
-    return std::any_of(words.marks.begin(), words.marks.end(),
-                       [&](const std::string& mark) { return text_.find(mark) != std::string::npos; });
+std::string PrintedDocument::mark_on(const DocumentWords& words) const {
+    constexpr std::size_t k_longest_value = 200;  // bytes of a number
+    for (const DocumentWords::Mark& mark : words.marks) {
+        const std::string& first = mark.before.empty() ? mark.behind : mark.before;
+        for (std::size_t at = first.empty() ? std::string::npos : text_.find(first); at != std::string::npos;
+             at = text_.find(first, at + 1)) {
+            const std::string_view rest = std::string_view(text_).substr(at + first.size(), k_longest_value);
+            if (&first == &mark.behind || rest.find(mark.behind) != std::string_view::npos) {
+                return "is marked \"" + mark.text + "\", and is no certificate as it is issued";
+            }
+        }
+    }
+    return {};
 }
 
 std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view, const DocumentWords& words) const {
-    if (is_marked(words)) {
-        return "is marked as a draft or a specimen";
+    if (std::string mark = mark_on(words); !mark.empty()) {
+        return mark;
     }
     nlohmann::json sections = part_of(view, "sections");
     for (nlohmann::json& section : sections) {

@@ -17,7 +17,13 @@ namespace gumcert::app {
 /// Words of documents, in every language that the templates have.
 struct DocumentWords {
     std::vector<std::pair<std::string, std::string>> verdicts;  ///< as printed; code: "pass". The longest first
-    std::vector<std::string> marks;                             ///< of drafts and specimens
+    struct Mark {
+        std::string text;            ///< "SUPERSEDED by {number}"
+        std::string before, behind;  ///< of the value that is filled in, as printed
+    };
+    /// What says that a document is no issued certificate, of every kind and state that the wording knows: a draft, a
+    /// specimen, superseded, internal, an audit.
+    std::vector<Mark> marks;
 };
 /// \throws gum::StorageError  if the wording is missing or damaged
 [[nodiscard]] DocumentWords document_words(const std::filesystem::path& templates);
@@ -25,7 +31,7 @@ struct DocumentWords {
 /// A document as text, and what of it differs from its record.
 ///
 /// Compared is what a certificate certifies: each printed value with its U or interval, in the order in which every version
-/// and template prints them, each verdict behind its value, and that it is no draft or specimen. Of other numbers, and of
+/// and template prints them, each verdict behind its value, and that no mark says that it is something else. Of other numbers, and of
 /// texts, nothing is asked: templates and languages are the business of the laboratory.
 class PrintedDocument {
 public:
@@ -44,7 +50,7 @@ private:
     std::string digits_;               // of it; a blank between pages
     std::vector<std::size_t> places_;  // of each digit in text_
     struct Row;
-    [[nodiscard]] bool is_marked(const DocumentWords& words) const;
+    [[nodiscard]] std::string mark_on(const DocumentWords& words) const;
     [[nodiscard]] bool has(const Row& row, const std::vector<std::string>& numbers, const DocumentWords& words,
                            std::size_t& from) const;
     [[nodiscard]] bool has_in_parts(const Row& row, const DocumentWords& words) const;

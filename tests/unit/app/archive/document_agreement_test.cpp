@@ -87,6 +87,48 @@ TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
     }
 }
 
+// Law: what no certificate is, is told by its mark, in every language and with every pair of languages.
+TEST(DocumentsAndRecords, DisagreeWhereAMarkSaysThatItIsNone) {
+    const std::vector<std::pair<const char*, void (*)(EvaluationRecord&)>> states = {
+        {"draft", [](EvaluationRecord& record) { record.certificate->blocked = true; }},
+        {"specimen", [](EvaluationRecord& record) { record.certificate->data.status = "specimen"; }},
+        {"superseded", [](EvaluationRecord& record) { record.certificate->superseded_by = "EX-2026-0099/A1"; }}};
+    const EvaluationRecord& record = example_certificates().front().second;
+    for (const std::vector<std::string>& languages :
+         std::vector<std::vector<std::string>>{{"en"}, {"de"}, {"es"}, {"zh-Hant"}, {"de", "en"}, {"en", "zh-Hant"}}) {
+        const std::string named = testing::PrintToString(languages);
+        for (const auto& [state, change] : states) {
+            EvaluationRecord other = record;
+            change(other);
+            EXPECT_THAT(disagreement(page_of(other, languages), record), HasSubstr("is marked")) << state << named;
+        }
+        const std::string report = reports::render_budget_report_html(record, agreement_assets(languages));
+        EXPECT_THAT(disagreement(report, record), HasSubstr("is marked")) << named;
+    }
+}
+
+// Every mark that the wording has is one: a kind of document that is new is not forgotten.
+TEST(DocumentsAndRecords, KnowTheMarksOfAllKindsOfDocuments) {
+    const DocumentWords words = document_words(k_agreement_templates);
+    std::vector<std::string> marks;
+    for (const DocumentWords::Mark& mark : words.marks) {
+        marks.push_back(mark.text);
+    }
+    for (const char* const mark :
+         {"DRAFT \u2014 not issued", "SPECIMEN \u2014 not an accredited certificate", "SUPERSEDED by {number}",
+          "INTERNAL \u2014 no calibration certificate", "Audit \u2013 not a calibration certificate",
+          "ERSETZT durch {number}", "\u5DF2\u88AB {number} \u53D6\u4EE3"}) {
+        EXPECT_THAT(marks, testing::Contains(mark));
+    }
+    for (const DocumentWords::Mark& mark : words.marks) {
+        EXPECT_NE(PrintedDocument({"x " + mark.before + "EX-1" + mark.behind + " y"})
+                      .disagreement_with(*example_certificates().front().second.certificate, words)
+                      .find("is marked"),
+                  std::string::npos)
+            << mark.text;
+    }
+}
+
 // A document of a record in which one printed value or one verdict is another one.
 TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
     for (const auto& [name, record] : example_certificates()) {
