@@ -4,6 +4,7 @@
 #include "reports/forms/qpdf_objects.h"
 #include "text/utf8.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -109,9 +110,9 @@ CodeTexts code_texts(Object font) {
 }
 
 bool is_left_out(const std::string& character) {
-    return character == " " || character == "\n" || character == "\t" || character == "\u00A0" ||
-           character == "\u200B" || character == "\u202F" || character == "-" || character == "\u00AD" ||
-           character == "\u2010" || character == "\u2011";
+    return character == " " || character == std::string_view(&k_end_of_drawn_text, 1) || character == "\n" ||
+           character == "\t" || character == "\u00A0" || character == "\u200B" || character == "\u202F" ||
+           character == "-" || character == "\u00AD" || character == "\u2010" || character == "\u2011";
 }
 
 /// Without blanks and hyphens.
@@ -171,8 +172,9 @@ std::string text_of_page(Object page, Fonts& fonts) {
             const auto found = font->find(code_of(std::string_view(drawn.codes).substr(i, 2)));
             text += found == font->end() ? "" : found->second;
         }
+        text += k_end_of_drawn_text;
     }
-    return bare(text);
+    return text;
 }
 
 std::string digits_of(std::string_view text) {
@@ -281,7 +283,7 @@ std::string without_blanks(const std::string& text) {
     return bare(text);
 }
 
-std::vector<std::string> texts_of_pages(std::string_view bytes) {
+std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
     QPDF pdf;
     pdf.setSuppressWarnings(true);
     pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
@@ -290,6 +292,12 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
     for (const Object& page : pdf.getAllPages()) {
         texts.push_back(text_of_page(page, fonts));
     }
+    return texts;
+}
+
+std::vector<std::string> texts_of_pages(std::string_view bytes) {
+    std::vector<std::string> texts = drawn_texts_of_pages(bytes);
+    std::transform(texts.begin(), texts.end(), texts.begin(), bare);
     return texts;
 }
 
