@@ -486,6 +486,18 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
     }
     const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
     print_findings(of_others, common);
+    if (!documents.empty() && of_others.empty()) {
+        const std::vector<gum::Diagnostic> notes{
+            {.code = "GC-ARCHIVE-0071",
+             .where = documents.front().file,
+             .what = "compared with the evidence: its bytes, by their SHA-256; not compared here: what its pages say "
+                     "with what "
+                     "the record says",
+             .rule = "documents are held against their record when they are added",
+             .action = "read the document beside the record, where the laboratory is not to be relied on",
+             .severity = gum::Severity::note}};
+        print_messages(notes, common);
+    }
     return of_others.empty() ? code : std::max(code, negative_answer);
 }
 
