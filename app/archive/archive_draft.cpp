@@ -396,20 +396,47 @@ void require_issuable(const std::string& record, const std::string& number, cons
     }
 }
 
-void require_authoriser(const std::string& record, const std::string& number, const std::string& person) {
+void require_named_person(const std::string& record, const std::string& number, const std::string& kind,
+                          const std::string& person) {
     const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
-    const std::optional<certificate::Person>& named = read.certificate->data.persons.authorised_by;
+    const certificate::Persons& persons = read.certificate->data.persons;
+    const bool reviews = kind == "reviewed";
+    const std::optional<certificate::Person>& named = reviews ? persons.reviewed_by : persons.authorised_by;
     if (named && !named->name.empty() && !archive::may_be_one_person(named->name, person)) {
+        const std::string does = reviews ? " reviews it, and " : " authorises it, and ";
         throw gum::InputError(gum::Diagnostic{
             .code = "GC-ARCHIVE-0039",
             .where = number,
-            .what = "prints that " + text::in_quotes(named->name) + " authorises it, and " + text::in_quotes(person) +
-                    " does",
+            .what = "prints that " + text::in_quotes(named->name) + does + text::in_quotes(person) + " does",
             .rule =
-                "a certificate identifies who authorises it (ISO/IEC 17025:2017, 7.8.2.1), and the log says the same",
-            .action =
-                "let this person authorise it, or state the other one in the certificate data and add the new record"});
+                reviews
+                    ? "a certificate that names who reviewed it names who did, as the log does (ISO/IEC 17025:2017, "
+                      "7.8.1.1)"
+                    : "a certificate identifies who authorises it (ISO/IEC 17025:2017, 7.8.2.1), and the log says "
+                      "the same",
+            .action = std::string("let this person ") + (reviews ? "review" : "authorise") +
+                      " it, or state the other one in the certificate data and add the new record"});
     }
+}
+
+std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const std::string& number,
+                                               const std::string& kind, const std::string& day) {
+    const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
+    const certificate::Dates& dates = read.certificate->data.dates;
+    const bool authorises = kind == "authorised";
+    const std::string& printed = authorises ? dates.authorised : dates.issued;
+    if ((!authorises && kind != "issued") || printed.empty() || printed >= day) {
+        return {};
+    }
+    return {
+        {.code = "GC-ARCHIVE-0072",
+         .where = number,
+         .what = std::string("prints ") + (authorises ? "that it is authorised on " : "that it is issued on ") +
+                 printed + ", and the log says " + day,
+         .rule = "a certificate is dated when it is issued (ISO/IEC 17025:2017, 7.8.2.1 j), after it was authorised",
+         .action = "where the printed day is not the true one, state this day in the certificate data, and add the new "
+                   "record",
+         .severity = gum::Severity::warning}};
 }
 
 }  // namespace gumcert::app
