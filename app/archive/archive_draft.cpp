@@ -1,11 +1,14 @@
 #include "app/archive/archive_draft.h"
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/archive/dcc_agreement.h"
 #include "app/archive/document_agreement.h"
+#include "app/archive/document_facts.h"
 #include "app/document_identity.h"
 #include "app/output_set.h"
 #include "app/read_file.h"
@@ -101,7 +104,16 @@ public:
             if (!says_number(document.bytes, number_)) {
                 refuse_as_other(file, "", number_);
             }
-            require_agreement(file, PrintedDocument({reports::text_of_html(bytes)}));
+            require_nothing_hidden(file, bytes);
+            const std::string text = reports::text_of_html(bytes);
+            const PrintedDocument page({text});
+            require_agreement(file, page);
+            const bool is_of_templates = reports::has_style_of(bytes, style()) && !page.names_other_templates(words_);
+            if (is_of_templates && !page.has_head_of_archive(words_)) {
+                require_same_text(file, text, reports::languages_of_html(bytes));
+            } else {
+                findings.take({what_was_compared(file)});
+            }
             return document;
         }
         const bool is_pdf = bytes.starts_with("%PDF-");
@@ -134,6 +146,7 @@ public:
         }
         if (is_pdf) {
             require_agreement_of_pages(file, bytes);
+            findings.take({what_was_compared(file)});
             signing::Verification alone;
             alone.kind = "dcc";
             for (const signing::Bytes& attachment : verification.attachments) {
@@ -162,7 +175,10 @@ private:
     std::string number_;
     DocumentWords words_;
     reports::RenderAssets assets_;
-    std::optional<std::string> digital_certificate_;  // as the record gives it now
+    std::map<std::vector<std::string>, std::string>
+        digital_certificates_;                 // as the record gives them now, by languages
+    std::optional<PrintedDocument> made_now_;  // the texts of its pages
+    std::optional<std::string> style_;         // of the templates
 
     static void refuse_disagreement(const fs::path& file, std::string what) {
         if (!what.empty()) {
@@ -170,14 +186,58 @@ private:
                 .code = "GC-ARCHIVE-0038",
                 .where = file.string(),
                 .what = std::move(what),
-                .rule = "a document states what its record states: values, uncertainties, verdicts (ISO/IEC "
-                        "17025:2017, 7.8.1.1)",
+                .rule = "a document states what its record states: whose certificate it is, values, units, "
+                        "uncertainties, verdicts (ISO/IEC 17025:2017, 7.8.1.1)",
                 .action =
                     "make the documents of this record with gumcert run or gumcert render, and add them together"});
         }
     }
 
-    void require_agreement(const fs::path& file, const PrintedDocument& document) const {
+    const std::string& style() {
+        if (!style_) {
+            style_ = read_file(checks_.templates / "certificate.css");
+        }
+        return *style_;
+    }
+
+    void require_nothing_hidden(const fs::path& file, std::string_view html) {
+        if (const std::string hidden = reports::hidden_part_of_html(html, style()); !hidden.empty()) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0070",
+                .where = file.string(),
+                .what = hidden + ", and may show another text than it has",
+                .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
+                .action = "make the page with the templates of this program, or add the PDF"});
+        }
+    }
+
+    /// Said of each document of which not all was compared, so that nobody takes it for more than it is.
+    static gum::Diagnostic what_was_compared(const fs::path& file) {
+        return {
+            .code = "GC-ARCHIVE-0071",
+            .where = file.string(),
+            .what =
+                "compared with the record: number, laboratory, customer, item, dates, method, persons, standards, "
+                "values with sign, unit, U and verdict; not compared: other texts, signs and units of other numbers, "
+                "pictures, and what stands in a second place",
+            .rule = "pages are made with any template and in any language, and what all of them print is compared",
+            .action =
+                "read them when the certificate is reviewed; of a digital certificate, and of HTML that is made with "
+                "the templates of this program, everything is compared",
+            .severity = gum::Severity::note};
+    }
+
+    /// A page that the templates of this program gave is the one that they give now: the record is of this version.
+    void require_same_text(const fs::path& file, const std::string& text, const std::vector<std::string>& languages) {
+        const std::string made = reports::text_of_html(reports::render_html(record_, in_languages(file, languages)));
+        refuse_disagreement(file, difference_of_texts(text, made));
+    }
+
+    void require_agreement(const fs::path& file, const PrintedDocument& document) {
+        if (!made_now_) {
+            made_now_.emplace(std::vector{texts_of_view(reports::view_of_document(record_, assets_))});
+        }
+        refuse_disagreement(file, document.disagreement_with_facts(facts_of(record_.certificate->data), *made_now_));
         if (record_.certificate->tables.empty()) {
             refuse_disagreement(file,
                                 document.disagreement_with_report(reports::view_of_document(record_, assets_), words_));
@@ -186,10 +246,10 @@ private:
         }
     }
 
-    void require_agreement_of_pages(const fs::path& file, std::string_view bytes) const {
+    void require_agreement_of_pages(const fs::path& file, std::string_view bytes) {
         std::vector<std::string> pages;
         try {
-            pages = reports::texts_of_pages(bytes);
+            pages = reports::drawn_texts_of_pages(bytes);
         } catch (const std::bad_alloc&) {
             throw;  // says nothing of the document
         } catch (const std::exception& damaged) {
@@ -199,19 +259,54 @@ private:
         }
         const std::string number = reports::without_blanks(number_);
         const bool on_every_page = std::all_of(pages.begin(), pages.end(), [&](const std::string& page) {
-            return page.find(number) != std::string::npos;
+            return reports::without_blanks(page).find(number) != std::string::npos;
         });
         refuse_disagreement(file, pages.empty()    ? "has no pages"
                                   : !on_every_page ? "does not print \"" + number_ + "\" on every page"
                                                    : "");
-        require_agreement(file, PrintedDocument(pages));
+        const PrintedDocument document(pages);
+        require_agreement(file, document);
+        // Each page was held against its view when it was made. In which language it is, is not said.
+        std::string missing = document.disagreement_with_view(reports::view_of_document(record_, assets_));
+        for (std::size_t i = 0; i < words_.languages.size() && !missing.empty(); ++i) {
+            reports::RenderAssets assets = assets_;
+            assets.languages = {words_.languages[i]};
+            if (document.disagreement_with_view(reports::view_of_document(record_, assets)).empty()) {
+                missing.clear();
+            }
+        }
+        refuse_disagreement(file, std::move(missing));
+    }
+
+    /// With the languages of a document, as the templates name them: "zh-Hant" of "zh".
+    reports::RenderAssets in_languages(const fs::path& file, const std::vector<std::string>& languages) const {
+        reports::RenderAssets assets = assets_;
+        for (const std::string& language : languages) {
+            const auto found = std::find_if(
+                words_.languages.begin(), words_.languages.end(),
+                [&](const std::string& one) { return one == language || one.starts_with(language + '-'); });
+            if (found == words_.languages.end() || language.empty()) {
+                refuse_disagreement(file, "is in the language " + text::in_quotes(language) +
+                                              ", in which this program makes no document");
+            } else {
+                assets.languages.push_back(*found);
+            }
+        }
+        if (languages.empty() || languages.size() > 2) {
+            refuse_disagreement(file, "is in " + std::to_string(languages.size()) + " languages, not in one or two");
+        }
+        return assets;
+    }
+
+    const std::string& digital_certificate(const reports::RenderAssets& assets) {
+        std::string& made = digital_certificates_[assets.languages];
+        made = made.empty() ? reports::render_dcc(record_, assets) : made;
+        return made;
     }
 
     void require_agreement_of_dcc(const fs::path& file, std::string_view bytes) {
-        if (!digital_certificate_) {
-            digital_certificate_ = reports::render_dcc(record_, assets_);
-        }
-        refuse_disagreement(file, disagreement_of_dcc(bytes, file.string(), *digital_certificate_));
+        const reports::RenderAssets assets = in_languages(file, languages_of_dcc(bytes, file.string()));
+        refuse_disagreement(file, disagreement_of_dcc(bytes, file.string(), digital_certificate(assets)));
     }
 };
 
@@ -304,20 +399,47 @@ void require_issuable(const std::string& record, const std::string& number, cons
     }
 }
 
-void require_authoriser(const std::string& record, const std::string& number, const std::string& person) {
+void require_named_person(const std::string& record, const std::string& number, const std::string& kind,
+                          const std::string& person) {
     const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
-    const std::optional<certificate::Person>& named = read.certificate->data.persons.authorised_by;
+    const certificate::Persons& persons = read.certificate->data.persons;
+    const bool reviews = kind == "reviewed";
+    const std::optional<certificate::Person>& named = reviews ? persons.reviewed_by : persons.authorised_by;
     if (named && !named->name.empty() && !archive::may_be_one_person(named->name, person)) {
+        const std::string does = reviews ? " reviews it, and " : " authorises it, and ";
         throw gum::InputError(gum::Diagnostic{
             .code = "GC-ARCHIVE-0039",
             .where = number,
-            .what = "prints that " + text::in_quotes(named->name) + " authorises it, and " + text::in_quotes(person) +
-                    " does",
+            .what = "prints that " + text::in_quotes(named->name) + does + text::in_quotes(person) + " does",
             .rule =
-                "a certificate identifies who authorises it (ISO/IEC 17025:2017, 7.8.2.1), and the log says the same",
-            .action =
-                "let this person authorise it, or state the other one in the certificate data and add the new record"});
+                reviews
+                    ? "a certificate that names who reviewed it names who did, as the log does (ISO/IEC 17025:2017, "
+                      "7.8.1.1)"
+                    : "a certificate identifies who authorises it (ISO/IEC 17025:2017, 7.8.2.1), and the log says "
+                      "the same",
+            .action = std::string("let this person ") + (reviews ? "review" : "authorise") +
+                      " it, or state the other one in the certificate data and add the new record"});
     }
+}
+
+std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const std::string& number,
+                                               const std::string& kind, const std::string& day) {
+    const reports::EvaluationRecord read = reports::record_from_json(record, "record of " + number);
+    const certificate::Dates& dates = read.certificate->data.dates;
+    const bool authorises = kind == "authorised";
+    const std::string& printed = authorises ? dates.authorised : dates.issued;
+    if ((!authorises && kind != "issued") || printed.empty() || printed >= day) {
+        return {};
+    }
+    return {
+        {.code = "GC-ARCHIVE-0072",
+         .where = number,
+         .what = std::string("prints ") + (authorises ? "that it is authorised on " : "that it is issued on ") +
+                 printed + ", and the log says " + day,
+         .rule = "a certificate is dated when it is issued (ISO/IEC 17025:2017, 7.8.2.1 j), after it was authorised",
+         .action = "where the printed day is not the true one, state this day in the certificate data, and add the new "
+                   "record",
+         .severity = gum::Severity::warning}};
 }
 
 }  // namespace gumcert::app

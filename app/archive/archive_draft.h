@@ -52,9 +52,17 @@ void state_amendment(CheckedDraft& amendment, const std::string& original);
 /// \throws gum::InputError  GC-ARCHIVE-0030 for a specimen, a certificate that findings block, or one dated ahead
 void require_issuable(const std::string& record, const std::string& number, const std::string& day);
 
-/// Whether a record names the person who authorises it (ISO/IEC 17025:2017, 7.8.2.1): documents print who it was.
+/// Whether a record names the person who reviews or authorises it (ISO/IEC 17025:2017, 7.8.2.1): documents print who it was.
+/// \param kind    of the entry: "reviewed", "authorised"
 /// \param person  of the log
 /// \throws gum::InputError  GC-ARCHIVE-0039 where it names another person
-void require_authoriser(const std::string& record, const std::string& number, const std::string& person);
+void require_named_person(const std::string& record, const std::string& number, const std::string& kind,
+                          const std::string& person);
+
+/// GC-ARCHIVE-0072 where a record prints an earlier day of authorisation or issue than that of the entry.
+/// \param kind  of the entry: "authorised", "issued"; others have no day on the certificate
+/// \param day   of the entry: "2026-11-24"
+[[nodiscard]] std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const std::string& number,
+                                                             const std::string& kind, const std::string& day);
 
 }  // namespace gumcert::app

@@ -1,7 +1,6 @@
 #include "app/archive/document_agreement.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -9,16 +8,18 @@
 
 #include "app/archive/record_parts.h"
 #include "app/read_file.h"
-#include "reports/dcc/dcc_reader.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_page_texts.h"
-#include "text/numbers.h"
+#include "text/small_letters.h"
+#include "text/utf8.h"
+#include "text/visible_text.h"
 
 namespace gumcert::app {
 
 namespace {
 
-constexpr std::size_t k_gap_of_power = 5;  // "10" and an exponent
+constexpr std::string_view k_of_index = "_";  // "R_0" is set with an index
+constexpr std::size_t k_gap_of_power = 5;     // "10" and an exponent
 
 using certificate::CertifiedColumn;
 using certificate::CertifiedTable;
@@ -28,18 +29,41 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
+/// Letters of units that look alike and have two codes: U+03BC and U+00B5, U+2126 and U+03A9, U+212B and U+00C5.
+std::string one_sign(std::string text) {
+    for (const auto& [sign, in_place] : {std::pair<std::string_view, std::string_view>{"\u03BC", "\u00B5"},
+                                         {"\u2126", "\u03A9"},
+                                         {"\u212B", "\u00C5"}}) {
+        for (std::size_t at = text.size() < sign.size() ? std::string::npos : text.find(sign); at != std::string::npos;
+             at = text.find(sign, at)) {
+            text.replace(at, sign.size(), in_place);
+        }
+    }
+    return text;
+}
+
+char32_t character_before(std::string_view text, std::size_t end) {
+    std::size_t begin = end;
+    do {
+        if (begin == 0) {
+            return 0;
+        }
+        --begin;
+    } while (text::is_continuation(text[begin]));
+    return text::decode_utf8(text, begin).code;
+}
+
+/// Letters, and what joins them to units: the dots of products, raised digits and signs.
+bool belongs_to_a_unit(char32_t c) {
+    const bool is_letter = (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z') || c == 0xB5 || c == 0xC5 ||
+                           (c >= 0x370 && c < 0x400) || c == 0xB0;
+    const bool is_raised = c == 0xB9 || c == 0xB2 || c == 0xB3 || (c >= 0x2070 && c < 0x2080);
+    return is_letter || is_raised || c == 0xB7 || c == 0x22C5;
+}
+
 std::string all_digits(std::string_view text) {
     std::string digits;
     std::copy_if(text.begin(), text.end(), std::back_inserter(digits), is_digit);
-    return digits;
-}
-
-/// Digits of a printed number without those of its exponent, which documents set in several ways.
-std::string mantissa_digits(std::string_view printed) {
-    std::string digits;
-    for (const char c : printed.substr(0, printed.find_first_of("eE"))) {
-        digits += is_digit(c) ? std::string(1, c) : "";
-    }
     return digits;
 }
 
@@ -58,37 +82,24 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
-/// The same number in the same digits or others: "50000838" and "50000838.0".
-std::string compared(const std::string& printed) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(printed.data(), printed.data() + printed.size(), value);
-    constexpr int k_digits = 12;
-    return error == std::errc() && end == printed.data() + printed.size() ? text::significant(value, k_digits)
-                                                                          : printed;
+/// Whether a text of the wording is the mark of a document. They are found by their names, not listed: a document of a new
+/// kind or state has a mark of its own, and is none that may be issued.
+bool is_mark(std::string_view group, std::string_view key) {
+    if (group == "document") {
+        return key == "draft" || key == "superseded" || key == "mark" ||
+               (key.ends_with("_mark") && !key.ends_with("end_mark"));
+    }
+    return key == "mark";
 }
 
-struct StatedResult {
-    std::string value, unit, uncertainty, conformity;
-
-    [[nodiscard]] std::string shown() const {
-        return value + " " + unit + (uncertainty.empty() ? "" : ", " + uncertainty) +
-               (conformity.empty() ? "" : ", " + conformity);
-    }
-};
-
-std::vector<StatedResult> stated_results(std::string_view bytes, const std::string& name) {
-    std::vector<StatedResult> results;
-    for (const reports::ImportedQuantity& one : reports::read_dcc(bytes, name).quantities) {
-        if (one.role == "result" && one.kind != "none") {
-            std::string uncertainty;
-            for (const auto& [letter, text] :
-                 {std::pair("U = ", &one.U), {"u = ", &one.u}, {"from ", &one.low}, {"to ", &one.high}}) {
-                uncertainty += text->empty() ? "" : (uncertainty.empty() ? "" : " ") + (letter + compared(*text));
-            }
-            results.push_back({compared(one.value), one.d_si_unit, std::move(uncertainty), one.conformity});
-        }
-    }
-    return results;
+DocumentWords::Mark parts_of_mark(const std::string& text) {
+    const std::size_t open = text.find('{');
+    const std::size_t close = text.find('}');
+    const bool is_filled = open != std::string::npos && close != std::string::npos && open < close;
+    return {.text = text,
+            .before = reports::without_blanks(text.substr(0, is_filled ? open : std::string::npos)),
+            .behind = reports::without_blanks(is_filled ? text.substr(close + 1, text.find('{', close) - close - 1)
+                                                        : "")};  // up to the next value
 }
 
 std::size_t verdicts_of_a_row(const certificate::TableLayout& layout) {
@@ -107,14 +118,23 @@ DocumentWords document_words(const std::filesystem::path& templates) {
         if (!verdicts.is_object()) {
             continue;  // sentences, and what else stands beside the wording of a language
         }
+        words.languages.push_back(language);
+        const nlohmann::json& of_document = part_of(wording, "document");
+        words.other_templates.push_back(parts_of_mark(text_of(of_document, "changed_templates")));
+        words.head_of_archive.push_back(parts_of_mark(text_of(of_document, "archive_head")));
         for (const auto& [code, word] : verdicts.items()) {
             if (word.is_string()) {
                 words.verdicts.emplace_back(reports::without_blanks(word.get<std::string>()), code);
             }
         }
-        for (const char* const mark : {"draft", "mark"}) {
-            if (const std::string text = text_of(part_of(wording, "document"), mark); !text.empty()) {
-                words.marks.push_back(reports::without_blanks(text));
+        for (const auto& [group, texts] : wording.items()) {
+            if (!texts.is_object()) {
+                continue;  // the language
+            }
+            for (const auto& [key, text] : texts.items()) {
+                if (text.is_string() && is_mark(group, key)) {
+                    words.marks.push_back(parts_of_mark(text.get<std::string>()));
+                }
             }
         }
     }
@@ -131,46 +151,76 @@ DocumentWords document_words(const std::filesystem::path& templates) {
     return words;
 }
 
-/// Numbers that stand behind each other.
-struct PrintedDocument::Row {
-    std::vector<std::string> numbers;         ///< digits
-    std::size_t largest_gap = 0;              ///< digits of other numbers between two of them
-    std::string shown = {};                   ///< for messages
-    std::string verdict = {};                 ///< code; "" where none follows
-    std::size_t verdicts = 1;                 ///< of so many that follow, one is this
-    std::vector<std::string> otherwise = {};  ///< in place of `numbers` in another layout
-    std::vector<std::size_t> gaps = {};       ///< before each of `numbers`, in place of largest_gap
-    std::vector<std::size_t> blocks = {};     ///< where the cells of each result begin: a table may be divided there
+/// What one cell of a table prints.
+struct PrintedDocument::Cell {
+    std::string digits;                   ///< all of a text, those of the mantissa of a number
+    std::optional<PrintedNumber> number;  ///< none: a text, of which the digits are compared
+    std::string unit = {};                ///< that stands in the head of its column, or behind the row
 };
 
-PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) : pages_(pages) {
+/// Numbers that stand behind each other.
+struct PrintedDocument::Row {
+    std::vector<Cell> numbers;
+    std::size_t largest_gap = 0;           ///< digits of other numbers between two of them
+    std::string shown = {};                ///< for messages
+    std::string verdict = {};              ///< code; "" where none follows
+    std::size_t verdicts = 1;              ///< of so many that follow, one is this
+    std::vector<Cell> otherwise = {};      ///< in place of `numbers` in another layout
+    bool shows_units = false;              ///< the first row of a table, right below its head
+    std::size_t rows_above = 0;            ///< of other results, where each of them is a row of one table
+    std::vector<std::size_t> gaps = {};    ///< before each of `numbers`, in place of largest_gap
+    std::vector<std::size_t> blocks = {};  ///< where the cells of each result begin: a table may be divided there
+};
+
+PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
     for (const std::string& page : pages) {
-        for (const char c : reports::without_blanks(page)) {
-            if (is_digit(c)) {
-                digits_ += c;
+        pages_.push_back(reports::without_blanks(page));
+        for (std::size_t at = 0; at < page.size();) {
+            std::size_t bytes = 1;
+            while (at + bytes < page.size() && text::is_continuation(page[at + bytes])) {
+                ++bytes;
+            }
+            const std::string character = one_sign(page.substr(at, bytes));
+            if (is_digit(page[at])) {
+                digits_ += page[at];
                 places_.push_back(text_.size());
             }
-            text_ += c;
+            if (character != k_of_index && !reports::without_blanks(character).empty()) {
+                text_ += character;
+                for (std::size_t i = 0; i < character.size(); ++i) {
+                    read_places_.push_back(read_.size() + i);
+                }
+            }
+            read_ += character;
+            at += bytes;
         }
         digits_ += ' ';
         places_.push_back(text_.size());
         text_ += '\n';
+        read_places_.push_back(read_.size());
+        read_ += '\n';
     }
 }
 
+PrintedDocument::Cell PrintedDocument::cell_of(const std::string& printed, const std::string& unit) {
+    std::optional<PrintedNumber> number = only_printed_number(printed);
+    std::string digits = number ? number->digits : all_digits(printed);
+    return {.digits = std::move(digits), .number = std::move(number), .unit = unit};
+}
+
 /// The cells of some row that stand before and behind each other, with how far they may be apart.
-PrintedDocument::Row PrintedDocument::row_of(const std::string& name, const std::vector<std::string>& cells,
-                                             std::size_t gap) {
+PrintedDocument::Row PrintedDocument::row_of(const std::string& name, const std::vector<std::string>& printed,
+                                             std::size_t gap, const std::string& unit) {
     Row row{.numbers = {}, .largest_gap = gap};
-    for (const std::string& cell : cells) {
-        if (std::string digits = mantissa_digits(cell); !digits.empty()) {
-            const bool has_power = digits.size() < cell.size() && cell.find_first_of("eE") != std::string::npos;
+    for (const std::string& text : printed) {
+        if (Cell cell = cell_of(text, row.numbers.empty() ? unit : ""); !cell.digits.empty()) {
+            const bool has_power = cell.number && cell.number->exponent != 0;
             row.largest_gap = std::max(row.largest_gap, has_power ? k_gap_of_power : 0U);
-            row.numbers.push_back(std::move(digits));
-            row.shown += (row.shown.empty() ? "" : ", ") + cell;
+            row.numbers.push_back(std::move(cell));
+            row.shown += (row.shown.empty() ? "" : ", ") + text;
         }
     }
-    row.shown = name + " = " + row.shown;
+    row.shown = name + " = " + row.shown + (unit.empty() ? "" : " " + unit);
     return row;
 }
 
@@ -203,21 +253,29 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
             const std::string name = column.result + (argument_at(i).empty() ? "" : " at " + argument_at(i));
             if (is_interval(v)) {
                 const bool with_U = shows("U") || shows("k") || shows("nu_eff");
-                put(row_of(
+                Row row = row_of(
                     name,
                     {shows("value") ? v.printed_value : "", with_U ? v.printed_low : "", with_U ? v.printed_high : ""},
-                    table.layout ? k_gap_in_layouts : k_gap_of_interval));
+                    table.layout ? k_gap_in_layouts : k_gap_of_interval, table.layout ? "" : column.printed_unit);
+                row.shows_units = i == 0;
+                row.rows_above = static_cast<std::size_t>(&column - table.columns.data());
+                put(std::move(row));
             } else if (!table.layout) {
-                Row row = row_of(name, {v.printed_value, v.printed_U}, 0);
+                Row row = row_of(name, {v.printed_value, v.printed_U}, 0, column.printed_unit);
+                row.shows_units = i == 0;
+                row.rows_above = static_cast<std::size_t>(&column - table.columns.data());
                 if (has_number(i) && !row.numbers.empty()) {
                     // Behind the argument, or behind the quantity before it where both stand in one table.
-                    row.numbers = row_of(name, {argument_at(i), v.printed_value, v.printed_U}, 0).numbers;
+                    const Cell point = cell_of(argument_at(i), "");
+                    std::vector<Cell> own = row.numbers;
+                    if (!point.digits.empty()) {
+                        row.numbers.insert(row.numbers.begin(), point);
+                    }
                     if (before != nullptr && i < before->values.size()) {
-                        row.otherwise = row_of(name,
-                                               {before->values[i].printed_value, before->values[i].printed_U,
-                                                v.printed_value, v.printed_U},
-                                               0)
+                        row.otherwise = row_of(name, {before->values[i].printed_value, before->values[i].printed_U}, 0,
+                                               before->printed_unit)
                                             .numbers;
+                        row.otherwise.insert(row.otherwise.end(), own.begin(), own.end());
                         row.largest_gap = std::max(row.largest_gap, k_gap_of_interval);
                     }
                 }
@@ -227,7 +285,7 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                 const bool value = !verdict_in_row || shows("value");
                 const bool U = !verdict_in_row || (shows("U") && !is_interval(v));
                 Row row = row_of(name, {value ? v.printed_value : "", U ? v.printed_U : ""},
-                                 verdict_in_row ? k_gap_in_layouts : 0U);
+                                 verdict_in_row ? k_gap_in_layouts : 0U, "");
                 row.verdict = v.verdict->verdict;
                 row.shown += ", " + row.verdict;
                 row.verdicts = verdict_in_row ? verdicts_of_a_row(*table.layout) : 1;
@@ -239,16 +297,17 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
     const std::size_t count = table.layout && !table.columns.empty() ? table.columns.front().values.size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         std::set<bool> outside;  // values outside of the accreditation may stand in a table of their own
-        Row whole{.numbers = {}, .largest_gap = k_gap_in_rows};
+        Row whole{.numbers = {}, .largest_gap = k_gap_in_rows, .shows_units = i == 0};
         bool is_next = false;  // nothing else is printed between this cell and the one before
         std::string block;     // the result whose cells were last
-        const auto add_cell = [&](std::string digits, const std::string& cell) {
-            if (!digits.empty()) {
+        const auto add_cell = [&](const std::string& printed, const std::string& unit, bool number) {
+            if (Cell cell = number ? cell_of(printed, unit) : Cell{all_digits(printed), std::nullopt, unit};
+                !cell.digits.empty()) {
                 whole.gaps.push_back(is_next ? 0U : k_gap_in_rows);
-                whole.numbers.push_back(std::move(digits));
-                whole.shown += (whole.shown.empty() ? "" : ", ") + cell;
+                whole.shown += (whole.shown.empty() ? "" : ", ") + printed + (unit.empty() ? "" : " " + unit);
+                whole.numbers.push_back(std::move(cell));
             }
-            is_next = cell.find_first_of("eE") == std::string::npos;  // no power of ten behind it
+            is_next = printed.find_first_of("eE") == std::string::npos;  // no power of ten behind it
         };
         for (const certificate::ShownColumn& shown : table.layout->shown) {
             const bool of_points = shown.show == "point" || shown.show == "column";
@@ -261,18 +320,17 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
             const auto point = std::find_if(table.layout->columns.begin(), table.layout->columns.end(),
                                             [&](const certificate::PointColumn& c) { return c.name == shown.of; });
             if (shown.show == "point") {
-                add_cell(all_digits(argument_at(i)), argument_at(i));
+                add_cell(argument_at(i), "", false);
             } else if (shown.show == "column" && point != table.layout->columns.end() && i < point->printed.size()) {
                 const bool number = i < point->values.size() && point->values[i].has_value();
-                add_cell(number ? mantissa_digits(point->printed[i]) : all_digits(point->printed[i]),
-                         point->printed[i]);
+                add_cell(point->printed[i], number ? point->printed_unit : "", number);
             } else if ((shown.show == "value" || shown.show == "U") && result != table.columns.end() &&
                        i < result->values.size()) {
                 const CertifiedValue& v = result->values[i];
                 outside.insert(v.scope_entry.empty());
                 const std::string& printed = shown.show == "value" ? v.printed_value : v.printed_U;
                 if (shown.show == "value" || !is_interval(v)) {
-                    add_cell(mantissa_digits(printed), printed);
+                    add_cell(printed, result->printed_unit, true);
                 }
                 is_next = is_next && shown.show == "value";  // k, and what else U needs, stand behind it
             } else {
@@ -288,10 +346,12 @@ std::vector<PrintedDocument::Row> PrintedDocument::rows_of(const CertifiedTable&
                     return std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
                                        [&](const auto& c) { return c.of == column.result && c.show == what; });
                 };
-                put(row_of(column.result + " at " + argument_at(i),
-                           {shows("value") ? column.values[i].printed_value : "",
-                            shows("U") ? column.values[i].printed_U : ""},
-                           k_gap_in_layouts));
+                Row row = row_of(column.result + " at " + argument_at(i),
+                                 {shows("value") ? column.values[i].printed_value : "",
+                                  shows("U") ? column.values[i].printed_U : ""},
+                                 k_gap_in_layouts, column.printed_unit);
+                row.shows_units = i == 0;
+                put(std::move(row));
             }
         }
     }
@@ -317,33 +377,110 @@ bool PrintedDocument::is_followed_by(std::size_t digit, const Row& row, const Do
     return false;
 }
 
-bool PrintedDocument::has(const Row& row, const std::vector<std::string>& numbers, const DocumentWords& words,
+bool PrintedDocument::is_at(std::size_t digit, const Cell& cell) const {
+    return digits_.compare(digit, cell.digits.size(), cell.digits) == 0 &&
+           (!cell.number || is_printed_at(read_, read_place_of_digit(digit), *cell.number));
+}
+
+bool PrintedDocument::has(const Row& row, const std::vector<Cell>& numbers, const DocumentWords& words,
                           std::size_t& from) const {
+    const std::string& start = numbers.front().digits;
     for (const std::size_t begin : {from, std::size_t{0}}) {
-        for (std::size_t first = digits_.find(numbers.front(), begin); first != std::string::npos;
-             first = digits_.find(numbers.front(), first + 1)) {
-            std::set<std::size_t> ends{first + numbers.front().size()};
+        for (std::size_t first = digits_.find(start, begin); first != std::string::npos;
+             first = digits_.find(start, first + 1)) {
+            if (!is_at(first, numbers.front())) {
+                continue;
+            }
+            std::set<std::size_t> ends{first + start.size()};
             for (std::size_t i = 1; i < numbers.size() && !ends.empty(); ++i) {
                 std::set<std::size_t> next;
                 for (const std::size_t end : ends) {
                     const std::size_t largest =
                         &numbers == &row.numbers && i < row.gaps.size() ? row.gaps[i] : row.largest_gap;
                     for (std::size_t gap = 0; gap <= largest && end + gap < digits_.size(); ++gap) {
-                        if (digits_.compare(end + gap, numbers[i].size(), numbers[i]) == 0) {
-                            next.insert(end + gap + numbers[i].size());
+                        if (is_at(end + gap, numbers[i])) {
+                            next.insert(end + gap + numbers[i].digits.size());
                         }
                     }
                 }
                 ends = std::move(next);
             }
-            if (std::any_of(ends.begin(), ends.end(),
-                            [&](std::size_t end) { return row.verdict.empty() || is_followed_by(end, row, words); })) {
+            if (std::any_of(ends.begin(), ends.end(), [&](std::size_t end) {
+                    return (row.verdict.empty() || is_followed_by(end, row, words)) &&
+                           (!row.shows_units || has_units(first, end, numbers, row.gaps.empty(), row.rows_above));
+                })) {
                 from = first;
                 return true;
             }
         }
     }
     return false;
+}
+
+/// Whether the units of a row stand in the head above it, in the order of its cells, or the one unit of a row behind it.
+bool PrintedDocument::has_units(std::size_t first, std::size_t end, const std::vector<Cell>& numbers,
+                                bool may_stand_behind, std::size_t rows_above) const {
+    constexpr std::size_t k_reach_behind = 60;     // bytes: marks between U and the unit
+    constexpr std::size_t k_reach_before = 3000;   // bytes of a head of twenty columns in two languages
+    constexpr std::size_t k_numbers_in_heads = 6;  // "Table 3", "Range 10 V"; more of them are those of another table
+    constexpr std::size_t k_bytes_of_a_row = 600;  // its name in two languages
+    constexpr std::size_t k_numbers_of_a_row = 8;
+    std::vector<std::string> units;
+    for (const Cell& cell : numbers) {
+        if (!cell.unit.empty()) {
+            units.push_back(one_sign(reports::without_blanks(cell.unit)));
+        }
+    }
+    if (units.empty()) {
+        return true;
+    }
+    const std::size_t last = read_place_of_digit(end - 1) + 1;
+    for (std::size_t at = last; may_stand_behind && at < std::min(last + k_reach_behind, read_.size()); ++at) {
+        if (has_unit_at(units.back(), at)) {
+            return true;
+        }
+    }
+    std::size_t wanted = units.size();
+    std::size_t other_numbers = 0;
+    const std::size_t begin = read_place_of_digit(first);
+    for (std::size_t at = begin; at > 0 && begin - at < k_reach_before + rows_above * k_bytes_of_a_row;) {
+        --at;
+        const bool ends_a_number = is_digit(read_[at]) && !is_digit(read_[at + 1]) && read_[at + 1] != '.' &&
+                                   read_[at + 1] != ',' && read_[at + 1] != reports::k_end_of_drawn_text;
+        other_numbers += ends_a_number ? 1U : 0U;
+        if (other_numbers > k_numbers_in_heads + numbers.size() + rows_above * k_numbers_of_a_row) {
+            return false;
+        }
+        if (has_unit_at(units[wanted - 1], at) && --wanted == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether a unit begins here and is no part of another one: "m" in "mm" or "m/s".
+bool PrintedDocument::has_unit_at(const std::string& unit, std::size_t begin) const {
+    if (!std::string_view(read_).substr(begin).starts_with(unit.substr(0, 1))) {
+        return false;
+    }
+    std::size_t at = begin;
+    for (std::size_t i = 0; i < unit.size(); ++at) {
+        if (at < read_.size() && read_[at] == unit[i]) {
+            ++i;
+        } else if (at >= read_.size() || i == 0 ||
+                   (read_[at] != ' ' && read_[at] != '\n' && read_[at] != reports::k_end_of_drawn_text)) {
+            return false;
+        }
+    }
+    const std::size_t before = begin == 0 ? 0 : begin - 1;
+    const bool joined = begin > 0 && (belongs_to_a_unit(character_before(read_, begin)) ||
+                                      (read_[before] == '/' && belongs_to_a_unit(character_before(read_, before))));
+    return !joined && !(at < read_.size() && (belongs_to_a_unit(text::decode_utf8(read_, at).code) ||
+                                              is_digit(read_[at]) || read_[at] == '/'));
+}
+
+std::size_t PrintedDocument::read_place_of_digit(std::size_t digit) const {
+    return read_places_[places_[digit]];
 }
 
 /// Whether a row stands in a table that was divided by its results: the cells that all results share, or the first of them,
@@ -353,7 +490,7 @@ bool PrintedDocument::has_in_parts(const Row& row, const DocumentWords& words) c
         return false;
     }
     const auto has_part = [&](std::size_t shared, std::size_t begin, std::size_t end) {
-        Row part{.numbers = {}, .largest_gap = row.largest_gap};
+        Row part{.numbers = {}, .largest_gap = row.largest_gap, .shows_units = row.shows_units};
         const auto take = [&](std::size_t i, std::size_t gap) {
             part.numbers.push_back(row.numbers[i]);
             part.gaps.push_back(gap);
@@ -391,8 +528,8 @@ bool PrintedDocument::has_in_parts(const Row& row, const DocumentWords& words) c
 
 std::string PrintedDocument::disagreement_with(const certificate::Certificate& certificate,
                                                const DocumentWords& words) const {
-    if (is_marked(words)) {
-        return "is marked as a draft or a specimen";
+    if (std::string mark = mark_on(words); !mark.empty()) {
+        return mark;
     }
     std::size_t from = 0;
     for (const CertifiedTable& table : certificate.tables) {
@@ -408,14 +545,75 @@ std::string PrintedDocument::disagreement_with(const certificate::Certificate& c
     return {};
 }
 
-bool PrintedDocument::is_marked(const DocumentWords& words) const {
-    return std::any_of(words.marks.begin(), words.marks.end(),
-                       [&](const std::string& mark) { return text_.find(mark) != std::string::npos; });
+const DocumentWords::Mark* PrintedDocument::mark_of(const std::vector<DocumentWords::Mark>& marks) const {
+    constexpr std::size_t k_longest_value = 200;  // bytes of a number
+    for (const DocumentWords::Mark& mark : marks) {
+        const std::string& first = mark.before.empty() ? mark.behind : mark.before;
+        for (std::size_t at = first.empty() ? std::string::npos : text_.find(first); at != std::string::npos;
+             at = text_.find(first, at + 1)) {
+            const std::string_view rest = std::string_view(text_).substr(at + first.size(), k_longest_value);
+            if (&first == &mark.behind || rest.find(mark.behind) != std::string_view::npos) {
+                return &mark;
+            }
+        }
+    }
+    return nullptr;
+}
+
+std::string PrintedDocument::mark_on(const DocumentWords& words) const {
+    const DocumentWords::Mark* const mark = mark_of(words.marks);
+    return mark == nullptr ? "" : "is marked \"" + mark->text + "\", and is no certificate as it is issued";
+}
+
+bool PrintedDocument::names_other_templates(const DocumentWords& words) const {
+    return mark_of(words.other_templates) != nullptr;
+}
+
+bool PrintedDocument::has_head_of_archive(const DocumentWords& words) const {
+    return mark_of(words.head_of_archive) != nullptr;
+}
+
+bool PrintedDocument::says(const std::string& text) const {
+    const auto is_word = [](char c) {
+        return is_digit(c) || (text::small_letter(c) >= 'a' && text::small_letter(c) <= 'z');
+    };
+    const auto joins = [](char c) { return c == '-' || c == '/' || c == '_'; };
+    std::string wanted = one_sign(reports::without_blanks(text));
+    std::erase(wanted, k_of_index.front());
+    for (std::size_t at = wanted.empty() ? std::string::npos : text_.find(wanted); at != std::string::npos;
+         at = text_.find(wanted, at + 1)) {
+        const std::size_t begin = read_places_[at];
+        const std::size_t end = read_places_[at + wanted.size() - 1] + 1;
+        const auto character = [&](std::size_t place) { return place < read_.size() ? read_[place] : ' '; };
+        const bool goes_on_before =
+            is_word(read_[begin]) &&
+            (is_word(character(begin - 1)) || (joins(character(begin - 1)) && is_word(character(begin - 2))));
+        const bool goes_on_behind = is_word(read_[end - 1]) &&
+                                    (is_word(character(end)) || (joins(character(end)) && is_word(character(end + 1))));
+        if (!goes_on_before && !goes_on_behind) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string PrintedDocument::disagreement_with_facts(const std::vector<DocumentFact>& facts,
+                                                     const PrintedDocument& made_now) const {
+    for (const DocumentFact& fact : facts) {
+        const auto is_said_by = [&](const PrintedDocument& document) {
+            return std::any_of(fact.spellings.begin(), fact.spellings.end(),
+                               [&](const std::string& spelling) { return document.says(spelling); });
+        };
+        if (is_said_by(made_now) && !is_said_by(*this)) {
+            return "does not print the " + fact.what + ' ' + text::in_quotes(fact.spellings.front()) + " of the record";
+        }
+    }
+    return {};
 }
 
 std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view, const DocumentWords& words) const {
-    if (is_marked(words)) {
-        return "is marked as a draft or a specimen";
+    if (std::string mark = mark_on(words); !mark.empty()) {
+        return mark;
     }
     nlohmann::json sections = part_of(view, "sections");
     for (nlohmann::json& section : sections) {
@@ -423,11 +621,45 @@ std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view
             block["paragraph"] = block["definitions"] = nlohmann::json::array();
         }
     }
-    const std::vector<gum::Diagnostic> missing = reports::check_numbers(pages_, {{"sections", std::move(sections)}});
+    return disagreement_with_view({{"sections", std::move(sections)}});
+}
+
+std::string PrintedDocument::disagreement_with_view(const nlohmann::json& view) const {
+    const std::vector<gum::Diagnostic> missing = reports::check_numbers(pages_, view);
     return missing.empty()
                ? ""
                : "does not print " + missing.front().what.substr(0, missing.front().what.find(" of the record")) +
                      " of the record";
+}
+
+std::string difference_of_texts(std::string_view stated, std::string_view expected) {
+    constexpr std::size_t k_shown = 60;  // bytes around the place
+    const auto bare = [](std::string_view text) {
+        std::string out;
+        std::copy_if(text.begin(), text.end(), std::back_inserter(out),
+                     [](char c) { return c != ' ' && c != '\n' && c != '\r' && c != '\t'; });
+        return out;
+    };
+    const std::string left = bare(stated);
+    const std::string right = bare(expected);
+    if (left == right) {
+        return {};
+    }
+    const auto both = static_cast<std::ptrdiff_t>(std::min(left.size(), right.size()));
+    auto place =
+        static_cast<std::size_t>(std::mismatch(left.begin(), left.begin() + both, right.begin()).first - left.begin());
+    const auto shown = [&](const std::string& text) {
+        std::size_t begin = place > k_shown / 2 ? place - k_shown / 2 : 0;
+        std::size_t end = std::min(place + k_shown / 2, text.size());
+        while (begin > 0 && text::is_continuation(text[begin])) {
+            --begin;
+        }
+        while (end < text.size() && text::is_continuation(text[end])) {
+            ++end;
+        }
+        return text::in_quotes(text.substr(begin, end - begin));
+    };
+    return "says " + shown(left) + ", and the page that the record gives says " + shown(right);
 }
 
 bool says_number(std::string_view html, const std::string& number) {
@@ -443,21 +675,6 @@ bool says_number(std::string_view html, const std::string& number) {
         }
     }
     return false;
-}
-
-std::string disagreement_of_dcc(std::string_view bytes, const std::string& name, std::string_view made_of_record) {
-    std::vector<StatedResult> expected = stated_results(made_of_record, "digital certificate of the record");
-    for (const StatedResult& stated : stated_results(bytes, name)) {
-        const auto same = std::find_if(expected.begin(), expected.end(), [&](const StatedResult& one) {
-            return one.value == stated.value && one.unit == stated.unit && one.uncertainty == stated.uncertainty &&
-                   (stated.conformity.empty() || one.conformity == stated.conformity);
-        });
-        if (same == expected.end()) {
-            return "states \"" + stated.shown() + "\", and the record does not";
-        }
-        expected.erase(same);
-    }
-    return expected.empty() ? "" : "does not state \"" + expected.front().shown() + "\" of the record";
 }
 
 }  // namespace gumcert::app

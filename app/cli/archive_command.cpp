@@ -45,6 +45,7 @@
 #include "system/temporary.h"
 #include "system/whole_folders.h"
 #include "text/small_letters.h"
+#include "text/utf8.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -204,17 +205,21 @@ ExitCode advance(const ArchiveOptions& options, const CommonOptions& common, con
     const auto store = opened(options, archive::Access::read_and_write);
     archive::Archive archive(*store);
     const std::string& number = options.named.front();
+    std::vector<gum::Diagnostic> doubts;
     const auto judge = [&](const std::string& record, const archive::CertificateLife& life) {
-        if (kind == "authorised") {
-            app::require_authoriser(record, number, options.by);
+        if (kind == "reviewed" || kind == "authorised") {
+            app::require_named_person(record, number, kind, options.by);
         } else if (kind == "issued") {
             app::require_issuable(record, number, today());
             if (!life.authorised_by.empty()) {
-                app::require_authoriser(record, number, life.authorised_by);
+                app::require_named_person(record, number, "authorised", life.authorised_by);
             }
         }
+        doubts = app::doubts_about_days(record, number, kind, today());
     };
-    return told(archive.advance(number, kind, request_of(options), judge), options, common);
+    const auto written = archive.advance(number, kind, request_of(options), judge);
+    print_messages(doubts, common);
+    return told(written, options, common);
 }
 
 ExitCode review_certificate(const ArchiveOptions& options, const CommonOptions& common) {
@@ -515,6 +520,18 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
     }
     const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
     print_findings(of_others, common);
+    if (!documents.empty() && of_others.empty()) {
+        const std::vector<gum::Diagnostic> notes{
+            {.code = "GC-ARCHIVE-0071",
+             .where = documents.front().file,
+             .what = "compared with the evidence: its bytes, by their SHA-256; not compared here: what its pages say "
+                     "with what "
+                     "the record says",
+             .rule = "documents are held against their record when they are added",
+             .action = "read the document beside the record, where the laboratory is not to be relied on",
+             .severity = gum::Severity::note}};
+        print_messages(notes, common);
+    }
     return of_others.empty() ? code : std::max(code, negative_answer);
 }
 
@@ -966,8 +983,16 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                      "name a new file, or an empty database as postgresql://…");
     }
     const std::string_view name = action.name;
-    if ((name == "withdraw" || name == "settings") && o.why.empty()) {
-        refuse_usage(command, "--why is missing", "what is withdrawn, or settled otherwise, has a reason", "say why");
+    // A blank is no reason, of whatever width it is.
+    bool says_nothing = true;
+    for (std::size_t at = 0; at < o.why.size() && says_nothing;) {
+        const text::Character one = text::decode_utf8(o.why, at);
+        says_nothing = one.bytes > 0 && (text::is_blank(one.code) || text::is_hidden(one.code));
+        at += one.bytes;
+    }
+    if ((name == "withdraw" || name == "settings" || !o.why.empty()) && says_nothing) {
+        refuse_usage(command, o.why.empty() ? "--why is missing" : "--why has no word",
+                     "what is withdrawn, or settled otherwise, has a reason", "say why");
     }
 }
 

@@ -7,7 +7,10 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace gumcert::reports {
 
@@ -66,23 +69,34 @@ std::size_t end_of_tag(std::string_view html, std::size_t at) {
     return html.size();
 }
 
+/// "p" of "<p class>" and of "</p>".
 std::string name_of_tag(std::string_view tag) {
     std::size_t end = 1;
+    end += end < tag.size() && tag[end] == '/' ? 1U : 0U;
+    const std::size_t from = end;
     while (end < tag.size() && ((tag[end] >= 'a' && tag[end] <= 'z') || (tag[end] >= 'A' && tag[end] <= 'Z') ||
                                 (tag[end] >= '0' && tag[end] <= '9'))) {
         ++end;
     }
-    return text::in_small_letters(tag.substr(1, end - 1));
+    return text::in_small_letters(tag.substr(from, end - from));
 }
 
-std::string data_text(std::string_view tag) {
-    constexpr std::string_view k_attribute = " data-text=\"";
-    const std::size_t found = tag.find(k_attribute);
-    if (found == std::string_view::npos) {
-        return {};
-    }
-    const std::size_t from = found + k_attribute.size();
-    return ' ' + without_references(tag.substr(from, std::min(tag.find('"', from), tag.size()) - from));
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Elements that stand within a line: what is before and behind their tags belongs together, such as "-" and "4.9".
+bool is_within_a_line(std::string_view name) {
+    static constexpr std::array<std::string_view, 14> k_names = {"a", "abbr", "b",     "bdi",    "cite", "code", "em",
+                                                                 "i", "q",    "small", "strong", "sub",  "sup",  "u"};
+    return is_one_of(k_names, name) || name == "span" || name == "wbr" || name == "bdo" || name == "font";
+}
+
+/// Where the contents of an element end that are not looked into.
+std::size_t end_of_element(std::string_view html, std::string_view small, const std::string& name, std::size_t from) {
+    const std::size_t end = small.find("</" + name, from);
+    return end == std::string_view::npos ? html.size() : end_of_tag(html, end);
 }
 
 }  // namespace
@@ -103,14 +117,343 @@ std::string text_of_html(std::string_view html) {
             continue;
         }
         at = end_of_tag(html, tag);
-        text += data_text(html.substr(tag, at - tag)) + ' ';
         const std::string name = name_of_tag(html.substr(tag, at - tag));
-        if (std::find(k_unseen.begin(), k_unseen.end(), name) != k_unseen.end()) {
-            const std::size_t end = small.find("</" + name, at);
-            at = end == std::string_view::npos ? html.size() : end_of_tag(html, end);
+        text += is_within_a_line(name) ? "" : " ";
+        if (!html.substr(tag).starts_with("</") && is_one_of(k_unseen, name)) {
+            at = end_of_element(html, small, name, at);
         }
     }
     return text;
+}
+
+namespace {
+
+std::string without_any_blanks(std::string_view text) {
+    std::string out;
+    std::copy_if(text.begin(), text.end(), std::back_inserter(out),
+                 [](char c) { return c != ' ' && c != '\t' && c != '\r' && c != '\n' && c != '\f'; });
+    return out;
+}
+
+/// Names in small letters, values as they stand.
+std::vector<std::pair<std::string, std::string>> attributes_of(std::string_view tag) {
+    const auto is_white = [](char c) {
+        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '/';
+    };
+    std::vector<std::pair<std::string, std::string>> all;
+    std::size_t at = 1 + name_of_tag(tag).size();
+    tag = tag.substr(0, tag.ends_with('>') ? tag.size() - 1 : tag.size());
+    while (at < tag.size()) {
+        while (at < tag.size() && is_white(tag[at])) {
+            ++at;
+        }
+        const std::size_t begin = at;
+        while (at < tag.size() && !is_white(tag[at]) && (tag[at] != '=' || at == begin)) {
+            ++at;
+        }
+        if (at == begin) {
+            break;
+        }
+        std::string name = text::in_small_letters(tag.substr(begin, at - begin));
+        std::size_t behind = at;
+        while (behind < tag.size() && is_white(tag[behind]) && tag[behind] != '/') {
+            ++behind;
+        }
+        std::string_view value;
+        if (behind < tag.size() && tag[behind] == '=') {
+            at = behind + 1;
+            while (at < tag.size() && is_white(tag[at]) && tag[at] != '/') {
+                ++at;
+            }
+            const char quote = at < tag.size() && (tag[at] == '"' || tag[at] == '\'') ? tag[at] : '\0';
+            at += quote == '\0' ? 0U : 1U;
+            const std::size_t from = at;
+            while (at < tag.size() && (quote == '\0' ? !is_white(tag[at]) || tag[at] == '/' : tag[at] != quote)) {
+                ++at;
+            }
+            value = tag.substr(from, at - from);
+            at += at < tag.size() && quote != '\0' ? 1U : 0U;
+        }
+        all.emplace_back(std::move(name), without_references(value));
+    }
+    return all;
+}
+
+/// Elements that show what stands in them, and nothing else.
+bool is_plain_element(std::string_view name) {
+    static constexpr std::array<std::string_view, 49> k_names = {
+        "html",     "head",    "meta",  "title", "style",      "body", "main",   "div",        "header",  "footer",
+        "section",  "article", "aside", "nav",   "address",    "p",    "h1",     "h2",         "h3",      "h4",
+        "h5",       "h6",      "img",   "dl",    "dt",         "dd",   "figure", "figcaption", "table",   "caption",
+        "colgroup", "col",     "thead", "tbody", "tfoot",      "tr",   "th",     "td",         "ul",      "ol",
+        "li",       "br",      "hr",    "pre",   "blockquote", "svg",  "center", "time",       "!doctype"};
+    return is_one_of(k_names, name) || (is_within_a_line(name) && name != "bdo" && name != "font");
+}
+
+bool is_plain_drawing(std::string_view name) {
+    static constexpr std::array<std::string_view, 16> k_names = {
+        "svg",     "g",    "path",  "line",  "rect", "circle", "ellipse",  "polyline",
+        "polygon", "text", "tspan", "title", "desc", "defs",   "clippath", "marker"};
+    return is_one_of(k_names, name);
+}
+
+/// Whether a declaration of an attribute `style` leaves what it is of to be seen.
+bool is_plain_declaration(std::string_view declaration) {
+    static constexpr std::array<std::string_view, 8> k_properties = {"max-width",   "width",       "text-align",
+                                                                     "font-weight", "font-style",  "vertical-align",
+                                                                     "white-space", "break-inside"};
+    const std::string all = text::in_small_letters(without_any_blanks(declaration));
+    const std::string_view property = std::string_view(all).substr(0, all.find(':'));
+    const bool is_known = is_one_of(k_properties, property) || property == "margin" ||
+                          property.starts_with("margin-") || property == "border" || property.starts_with("border-");
+    return all.empty() || (is_known && all.find('-', property.size()) == std::string::npos &&
+                           all.find('(') == std::string::npos && (property != "width" || !all.ends_with(":0")));
+}
+
+/// Whether a block of a style sheet could hide what it is of, put texts onto the page or cover others.
+bool may_hide(std::string_view block) {
+    const std::string all = text::in_small_letters(without_any_blanks(block));
+    static constexpr std::array<std::string_view, 16> k_properties = {
+        "display:none", "display:contents",    "visibility:",  "opacity:",
+        "content:",     "content-visibility:", "text-indent:", "clip:",
+        "clip-path:",   "transform:",          "position:",    "filter:",
+        "direction:",   "unicode-bidi:",       "font-size:0",  "line-height:0"};
+    static constexpr std::array<std::string_view, 8> k_words = {"mask",     "mix-blend", "font:0", "transparent",
+                                                                "height:0", "width:0",   ":-",     "@import"};
+    const auto begins_with = [&](std::string_view property) {
+        for (std::size_t at = all.find(property); at != std::string::npos; at = all.find(property, at + 1)) {
+            if (at > 0 && (all[at - 1] == '{' || all[at - 1] == ';')) {
+                return true;
+            }
+        }
+        return false;
+    };
+    return all.find('\\') != std::string::npos || all.find("--") != std::string::npos ||
+           std::any_of(k_properties.begin(), k_properties.end(), begins_with) ||
+           std::any_of(k_words.begin(), k_words.end(),
+                       [&](std::string_view word) { return all.find(word) != std::string::npos; });
+}
+
+/// Blocks of a style sheet, "selectors{declarations}", without comments and blanks.
+std::vector<std::string> style_blocks(std::string_view style) {
+    std::string all;
+    for (std::size_t at = 0; at < style.size();) {
+        const std::size_t comment = std::min(style.find("/*", at), style.size());
+        all += without_any_blanks(style.substr(at, comment - at));
+        const std::size_t end = style.find("*/", std::min(comment + 2, style.size()));
+        at = end == std::string_view::npos ? style.size() : end + 2;
+    }
+    std::vector<std::string> blocks;
+    std::string block;
+    for (const char c : all) {
+        block += c;
+        if (c == '}') {
+            blocks.push_back(std::exchange(block, {}));
+        }
+    }
+    blocks.push_back(std::move(block));
+    return blocks;
+}
+
+/// What the first reference of a text that is none of XML or a number is; browsers know two thousand names.
+std::string unknown_reference(std::string_view text) {
+    constexpr std::size_t k_longest = 10;
+    for (std::size_t at = text.find('&'); at != std::string_view::npos; at = text.find('&', at + 1)) {
+        const std::string_view rest = text.substr(at, k_longest + 1);
+        const std::size_t end = rest.find(';');
+        const char next = rest.size() > 1 ? rest[1] : ' ';
+        const bool may_be_one = next == '#' || (next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z');
+        if (may_be_one && (end == std::string_view::npos || referred(rest.substr(1, end - 1)).empty())) {
+            return std::string(rest.substr(0, end == std::string_view::npos ? end : end + 1));
+        }
+    }
+    return {};
+}
+
+/// The first character of a text that a reader does not see, and that changes what he sees.
+std::string hidden_character(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const text::Character one = text::decode_utf8(text, at);
+        const bool is_layout = one.code == '\n' || one.code == '\r' || one.code == '\t' || one.code == 0xAD ||
+                               one.code == 0x200B || one.code == 0x2060 || text::is_joiner(one.code);
+        if (one.bytes == 0 || (text::is_hidden(one.code) && !is_layout)) {
+            constexpr std::size_t k_digits = 8;
+            std::array<char, k_digits> digits{};
+            const auto end =
+                std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<std::uint32_t>(one.code), 16);
+            return one.bytes == 0 ? "bytes that are no UTF-8"
+                                  : "the character U+" + std::string(digits.data(), end.ptr) + ", which is not seen";
+        }
+        at += one.bytes;
+    }
+    return {};
+}
+
+class HiddenParts {
+public:
+    HiddenParts(std::string_view html, std::string_view style)
+        : html_(html), small_(text::in_small_letters(html)), known_(style_blocks(style)) {
+        std::sort(known_.begin(), known_.end());
+    }
+
+    std::string first() {
+        for (std::size_t at = 0; at < html_.size() && found_.empty();) {
+            const std::size_t tag = std::min(html_.find('<', at), html_.size());
+            look_at_text(html_.substr(at, tag - at));
+            at = tag == html_.size() || !found_.empty() ? html_.size() : look_at_tag(tag);
+        }
+        return std::move(found_);
+    }
+
+private:
+    std::string_view html_;
+    std::string small_;
+    std::vector<std::string> known_;
+    std::string found_;
+    bool in_head_ = false;
+    std::size_t unseen_depth_ = 0;  // of elements within the heads of printed pages, which a screen does not show
+
+    void tell(const std::string& what) {
+        if (found_.empty()) {
+            found_ = what;
+        }
+    }
+
+    void look_at_text(std::string_view text) {
+        if (const std::string reference = unknown_reference(text); !reference.empty()) {
+            tell("refers to a character as \"" + reference + '"');
+        }
+        if (const std::string hidden = hidden_character(without_references(text)); !hidden.empty()) {
+            tell("has " + hidden);
+        }
+        if ((unseen_depth_ > 0 || in_head_) && !without_any_blanks(text).empty()) {
+            tell(in_head_ ? "has text in its head"
+                          : "has text in the heads of printed pages, which a screen does not show");
+        }
+    }
+
+    /// \return where to go on
+    std::size_t look_at_tag(std::size_t tag) {
+        if (html_.substr(tag).starts_with("<!--")) {
+            const std::size_t end = html_.find("-->", tag + 4);
+            const std::string_view comment = html_.substr(tag + 4, end == std::string_view::npos ? end : end - tag - 4);
+            if (end == std::string_view::npos || comment.starts_with('>') || comment.starts_with("->") ||
+                comment.find("--!") != std::string_view::npos) {
+                tell("has a comment that ends in another place for browsers");
+            }
+            return end == std::string_view::npos ? html_.size() : end + 3;
+        }
+        const std::size_t end = end_of_tag(html_, tag);
+        const std::string_view whole = html_.substr(tag, end - tag);
+        const bool is_doctype = small_.compare(tag, 9, "<!doctype") == 0;
+        const std::string name = is_doctype ? "!doctype" : name_of_tag(whole);
+        const bool closes = whole.starts_with("</");
+        if (!is_plain_element(name)) {
+            tell("has an element \"" + (name.empty() ? std::string(whole.substr(0, 2)) : name) + '"');
+            return end;
+        }
+        const bool belongs_to_head = name == "head" || name == "meta" || name == "title" || name == "style";
+        if (in_head_ && !belongs_to_head) {
+            tell("has an element \"" + name + "\" in its head");
+        }
+        if (name == "head") {
+            in_head_ = !closes;
+        }
+        if (name == "div" && unseen_depth_ > 0) {
+            unseen_depth_ = closes ? unseen_depth_ - 1 : unseen_depth_ + 1;
+        } else if (name != "span" && unseen_depth_ > 0) {
+            tell("has an element \"" + name + "\" in the heads of printed pages, which a screen does not show");
+        }
+        if (!closes && !is_doctype) {
+            look_at_attributes(name, whole);
+        }
+        if (closes || is_doctype) {
+            return end;
+        }
+        if (name == "style" || name == "title") {
+            const std::size_t close = std::min(small_.find("</" + name, end), html_.size());
+            if (name == "style") {
+                look_at_style(html_.substr(end, close - end));
+            }
+            return end_of_tag(html_, close);
+        }
+        return name == "svg" ? look_at_drawing(end) : end;
+    }
+
+    void look_at_attributes(const std::string& element, std::string_view tag) {
+        static constexpr std::array<std::string_view, 9> k_refused = {
+            "hidden", "popover", "inert", "text", "bgcolor", "color", "background", "height", "usemap"};
+        if (const std::string reference = unknown_reference(tag); !reference.empty()) {
+            tell("refers to a character as \"" + reference + '"');
+        }
+        for (const auto& [name, value] : attributes_of(tag)) {
+            const bool is_size = name == "height" && (element == "svg" || element == "img");
+            if ((is_one_of(k_refused, name) && !is_size) || name.starts_with("on") ||
+                (name == "dir" && value == "rtl") ||
+                (name == "http-equiv" && text::in_small_letters(value) == "refresh")) {
+                tell("has an element \"" + element + "\" with \"" + name + '"');
+            }
+            if (name == "class" && (' ' + value + ' ').find(" page-head ") != std::string::npos) {
+                element == "div" ? void(unseen_depth_ += unseen_depth_ == 0 ? 1U : 0U)
+                                 : tell("has an element \"" + element + "\" that a screen does not show");
+            }
+            for (std::size_t at = 0; name == "style" && at < value.size();) {
+                const std::size_t end = std::min(value.find(';', at), value.size());
+                if (!is_plain_declaration(std::string_view(value).substr(at, end - at))) {
+                    tell("has an element \"" + element + "\" with the style \"" + value.substr(at, end - at) + '"');
+                }
+                at = end + 1;
+            }
+        }
+    }
+
+    void look_at_style(std::string_view style) {
+        for (const std::string& block : style_blocks(style)) {
+            if (may_hide(block) && !std::binary_search(known_.begin(), known_.end(), block)) {
+                tell("has \"" + block + "\" in its style sheet");
+            }
+        }
+    }
+
+    /// \return behind it
+    std::size_t look_at_drawing(std::size_t from) {
+        const std::size_t close = std::min(small_.find("</svg", from), html_.size());
+        for (std::size_t tag = html_.find('<', from); tag < close; tag = html_.find('<', tag + 1)) {
+            constexpr std::size_t k_longest_name = 20;
+            const std::string_view start = html_.substr(tag, k_longest_name);
+            if (const std::string name = name_of_tag(start); !is_plain_drawing(name)) {
+                tell("has a drawing with \"" + (name.empty() ? std::string(start.substr(0, 2)) : name) + '"');
+            }
+        }
+        return end_of_tag(html_, close);
+    }
+};
+
+}  // namespace
+
+std::string hidden_part_of_html(std::string_view html, std::string_view style) {
+    return HiddenParts(html, style).first();
+}
+
+std::vector<std::string> languages_of_html(std::string_view html) {
+    constexpr std::string_view k_attribute = " lang=\"";
+    std::vector<std::string> languages;
+    for (std::size_t at = html.find(k_attribute); at != std::string_view::npos; at = html.find(k_attribute, at + 1)) {
+        const std::size_t from = at + k_attribute.size();
+        std::string language(html.substr(from, std::min(html.find('"', from), html.size()) - from));
+        if (std::find(languages.begin(), languages.end(), language) == languages.end()) {
+            languages.push_back(std::move(language));
+        }
+    }
+    return languages;
+}
+
+bool has_style_of(std::string_view html, std::string_view style) {
+    const std::size_t open = html.find("<style>");
+    const std::size_t close = html.find("</style>");
+    return open != std::string_view::npos && close != std::string_view::npos && open < close &&
+           html.find("<style", open + 1) == std::string_view::npos &&
+           without_any_blanks(html.substr(open + 7, close - open - 7)) == without_any_blanks(style);
 }
 
 }  // namespace gumcert::reports

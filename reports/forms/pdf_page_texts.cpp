@@ -175,9 +175,9 @@ CodeTexts code_texts(Object font, Unpacker& unpacker) {
 }
 
 bool is_left_out(const std::string& character) {
-    return character == " " || character == "\n" || character == "\t" || character == "\u00A0" ||
-           character == "\u200B" || character == "\u202F" || character == "-" || character == "\u00AD" ||
-           character == "\u2010" || character == "\u2011";
+    return character == " " || character == std::string_view(&k_end_of_drawn_text, 1) || character == "\n" ||
+           character == "\t" || character == "\u00A0" || character == "\u200B" || character == "\u202F" ||
+           character == "-" || character == "\u00AD" || character == "\u2010" || character == "\u2011";
 }
 
 /// Without blanks and hyphens.
@@ -246,8 +246,9 @@ std::string text_of_page(Object page, Fonts& fonts, Unpacker& unpacker, std::siz
                 refuse_content("its pages have more than 256 MiB of text");
             }
         }
+        text += k_end_of_drawn_text;
     }
-    return bare(text);
+    return text;
 }
 
 std::string digits_of(std::string_view text) {
@@ -356,7 +357,7 @@ std::string without_blanks(const std::string& text) {
     return bare(text);
 }
 
-std::vector<std::string> texts_of_pages(std::string_view bytes) {
+std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
     QPDF pdf;
     pdf.setSuppressWarnings(true);
     pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
@@ -374,6 +375,12 @@ std::vector<std::string> texts_of_pages(std::string_view bytes) {
             throw std::bad_alloc();
         }
     }
+    return texts;
+}
+
+std::vector<std::string> texts_of_pages(std::string_view bytes) {
+    std::vector<std::string> texts = drawn_texts_of_pages(bytes);
+    std::transform(texts.begin(), texts.end(), texts.begin(), bare);
     return texts;
 }
 

@@ -17,6 +17,13 @@ namespace gumcert::reports {
 ///                        std::bad_alloc says nothing of the file
 [[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
 
+/// Behind every text that is drawn by itself: a cell of a table, a word, a part of a number.
+inline constexpr char k_end_of_drawn_text = '\x1F';
+
+/// The same with its blanks and hyphens, and k_end_of_drawn_text.
+/// \throws as texts_of_pages()
+[[nodiscard]] std::vector<std::string> drawn_texts_of_pages(std::string_view pdf);
+
 /// A text without blanks and hyphens, as texts_of_pages() gives it.
 [[nodiscard]] std::string without_blanks(const std::string& text);
 

@@ -19,7 +19,9 @@ bool tells(const Ended& ended, const std::string& part) {
     return (ended.out + ended.err).find(part) != std::string::npos;
 }
 
-constexpr const char* k_authoriser = "Head of laboratory";  // as the certificate data of the example name
+// As the certificate data of the example name them.
+constexpr const char* k_reviewer = "Reviewer 1";
+constexpr const char* k_authoriser = "Head of laboratory";
 
 class ArchiveOfALaboratory : public ProgramTest {
 protected:
@@ -62,9 +64,9 @@ protected:
         change_json(folder() / "end_gauge_certificate.json", change);
     }
     void lead_to_issue(const std::string& number) const {
-        for (const char* const action : {"review", "authorise", "issue"}) {
-            const bool authorises = std::string(action) == "authorise";
-            const Ended ended = archive({action, number}, authorises ? k_authoriser : "M. Weber");
+        for (const auto& [action, by] :
+             {std::pair("review", k_reviewer), {"authorise", k_authoriser}, {"issue", "M. Weber"}}) {
+            const Ended ended = archive({action, number}, by);
             ASSERT_EQ(ended.code, 0) << ended.err;
         }
     }
@@ -121,7 +123,7 @@ TEST_F(ArchiveOfALaboratory, SaysThatThereIsNone) {
 
 TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
     begin();
-    const std::vector<std::vector<std::string>> wrong = {
+    std::vector<std::vector<std::string>> wrong = {
         {"archive"},
         {"archive", "burn", "--store", store()},
         {"archive", "list"},
@@ -135,6 +137,10 @@ TEST_F(ArchiveOfALaboratory, RefusesACommandLineThatSaysTooMuchOrTooLittle) {
         {"archive", "verify", "evidence.json", "--store", store()},
         {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin"},
         {"archive", "init", "--store", path("b.archive"), "--by", "K", "--person", "R. Lin=boss"}};
+    for (const char* const blank : {"", " ", "\u00A0 \u2003", "\u200B"}) {
+        wrong.push_back({"archive", "withdraw", "EX-1", "--store", store(), "--by", "R. Lin", "--why", blank});
+        wrong.push_back({"archive", "settings", "--store", store(), "--by", "R. Lin", "--why", blank});
+    }
     for (const std::vector<std::string>& words : wrong) {
         const Ended ended = gumcert(words);
         EXPECT_EQ(ended.code, 2) << words.back() << ": " << ended.err;
@@ -186,7 +192,7 @@ TEST_F(ArchiveOfALaboratory, IssuesNoSpecimen) {
         gumcert({"evaluate", path("end_gauge.json"), "-o", path("s.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
     ASSERT_LE(made.code, 1) << made.err;
     ASSERT_EQ(archive({"add", path("s.json")}, "R. Lin").code, 0);
-    EXPECT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
+    EXPECT_EQ(archive({"review", "EX-2026-0042"}, k_reviewer).code, 0);
     EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, k_authoriser).code, 0);
     EXPECT_TRUE(tells(archive({"issue", "EX-2026-0042"}, "M. Weber"), "[GC-ARCHIVE-0030]"));
     EXPECT_EQ(shown({"show", "EX-2026-0042"})["state"], "authorised");
@@ -194,6 +200,7 @@ TEST_F(ArchiveOfALaboratory, IssuesNoSpecimen) {
 
 TEST_F(ArchiveOfALaboratory, KeepsFourEyesAndRoles) {
     begin({"--person", "K. Keeper=keeper", "--person", "R. Lin=author,reviewer", "--person", "M. Weber=reviewer"});
+    change_certificate([](json& c) { c["persons"].erase("reviewed_by"); });
     evaluate("first");
     EXPECT_TRUE(tells(archive(files("add", "first"), "M. Weber"), "[GC-ARCHIVE-0023]"));
     EXPECT_EQ(archive(files("add", "first"), "R. Lin").code, 0);
@@ -253,6 +260,20 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     EXPECT_TRUE(tells(added("bare.html"), "[GC-ARCHIVE-0038]"));
     std::ofstream(folder() / "longer.html") << "<!DOCTYPE html>\nEX-2026-00421";
     EXPECT_TRUE(tells(added("longer.html"), "[GC-ARCHIVE-0029]"));
+    const std::string made = bytes_of(folder() / "later.html");
+    const auto edited = [&](const std::string& from, const std::string& to) {
+        std::string other = made;
+        const std::size_t at = other.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        other.replace(at, from.size(), to);
+        write_bytes(folder() / "edited.html", other);
+        return added("edited.html");
+    };
+    EXPECT_TRUE(tells(edited("<main>", "<main><p hidden>x</p>"), "[GC-ARCHIVE-0070]"));
+    EXPECT_TRUE(tells(edited("</style>", "h1 { display: none }</style>"), "[GC-ARCHIVE-0070]"));
+    EXPECT_TRUE(tells(edited("Example Customer", "Another Customer"), "[GC-ARCHIVE-0038]"));
+    EXPECT_TRUE(
+        tells(edited("reproduced only in full", "reproduced in part"), "and the page that the record gives says"));
     // What was written together stays together.
     const fs::path manifest = folder() / ".gumcert-set.json";
     const json set{{"name", "later.html"}, {"sha256", std::string(64, 'a')}};
@@ -275,7 +296,7 @@ TEST_F(ArchiveOfALaboratory, GoesByTheLogAndItsHashes) {
     begin();
     evaluate("first");
     ASSERT_EQ(archive(files("add", "first"), "R. Lin").code, 0);
-    ASSERT_EQ(archive({"review", "EX-2026-0042"}, "M. Weber").code, 0);
+    ASSERT_EQ(archive({"review", "EX-2026-0042"}, k_reviewer).code, 0);
     ASSERT_EQ(archive({"authorise", "EX-2026-0042"}, k_authoriser).code, 0);
     const auto tampered = [&](const std::string& sql) {
         const std::string script =
@@ -315,15 +336,21 @@ TEST_F(ArchiveOfALaboratory, GoesByTheLogAndItsHashes) {
     EXPECT_TRUE(tells(archive({"withdraw", "EX-2026-0042", "--why", "x"}, "M. Weber"), "[GC-ARCHIVE-0013]"));
 }
 
-TEST_F(ArchiveOfALaboratory, IsAuthorisedByWhomTheCertificateNames) {
+TEST_F(ArchiveOfALaboratory, IsReviewedAndAuthorisedByWhomTheCertificateNames) {
     begin();
     evaluate("first");
     ASSERT_EQ(archive(files("add", "first"), "R. Lin").code, 0);
-    ASSERT_EQ(archive({"review", "EX-2026-0042"}, "A. Nother").code, 0);
+    const Ended other = archive({"review", "EX-2026-0042"}, "A. Nother");
+    EXPECT_EQ(other.code, 3);
+    EXPECT_TRUE(tells(other, "that \"Reviewer 1\" reviews it, and \"A. Nother\" does")) << other.err;
+    EXPECT_TRUE(tells(other, "[GC-ARCHIVE-0039]")) << other.err;
+    ASSERT_EQ(archive({"review", "EX-2026-0042"}, "reviewer 1").code, 0);
     const Ended refused = archive({"authorise", "EX-2026-0042"}, "A. Nother");
     EXPECT_EQ(refused.code, 3);
     EXPECT_TRUE(tells(refused, "[GC-ARCHIVE-0039]")) << refused.err;
-    EXPECT_EQ(archive({"authorise", "EX-2026-0042"}, "head of laboratory").code, 0);
+    const Ended authorised = archive({"authorise", "EX-2026-0042"}, "head of laboratory");
+    EXPECT_EQ(authorised.code, 0);
+    EXPECT_TRUE(tells(authorised, "[GC-ARCHIVE-0072]")) << "the printed day is over: " << authorised.err;
     EXPECT_EQ(archive({"issue", "EX-2026-0042"}, "A. Nother").code, 0) << "whoever issues what was authorised";
     EXPECT_TRUE(tells(archive({"statistics"}), "head of laboratory"));
 }
@@ -452,7 +479,7 @@ TEST_F(ArchiveOfALaboratory, FindsWhatAWrongStandardAffectsAndDraftsTheAmendment
 
 TEST_F(ArchiveOfALaboratory, RefusesASearchThatSaysTooMuchOrTooLittle) {
     begin();
-    const std::vector<std::vector<std::string>> wrong = {
+    std::vector<std::vector<std::string>> wrong = {
         {"affected"},
         {"affected", "--source", "STD-017"},
         {"affected", "--since", "2026-03-02"},
@@ -749,6 +776,12 @@ TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
     ASSERT_EQ(run(folder() / "end_gauge.json", folder() / "out").code, 0);
     const Ended ended = archive({"add", path("out/record.json"), path("out/certificate.pdf")}, "R. Lin");
     EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_TRUE(tells(ended, "not compared: other texts")) << ended.err;
+    change_certificate([](json& c) { c["customer"]["name"] = "Another Customer"; });
+    evaluate("renamed");
+    const Ended renamed = archive({"add", path("renamed.json"), path("out/certificate.pdf")}, "R. Lin");
+    EXPECT_TRUE(tells(renamed, "[GC-ARCHIVE-0038]")) << renamed.err;
+    EXPECT_TRUE(tells(renamed, "Another Customer")) << renamed.err;
     change_certificate([](json& c) { c["number"] = "EX-2026-0099"; });
     evaluate("other");
     EXPECT_TRUE(

@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "app/archive/dcc_agreement.h"
 #include "app/evaluate_job.h"
 #include "reports/dcc/dcc_document.h"
+#include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/render.h"
@@ -87,6 +90,54 @@ TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
     }
 }
 
+// Law: what no certificate is, is told by its mark, in every language and with every pair of languages.
+TEST(DocumentsAndRecords, DisagreeWhereAMarkSaysThatItIsNone) {
+    const std::vector<std::pair<const char*, void (*)(EvaluationRecord&)>> states = {
+        {"draft", [](EvaluationRecord& record) { record.certificate->blocked = true; }},
+        {"specimen", [](EvaluationRecord& record) { record.certificate->data.status = "specimen"; }},
+        {"superseded", [](EvaluationRecord& record) { record.certificate->superseded_by = "EX-2026-0099/A1"; }}};
+    const EvaluationRecord& record = example_certificates().front().second;
+    for (const std::vector<std::string>& languages :
+         std::vector<std::vector<std::string>>{{"en"}, {"de"}, {"es"}, {"zh-Hant"}, {"de", "en"}, {"en", "zh-Hant"}}) {
+        const std::string named = testing::PrintToString(languages);
+        for (const auto& [state, change] : states) {
+            EvaluationRecord other = record;
+            change(other);
+            EXPECT_THAT(disagreement(page_of(other, languages), record), HasSubstr("is marked")) << state << named;
+        }
+        const std::string report = reports::render_budget_report_html(record, agreement_assets(languages));
+        EXPECT_THAT(disagreement(report, record), HasSubstr("is marked")) << named;
+    }
+}
+
+// Every mark that the wording has is one: a kind of document that is new is not forgotten.
+TEST(DocumentsAndRecords, KnowTheMarksOfAllKindsOfDocuments) {
+    const DocumentWords words = document_words(k_agreement_templates);
+    std::vector<std::string> marks;
+    for (const DocumentWords::Mark& mark : words.marks) {
+        marks.push_back(mark.text);
+    }
+    for (const char* const mark :
+         {"DRAFT \u2014 not issued", "SPECIMEN \u2014 not an accredited certificate", "SUPERSEDED by {number}",
+          "INTERNAL \u2014 no calibration certificate", "Audit \u2013 not a calibration certificate",
+          "ERSETZT durch {number}", "\u5DF2\u88AB {number} \u53D6\u4EE3"}) {
+        EXPECT_THAT(marks, testing::Contains(mark));
+    }
+    // Of a sentence with two values, what stands up to the second one.
+    const PrintedDocument with_head(
+        {"Head of the archive of the laboratory when this document was made: 12 entries, ab"});
+    EXPECT_TRUE(with_head.has_head_of_archive(words));
+    EXPECT_FALSE(with_head.names_other_templates(words));
+    EXPECT_TRUE(PrintedDocument({"gumcert 0.1.0 ge\u00E4nderte Vorlagen 0123abcd"}).names_other_templates(words));
+    for (const DocumentWords::Mark& mark : words.marks) {
+        EXPECT_NE(PrintedDocument({"x " + mark.before + "EX-1" + mark.behind + " y"})
+                      .disagreement_with(*example_certificates().front().second.certificate, words)
+                      .find("is marked"),
+                  std::string::npos)
+            << mark.text;
+    }
+}
+
 // A document of a record in which one printed value or one verdict is another one.
 TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
     for (const auto& [name, record] : example_certificates()) {
@@ -123,15 +174,153 @@ TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
     }
 }
 
+// Law: a number is its sign, its decimal sign, its exponent and its unit as well as its digits.
+TEST(DocumentsAndRecords, DisagreeWhereTheSameDigitsAreAnotherNumber) {
+    const std::vector<std::pair<const char*, void (*)(std::string&)>> changes = {
+        {"sign", [](std::string& v) { v = v.starts_with('-') ? v.substr(1) : "-" + v; }},
+        {"decimal sign",
+         [](std::string& v) {
+             const std::size_t point = v.find('.');
+             if (point != std::string::npos) {
+                 v.erase(point, 1);
+             } else {
+                 v.insert(v.size() - 1, ".");
+             }
+         }},
+        {"exponent", [](std::string& v) { v += "E-3"; }}};
+    for (const auto& [name, record] : example_certificates()) {
+        for (const std::vector<std::string>& languages : std::vector<std::vector<std::string>>{{"en"}, {"de"}}) {
+            const std::string html = page_of(record, languages);
+            std::size_t values = 0;
+            EvaluationRecord counted = record;
+            for_each_value(counted, [&](const CertifiedValue& v) { values += v.printed_value.size() > 1 ? 1U : 0U; });
+            for (const auto& [what, change] : changes) {
+                for (const std::size_t chosen : {std::size_t{0}, values / 3, values - 1}) {
+                    EvaluationRecord other = record;
+                    std::size_t i = 0;
+                    for_each_value(other, [&](CertifiedValue& v) {
+                        if (v.printed_value.size() > 1 && i++ == chosen) {
+                            change(v.printed_value);
+                        }
+                    });
+                    if (page_of(other, languages) != html) {
+                        EXPECT_NE(disagreement(html, other), "") << name << ", value " << chosen << ", " << what;
+                    }
+                }
+            }
+            for (std::size_t t = 0; t < record.certificate->tables.size(); ++t) {
+                for (std::size_t c = 0; c < record.certificate->tables[t].columns.size(); ++c) {
+                    EvaluationRecord other = record;
+                    std::string& unit = other.certificate->tables[t].columns[c].printed_unit;
+                    unit = unit == "%" ? "\u2030" : "q" + unit;
+                    if (page_of(other, languages) != html) {
+                        EXPECT_NE(disagreement(html, other), "") << name << ", table " << t << ", column " << c;
+                    }
+                }
+            }
+        }
+    }
+}
+
+// Law: what identifies a certificate is on its pages, in every language, and another one is told.
+TEST(DocumentsAndRecords, SayWhoseCertificateTheyAre) {
+    for (const auto& [name, record] : example_certificates()) {
+        const PrintedDocument now(std::vector{texts_of_view(reports::view_of_document(record, agreement_assets()))});
+        const std::vector<DocumentFact> facts = facts_of(record.certificate->data);
+        std::size_t said = 0;
+        for (const char* const language : {"en", "de", "es", "zh-Hant"}) {
+            const PrintedDocument page({reports::text_of_html(page_of(record, {language}))});
+            EXPECT_EQ(page.disagreement_with_facts(facts, now), "") << name << language;
+            for (const DocumentFact& fact : facts) {
+                if (!now.says(fact.spellings.front())) {
+                    continue;
+                }
+                ++said;
+                const DocumentFact other{fact.what, {fact.spellings.front() + "Q7"}};
+                EXPECT_NE(page.disagreement_with_facts({other}, PrintedDocument(std::vector{other.spellings.front()})),
+                          "")
+                    << fact.what;
+            }
+        }
+        EXPECT_GE(said, 4U * 10U) << name;
+    }
+    const PrintedDocument page({"SN-7781-2, AB/3x Example\u00A0Customer 2026-11-18"});
+    for (const char* const text :
+         {"SN-7781", "7781-2", "AB", "AB/3", "B/3x", "Example Custom", "2026-11-1", "6-11-18"}) {
+        EXPECT_FALSE(page.says(text)) << text;
+    }
+    for (const char* const text : {"SN-7781-2", "AB/3x", "Example Customer", "2026-11-18"}) {
+        EXPECT_TRUE(page.says(text)) << text;
+    }
+}
+
+TEST(DocumentsAndRecords, DifferInTheWordsThatAreTold) {
+    EXPECT_EQ(difference_of_texts("a b\nc", "ab c"), "");
+    EXPECT_THAT(difference_of_texts("only in full", "only in part"),
+                testing::AllOf(HasSubstr("infull"), HasSubstr("inpart")));
+    EXPECT_NE(difference_of_texts("a", "a b"), "");
+    EXPECT_NE(difference_of_texts("", "a"), "");
+}
+
+// Law: every text, attribute and element of a digital certificate follows from its record, and another one is told.
+TEST(DocumentsAndRecords, TellEveryChangeOfADigitalCertificate) {
+    for (const char* const job : {"examples/certificate/end_gauge.json", "examples/everyday/torque_wrench/job.json"}) {
+        const EvaluationRecord& record =
+            std::find_if(example_certificates().begin(), example_certificates().end(), [&](const auto& one) {
+                return one.first == job;
+            })->second;
+        const std::string dcc = reports::render_dcc(record, agreement_assets());
+        const std::size_t body = dcc.find("<dcc:refTypeDefinitions");
+        ASSERT_NE(body, std::string::npos);
+        std::size_t changed = 0;
+        const auto is_told = [&](const std::string& other, std::size_t at) {
+            ++changed;
+            EXPECT_NE(disagreement_of_dcc(other, "other.xml", dcc), "") << job << ": " << dcc.substr(at, 60);
+        };
+        for (std::size_t at = dcc.find('>', body); at != std::string::npos; at = dcc.find('>', at + 1)) {
+            const std::size_t end = dcc.find('<', at);
+            if (end == std::string::npos || end == at + 1 || dcc[at + 1] == '\n') {
+                continue;
+            }
+            std::string other = dcc;
+            other.insert(end, "7");
+            is_told(other, at);
+        }
+        for (std::size_t at = dcc.find("=\"", body); at != std::string::npos; at = dcc.find("=\"", at + 2)) {
+            std::string other = dcc;
+            other.insert(at + 2, "x");
+            is_told(other, at);
+        }
+        EXPECT_GT(changed, 200U);
+        // An element more, and one less.
+        const std::size_t issued = dcc.find("<dcc:issueDate>");
+        ASSERT_NE(issued, std::string::npos);
+        const std::string line = dcc.substr(issued, dcc.find('\n', issued) + 1 - issued);
+        std::string more = dcc;
+        is_told(more.insert(issued, line), issued);
+        std::string less = dcc;
+        is_told(less.erase(issued, line.size()), issued);
+        // A signature is made behind the document.
+        std::string is_signed = dcc;
+        is_signed.insert(is_signed.rfind("</"),
+                         "<ds:Signature xmlns:ds=\"http://www.w3.org/2000/09/xmldsig#\"><x/></ds:Signature>");
+        EXPECT_EQ(disagreement_of_dcc(is_signed, "signed.xml", dcc), "");
+        EXPECT_THAT(languages_of_dcc(dcc, "d"), testing::ElementsAre("en"));
+    }
+}
+
 TEST(DocumentsAndRecords, AgreeAsPages) {
     const EvaluationRecord& record = example_certificates().front().second;
     const DocumentWords words = document_words(k_agreement_templates);
-    const std::vector<std::string> pages = {"EX-1 l 50000838 67 pass of 2", "EX-1"};
+    const std::vector<std::string> pages = {"EX-1 l 50000838 67 nm pass of 2", "EX-1"};
     EXPECT_EQ(PrintedDocument(pages).disagreement_with(*record.certificate, words), "");
     for (const char* const other :
-         {"EX-1 l 50001138 67 pass of 2", "EX-1 l 50000838 66 pass", "EX-1 l 50000838 67 fail", "EX-1",
-          "EX-1 l 50000838 67 pass DRAFT \u2014 not issued", "EX-1 l 50000838 67 conditional pass",
-          "EX-1 l 67 50000838 pass"}) {
+         {"EX-1 nm l 50001138 67 pass of 2", "EX-1 nm l 50000838 66 pass", "EX-1 nm l 50000838 67 fail", "EX-1 nm",
+          "EX-1 nm l 50000838 67 pass DRAFT \u2014 not issued", "EX-1 nm l 50000838 67 conditional pass",
+          "EX-1 nm l 67 50000838 pass", "EX-1 nm l \u221250000838 67 pass", "EX-1 nm l 5000083.8 67 pass",
+          "EX-1 nm l 50000838 6.7 pass", "EX-1 mm l 50000838 67 pass", "EX-1 l 50000838 67 pass",
+          "EX-1 nm l 50000838 \u00D7 10\u00B3 67 pass", "EX-1 nm l 150000838 67 pass",
+          "EX-1 nm/K l 50000838 67 pass"}) {
         EXPECT_NE(PrintedDocument({other}).disagreement_with(*record.certificate, words), "") << other;
     }
 }

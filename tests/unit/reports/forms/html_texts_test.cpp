@@ -16,7 +16,7 @@ TEST(TextsOfHtml, AreWhatAReaderSees) {
                                      {"<head><title>t</title></head><STYLE>s</STYLE><p>x</p>", "x"},
                                      {"<script>if (a < b) {}</script>x<!-- <p>y</p> -->z", "xz"},
                                      {"<svg><text>9</text></svg>x", "x"},
-                                     {"<span data-text=\"EX&#45;1\"></span>x", "EX1x"},
+                                     {"<span data-text=\"EX&#45;1\"></span>x", "x"},
                                      {"<p title=\"a > b\">x</p>", "x"},
                                      {"&unknown; &#0; & x", "&unknown;&#0;&x"},
                                      {"<p>x", "x"},
@@ -32,6 +32,75 @@ TEST(TextsOfHtml, OfSignsThatEndNowhereAreThoseSigns) {
     const std::string signs(3'000'000,
                             '&');  // each one looks for its ';' as far as a reference is long, and no further
     EXPECT_EQ(text_of_html(signs), signs);
+}
+
+constexpr const char* k_sheet =
+    ".page-head { display: none; }\n.pad::after { content: attr(data-pad); visibility: hidden; }";
+
+TEST(TextsOfHtml, HideNothing) {
+    for (const char* const page :
+         {"<p>x</p>",
+          "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>t</title></head><body><p>x &amp; "
+          "y &#8722; z</p></body></html>",
+          "<style>.page-head { display: none; } p { margin: 0 }</style>x", "<style>.page-head{display:none;}</style>",
+          "<img class=\"symbol\" style=\"max-width: 20rem; margin-left: 0\" src=\"data:image/png;base64,AA==\" "
+          "alt=\"a\">",
+          "<div class=\"page-head\"><div><span data-text=\"x\"></span></div></div><p>y</p>",
+          "<svg viewBox=\"0 0 1 1\"><g><text>1</text></g></svg>", "<!-- remark -->x", "a &lt; b & c", ""}) {
+        EXPECT_EQ(hidden_part_of_html(page, k_sheet), "") << page;
+    }
+}
+
+// Each of these shows something else than its text, or does not show it.
+TEST(TextsOfHtml, TellWhatMayBeHidden) {
+    for (const char* const page : {"<div hidden>4.9</div>",
+                                   "<div HIDDEN=\"\">4.9</div>",
+                                   "<p style=\"display:none\">4.9</p>",
+                                   "<p style='margin: 0; color: #fff'>4.9</p>",
+                                   "<p style=\"margin-left: -99rem\">4.9</p>",
+                                   "<p style=\"dis&#112;lay:none\">4.9</p>",
+                                   "<style>p { display: none }</style>",
+                                   "<style>.page-head, p { display: none; }</style>",
+                                   "<style>b::before { content: \"\u2212\" }</style>",
+                                   "<style>p { dis\\70lay: none }</style>",
+                                   "<style>p{font-size:0}</style>",
+                                   "<script>f()</script>",
+                                   "<details>4.9</details>",
+                                   "<dialog>4.9</dialog>",
+                                   "<template>4.9</template>",
+                                   "<link rel=\"stylesheet\" href=\"x\">",
+                                   "<iframe src=\"x\"></iframe>",
+                                   "<noscript>4.9</noscript>",
+                                   "<del>4.9</del>",
+                                   "<font color=\"white\">4.9</font>",
+                                   "<td bgcolor=\"black\">4.9</td>",
+                                   "<body onload=\"f()\">",
+                                   "&minus;4.9",
+                                   "&#8722 4.9",
+                                   "<b>&minus</b>4.9",
+                                   "<div class=\"a page-head\"><div>4.9</div></div>",
+                                   "<div class=\"page-head\"><p>4.9</p></div>",
+                                   "<section class=\"page-head\">4.9</section>",
+                                   "<head><p>4.9</p></head>",
+                                   "<head>4.9</head>",
+                                   "<svg><style>p { display: none }</style></svg>",
+                                   "<svg><foreignObject>4.9</foreignObject></svg>",
+                                   "<!--> 4.9 -->",
+                                   "<!-- --!> 4.9 -->",
+                                   "<? 4.9 >",
+                                   "<bdo dir=\"rtl\">9.4</bdo>",
+                                   "<p dir=\"rtl\">4.9</p>",
+                                   "\u202E9.4",
+                                   "\xFF",
+                                   "<meta http-equiv=\"refresh\" content=\"0; url=x\">",
+                                   "<ol><s>4.9</s></ol>"}) {
+        EXPECT_NE(hidden_part_of_html(page, k_sheet), "") << page;
+    }
+}
+
+TEST(TextsOfHtml, KeepTogetherWhatStandsWithinALine) {
+    EXPECT_EQ(text_of_html("m<b></b>N 1<i></i>4.9<sub>x</sub>"), "mN 14.9x");
+    EXPECT_EQ(text_of_html("<td>1</td><td>4.9</td>"), " 1  4.9 ");
 }
 
 }  // namespace
