@@ -5,6 +5,7 @@
 #include <string>
 
 #include "audit/stated_number.h"
+#include "audit/word_line.h"
 #include "certificate/text_words.h"
 #include "text/small_letters.h"
 
@@ -534,6 +535,7 @@ std::string certificate_in(std::string_view text) {
 }
 
 CoverageText coverage_in(std::string_view text) {
+    text = cut(text, k_longest_text);
     CoverageText found;
     for (std::size_t at = 0; at < text.size() && found.k.empty(); ++at) {
         found.k = number_of_k(text, at);

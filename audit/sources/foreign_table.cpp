@@ -229,7 +229,7 @@ private:
 
     /// Whether a line below heads is a row of the table. A quantity may be named "p" or "k", and a line of a result may have several
     /// numbers, each under its head: what is added up has a coefficient, or something that is divided.
-    [[nodiscard]] bool is_row(const SheetView::Row& row) const {
+    [[nodiscard]] bool is_row(const SheetView::Row& row) {
         if (!in_rows_ || !heads_) {
             return false;
         }
@@ -240,7 +240,7 @@ private:
         const std::optional<NamedLine> line = name_of_line(sheet_, row, &*heads_);
         return !line || !(states_result(line->named, numbers) || is_number_with_one(sheet_, row, *line));
     }
-    [[nodiscard]] bool states_result(const NamedStatement& named, const NumbersUnderHeads& numbers) const {
+    [[nodiscard]] bool states_result(const NamedStatement& named, const NumbersUnderHeads& numbers) {
         const auto has = [&numbers](Column column) { return numbers.contains(column); };
         const auto headed = [this](Column column) { return heads_->columns.contains(column); };
         const bool has_amount = has(Column::u) || has(Column::contribution);
@@ -271,7 +271,12 @@ private:
         }
     }
     /// Whether the number of a line that looks like a row is u_c, or U, of the rows above it.
-    [[nodiscard]] bool is_sum(const NumbersUnderHeads& numbers, Statement statement) const {
+    [[nodiscard]] bool is_sum(const NumbersUnderHeads& numbers, Statement statement) {
+        // Each look adds up all rows; a table states few results.
+        constexpr std::size_t k_most_looks = 20;
+        if (budget_.rows.size() < 2 || ++looks_ > k_most_looks) {
+            return false;
+        }
         const auto number = [&](Column column) -> std::optional<StatedResult> {
             const auto found = numbers.find(column);
             std::vector<Sentence> unused;
@@ -445,6 +450,7 @@ private:
         is_too_long_ = is_unusable_ = is_open_ = false;
         result_line_.reset();
         last_unread_.reset();
+        looks_ = 0;
     }
 
     /// Takes a number for a statement that no other line has made.
@@ -638,6 +644,7 @@ private:
     std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
     std::optional<NumbersUnderHeads> result_line_;  ///< states the value, and more
+    std::size_t looks_ = 0;                         ///< at sums of the rows, for lines that look like rows
     std::optional<std::uint32_t> last_unread_;      ///< line that was named as not read, or follows such
 };
 

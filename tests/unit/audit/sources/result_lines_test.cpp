@@ -155,6 +155,17 @@ TEST(ResultLines, SayCoverageInTheirNamesAndWords) {
     EXPECT_NE(told(words.not_read).find("\"two\" is no number"), std::string::npos) << told(words.not_read);
 }
 
+TEST(ResultLines, TakeNoLongerWhereManyRowsAreNamedLikeResults) {
+    std::string csv = "quantity,unit,u,sensitivity,contribution\n";
+    for (int i = 0; i < 1500; ++i) {
+        csv += "Combined standard uncertainty,mm,0.100,1,0.100\n";
+    }
+    const ForeignTables tables = tables_with(csv + "u_c,,3.873,mm\n");
+    ASSERT_EQ(tables.budgets.size(), 1U) << told(tables.not_read);
+    EXPECT_GT(tables.budgets[0].rows.size(), 1000U);
+    EXPECT_FALSE(coverage_in(std::string(100'000, 'k')).says_any());
+}
+
 TEST(ResultLines, NameWhatIsNotRead) {
     const std::string rows = "quantity,unit,u,sensitivity\na,mg,0.03,1\nb,mg,0.04,1\n";
     const ForeignTables tables = tables_with(rows + "U,,0.1,mg\nUncertainty as printed,,0.2,mg\nof the day,,0.3,mg\n");
