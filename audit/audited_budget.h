@@ -52,6 +52,7 @@ enum class RelativeTo { not_stated, reading, full_scale };
 /// One row of an uncertainty budget as somebody states it. Numbers of a row are in its own unit.
 struct AuditedRow {
     std::string quantity, unit, source, comment;
+    std::string description = {};                  ///< of a table that has a column of symbols and one of words
     std::string place;                             ///< "row 3" or "Budget!A5", for findings
     DecimalSign decimal_sign = DecimalSign::each;  ///< of the numbers in its words
     /// Of a row that is one part of a quantity that is a sum: that quantity. Its parts have one unit and one sensitivity.

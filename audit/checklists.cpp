@@ -45,7 +45,10 @@ std::vector<MethodChecklist> make_checklists() {
         {.method = "multimeter",
          .title = say("Digital multimeter"),
          .source = "EURAMET cg-15, Guidelines on the Calibration of Digital Multimeters; EA-4/02",
-         .words = {"multimeter", "voltmeter", "ammeter", "ohmmeter", "dmm ", "calibrator", "spannungsmess"},
+         .words = {"multimeter", "voltmeter", "ammeter", "ohmmeter", "dmm ", "multifunction calibrator",
+                   "multi function calibrator", "multiproduct calibrator", "multi product calibrator",
+                   "voltage calibrator", "current calibrator", "electrical calibrator", "multifunktionskalibrator",
+                   "spannungskalibrator", "spannungsmess"},
          .required = {{say("calibration of the source"), {reference}, {}},
                       {say("leads, contacts and thermal voltages"),
                        {},
@@ -55,7 +58,7 @@ std::vector<MethodChecklist> make_checklists() {
          .title = say("Thermometer (Pt100)"),
          .source = "DKD-R 5-1, Kalibrierung von Widerstandsthermometern; EURAMET cg-13, Guidelines on the Calibration "
                    "of Temperature Block Calibrators",
-         .words = {"thermometer", "pt100", "pt 100", "thermocouple", "thermoelement", "temperature sensor",
+         .words = {"thermometer", "*widerstandsthermometer", "pt100", "pt 100", "temperature sensor",
                    "temperatursensor", "temperaturfuhler"},
          .required = {{say("calibration of the reference thermometer"), {reference}, {}},
                       {say("homogeneity of the bath or block"),
@@ -69,12 +72,16 @@ std::vector<MethodChecklist> make_checklists() {
                        {"immersion", "eintauch", "conduction", "warmeableit", "stem"}},
                       {say("self-heating"),
                        {},
-                       {"self heat", "selfheat", "eigenerwarm", "selbsterwarm", "measuring current", "messstrom"}}}},
+                       {"self heat", "selfheat", "eigenerwarm", "selbsterwarm", "measuring current", "messstrom"}}},
+         .not_with = {"thermocouple", "thermoelement", "radiation", "infrared", "infrarot", "*strahlung", "pyrometer",
+                      "glass thermometer", "in glass", "*glasthermometer", "*flussigkeitsthermometer"}},
         {.method = "torque_wrench",
          .title = say("Torque wrench"),
          .source = "ISO 6789-2:2017, Hand torque tools, Part 2: Requirements for calibration and determination of "
                    "measurement uncertainty",
-         .words = {"torque", "drehmoment"},
+         .words = {"torque wrench", "torque tool", "torque screwdriver", "torque spanner", "hand torque",
+                   "drehmomentschlussel", "drehmomentschraub", "drehmoment schlussel", "drehmoment schraub",
+                   "drehmomentwerkzeug"},
          .required = {{say("calibration of the torque transducer"), {reference}, {}},
                       {say("reproducibility of the torque tool"), {reproducibility}, {}},
                       {say("interface of the output drive"),
@@ -96,7 +103,8 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("repeatability"), {repeatability}, {}},
                       {say("eccentric loading"), {}, {"eccentric", "exzentri", "ecken"}},
                       {say("air buoyancy"), {}, {"buoyancy", "*auftrieb", "air density", "luftdichte"}},
-                      {say("convection and drift of the temperature"), {temperature}, {"convection", "konvektion"}}}},
+                      {say("convection and drift of the temperature"), {temperature}, {"convection", "konvektion"}}},
+         .not_with = {"pressure", "*druck", "*wasserwaage", "current balance", "*stromwaage"}},
         {.method = "weights",
          .title = say("Weights"),
          .source = "OIML R 111-1, Weights of classes E1, E2, F1, F2, M1, M1-2, M2, M2-3 and M3; EA-4/02",
@@ -106,7 +114,9 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("weighing process"), {repeatability}, {}},
                       {say("balance (eccentricity, sensitivity, linearity)"),
                        {},
-                       {"eccentric", "exzentri", "sensitivity", "empfindlich", "linear", "balance", "waage"}}}},
+                       {"eccentric", "exzentri", "sensitivity", "empfindlich", "linear", "balance", "waage"}}},
+         .not_with = {"dead weight", "deadweight", "molecular", "atomic", "specific weight", "basis weight",
+                      "spezifisch", "pressure", "*druck"}},
         {.method = "caliper_micrometer",
          .title = say("Caliper or micrometer"),
          .source = "EA-4/02, Evaluation of the Uncertainty of Measurement in Calibration; ISO 13385-1 (callipers); ISO "
@@ -117,7 +127,8 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("thermal expansion coefficients"), {expansion}, {}},
                       {say("flatness and parallelism of the measuring faces, Abbe offset"),
                        {target_form, alignment},
-                       {"mechanical effect", "mechanisch"}}}},
+                       {"mechanical effect", "mechanisch"}}},
+         .not_with = {"stage micrometer", "brake"}},
         {.method = "dial_indicator",
          .title = say("Dial indicator"),
          .source = "ISO 463, Design and metrological characteristics of mechanical dial gauges",
@@ -148,7 +159,8 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("zero point"), {}, {"zero", "nullpunkt"}},
                       {say("hysteresis"), {}, {"hysteres", "umkehr", "reversib"}},
                       {say("repeatability"), {repeatability}, {"reproduzier", "reproducib"}},
-                      {say("temperature"), {temperature}, {}}}},
+                      {say("temperature"), {temperature}, {}}},
+         .not_with = {"sphygmo", "*blutdruck", "sound"}},
         {.method = "pipette",
          .title = say("Pipette, burette or dispenser (gravimetric)"),
          .source =
@@ -164,7 +176,8 @@ std::vector<MethodChecklist> make_checklists() {
                        {"buoyancy", "*auftrieb", "air density", "luftdichte", "z factor", "z faktor"}},
                       {say("evaporation"), {}, {"evaporat", "verdunst"}},
                       {say("expansion of the device"), {expansion}, {}},
-                      {say("repeatability (handling)"), {repeatability, reproducibility}, {"operator", "handling"}}}},
+                      {say("repeatability (handling)"), {repeatability, reproducibility}, {"operator", "handling"}}},
+         .not_with = {"flow", "durchfluss", "fuel"}},
         {.method = "oscilloscope",
          .title = say("Oscilloscope"),
          .source = "EURAMET cg-7, Calibration of Oscilloscopes",
@@ -203,7 +216,8 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("indenter"), {}, {"indenter", "eindringkorper", "diamond", "diamant"}},
                       {say("measurement of the indentation (length or depth)"),
                        {item_resolution, reference_resolution},
-                       {"indentation", "eindruck", "depth", "diagonal", "microscope", "mikroskop"}}}},
+                       {"indentation", "eindruck", "depth", "diagonal", "microscope", "mikroskop"}}},
+         .not_with = {"water", "wasser", "titration", "shore", "durometer", "irhd"}},
         {.method = "force",
          .title = say("Force transducer or testing machine"),
          .source =
@@ -219,7 +233,8 @@ std::vector<MethodChecklist> make_checklists() {
                       {say("reversibility"), {}, {"reversib", "hysteres", "umkehr"}},
                       {say("zero point"), {}, {"zero", "nullpunkt"}},
                       {say("resolution"), {item_resolution}, {}},
-                      {say("temperature"), {temperature}, {}}}},
+                      {say("temperature"), {temperature}, {}}},
+         .not_with = {"torque", "drehmoment", "hardness", "*harte"}},
     };
 }
 
@@ -257,7 +272,7 @@ std::string method_in_words(std::string_view method) {
 std::string method_in_title(std::string_view title) {
     const WordLine words(title);
     for (const MethodChecklist& checklist : method_checklists()) {
-        if (words.has_any(checklist.words)) {
+        if (words.has_any(checklist.words) && !words.has_any(checklist.not_with)) {
             return std::string(checklist.method);
         }
     }

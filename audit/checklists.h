@@ -27,6 +27,8 @@ struct MethodChecklist {
     std::string_view source;
     std::vector<std::string_view> words;        ///< by which the name of a budget tells its method
     std::vector<RequiredContributor> required;  ///< beside the six of every method
+    /// Words of other instruments whose names have one of `words` in them: a thermocouple is no Pt100 thermometer.
+    std::vector<std::string_view> not_with = {};
 };
 
 /// The checklists of all methods that have one.
@@ -46,13 +48,14 @@ struct MethodChecklist {
 class NamedRow {
 public:
     explicit NamedRow(const AuditedRow& row)
-        : contributor_(row.contributor), words_{WordLine(row.quantity), WordLine(row.comment), WordLine(row.source)} {}
+        : contributor_(row.contributor),
+          words_{WordLine(row.quantity), WordLine(row.description), WordLine(row.comment), WordLine(row.source)} {}
     /// Whether the row stands for a required contributor, whatever number it has.
     [[nodiscard]] bool stands_for(const RequiredContributor& required) const;
 
 private:
     Contributor contributor_;
-    std::array<WordLine, 3> words_;
+    std::array<WordLine, 4> words_;
 };
 [[nodiscard]] bool stands_for(const AuditedRow& row, const RequiredContributor& required);
 

@@ -867,9 +867,13 @@ Shape shape_of(std::string_view text) {
     return Shape::other;
 }
 
+std::string name_in_words(const AuditedRow& row) {
+    return row.description.empty() ? row.quantity : row.quantity + "; " + row.description;
+}
+
 void read_comment(AuditedRow& row) {
     const std::array<Pieces, 3> texts{pieces_of(row.comment, row.decimal_sign),
-                                      pieces_of(row.quantity, row.decimal_sign),
+                                      pieces_of(name_in_words(row), row.decimal_sign),
                                       pieces_of(row.source, row.decimal_sign)};
     if (row.type_a == true && row.origin == Origin::not_stated) {
         row.origin = Origin::readings;
@@ -917,7 +921,7 @@ void read_comment(AuditedRow& row) {
         row.shape = shape_in_sentence(WordLine(row.comment));
     }
     if (row.contributor == Contributor::other) {
-        row.contributor = contributor_of(row.quantity, row.comment, row.source);
+        row.contributor = contributor_of(name_in_words(row), row.comment, row.source);
     }
     // Readings whose words say nothing else scatter as the instrument and the item do.
     if (row.contributor == Contributor::other && row.type_a == true) {

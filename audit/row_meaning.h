@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "audit/audited_budget.h"
@@ -13,6 +14,9 @@ namespace gumcert::audit {
 /// The contributor that a row stands for. Words of the quantity count more than those of the comment, and these more
 /// than those of the source; `other` where none is known.
 [[nodiscard]] Contributor contributor_of(std::string_view quantity, std::string_view comment, std::string_view source);
+
+/// What a row is called: its quantity, and what describes it.
+[[nodiscard]] std::string name_in_words(const AuditedRow& row);
 
 /// What a column of distributions says: "rect.", "Rechteck", "N (k = 2)", "U-shaped", "t". `not_stated` of an empty text
 /// or a dash, `other` of words that name no distribution known here.

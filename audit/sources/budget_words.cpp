@@ -4,7 +4,10 @@
 #include <array>
 #include <string>
 
+#include "audit/stated_number.h"
+#include "audit/word_line.h"
 #include "certificate/text_words.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -191,6 +194,9 @@ constexpr std::array k_statement_words = {
     Word{U"ucy", Statement::u_c},
     Word{U"uy", Statement::u_c},
     Word{U"combineduncertainty", Statement::u_c},
+    Word{U"combined", Statement::u_c},
+    Word{U"totaluncertainty", Statement::u_c},
+    Word{U"gesamtunsicherheit", Statement::u_c},
     Word{U"combinedstandarduncertainty", Statement::u_c},
     Word{U"combinedstandarduncertaintyuc", Statement::u_c},
     Word{U"combinedstduncertainty", Statement::u_c},
@@ -208,6 +214,9 @@ constexpr std::array k_statement_words = {
     Word{U"coveragefactor", Statement::k},
     Word{U"coveragefactork", Statement::k},
     Word{U"kfactor", Statement::k},
+    Word{U"k95", Statement::k},
+    Word{U"kp", Statement::k},
+    Word{U"kfaktor", Statement::k},
     Word{U"erweiterungsfaktor", Statement::k},
     Word{U"erweiterungsfaktork", Statement::k},
     Word{U"expandeduncertainty", Statement::U},
@@ -283,6 +292,15 @@ constexpr std::array k_statement_words = {
     Word{U"modellgleichung", Statement::equation},
 };
 
+/// Names of the value of a result that no input quantity has: a reading may be called "measured value".
+constexpr std::array k_result_words = {
+    Word{U"y", Statement::value},
+    Word{U"result", Statement::value},
+    Word{U"measurementresult", Statement::value},
+    Word{U"ergebnis", Statement::value},
+    Word{U"messergebnis", Statement::value},
+};
+
 template <typename Meaning, std::size_t N>
 std::optional<Meaning> meaning_of(const std::array<Word<Meaning>, N>& words, std::string_view text) {
     const std::u32string letters = certificate::letters_of(text);
@@ -311,6 +329,89 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+bool is_of_number(char c) {
+    return (c >= '0' && c <= '9') || c == '.' || c == ',';
+}
+
+/// The number that k is by words that begin at a place: "k = 2", "k(95 %) = 2", "coverage factor of 2".
+std::string_view number_of_k(std::string_view text, std::size_t at) {
+    if (at > 0 && (is_letter(text[at - 1]) || text[at - 1] == '_')) {
+        return {};
+    }
+    constexpr std::string_view k_words[] = {"k95",
+                                            "k_95",
+                                            "kp",
+                                            "k_p",
+                                            "k",
+                                            "coverage factor",
+                                            "Coverage factor",
+                                            "Erweiterungsfaktor",
+                                            "erweiterungsfaktor"};
+    for (const std::string_view word : k_words) {
+        if (!text.substr(at).starts_with(word)) {
+            continue;
+        }
+        std::string_view behind = text.substr(at + word.size());
+        if (!behind.empty() && (is_letter(behind.front()) || is_of_number(behind.front()) || behind.front() == '_')) {
+            continue;
+        }
+        for (bool any = true; any;) {
+            any = false;
+            for (const std::string_view filler : {" ", "=", ":", "k ", "k=", "of ", "von ", "is ", "ist "}) {
+                if (behind.starts_with(filler)) {
+                    behind.remove_prefix(filler == "k=" ? 1 : filler.size());
+                    any = true;
+                }
+            }
+        }
+        const std::optional<LeadingNumber> number = read_leading_number(behind, "", Percent::unit);
+        constexpr double k_largest = 20.0;
+        if (number && number->number.value > 0.0 && number->number.value < k_largest &&
+            !number->rest.starts_with('%')) {
+            return behind;
+        }
+    }
+    return {};
+}
+
+/// Whether what follows a name begins with what is said of coverage: ", k=2", " (95 %", " 95,45 %".
+bool begins_with_coverage(std::string_view text) {
+    while (!text.empty() &&
+           (text.front() == ' ' || text.front() == ',' || text.front() == ';' || text.front() == '(')) {
+        text.remove_prefix(1);
+    }
+    if (text.empty()) {
+        return false;
+    }
+    for (const std::string_view word : {"with ", "mit ", "at ", "for ", "für ", "p = ", "p="}) {
+        if (text.starts_with(word)) {
+            return coverage_in(text).says_any();
+        }
+    }
+    const bool is_number = text.front() >= '0' && text.front() <= '9';
+    return is_number ? coverage_in(text.substr(0, text.find('%') + 1)).p.has_value() : !number_of_k(text, 0).empty();
+}
+
+/// Whether an input quantity may have the name of a statement.
+bool may_be_quantity(Statement statement, std::string_view text) {
+    switch (statement) {
+        case Statement::u_c:
+        case Statement::nu_eff:
+        case Statement::U:
+        case Statement::reported_U:
+            return false;
+        case Statement::k:
+            return text.size() <= 3;
+        case Statement::value:
+            return !meaning_of(k_result_words, text);
+        default:
+            return true;
+    }
+}
+
 }  // namespace
 
 std::optional<Column> column_of(std::string_view head) {
@@ -332,26 +433,138 @@ std::optional<Column> column_of(std::string_view head) {
     }
 }
 
-std::optional<Statement> statement_of(std::string_view name) {
+namespace {
+
+/// Of a name that is a statement as it stands, or before what it has in brackets.
+std::optional<NamedStatement> whole_statement(std::string_view name) {
     name = trimmed(name);
     const std::string_view short_name = trimmed(without_brackets(name));
     for (std::string_view text = name;; text = short_name) {
+        std::optional<NamedStatement> named;
         if (text == "U" || text == "U(y)") {
-            return Statement::U;
+            named = NamedStatement{.statement = Statement::U, .may_be_quantity = text == "U"};
+        } else if (text == "k") {
+            named = NamedStatement{.statement = Statement::k, .may_be_quantity = true};
+        } else if (text == "u" || text == "u(y)") {
+            named = NamedStatement{.statement = Statement::u_c, .may_be_quantity = text == "u"};
+        } else if (text.starts_with("u_c(") || text.starts_with("uc(")) {
+            named = NamedStatement{.statement = Statement::u_c};
+        } else if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
+            named = NamedStatement{.statement = *statement, .may_be_quantity = may_be_quantity(*statement, text)};
         }
-        if (text == "k") {
-            return Statement::k;
-        }
-        if (text == "u" || text == "u(y)") {
-            return Statement::u_c;
-        }
-        if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
-            return statement;
+        if (named) {
+            const std::size_t end = static_cast<std::size_t>(text.data() - name.data()) + text.size();
+            if (coverage_in(name.substr(end)).says_any()) {
+                named->coverage = name.substr(end);
+                named->may_be_quantity = false;
+            }
+            return named;
         }
         if (text == short_name) {
             return std::nullopt;
         }
     }
+}
+
+}  // namespace
+
+std::optional<NamedStatement> named_statement(std::string_view name) {
+    name = trimmed(name);
+    if (std::optional<NamedStatement> whole = whole_statement(name)) {
+        return whole;
+    }
+    constexpr std::size_t k_longest = 200;
+    if (name.size() > k_longest) {
+        return std::nullopt;
+    }
+    if (const std::size_t sign = name.find_first_of("=:"); sign != std::string_view::npos) {
+        if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {
+            const std::string_view behind = trimmed(name.substr(sign + 1));
+            (begins_with_coverage(behind) && named->statement != Statement::coverage_probability ? named->coverage
+                                                                                                 : named->assigned) =
+                behind;
+            return named;
+        }
+    }
+    // "Expanded uncertainty, k=2, 95 %" is a name and what is said of coverage.
+    for (std::size_t at = name.find_first_of(" ,;("); at != std::string_view::npos;
+         at = name.find_first_of(" ,;(", at + 1)) {
+        if (!begins_with_coverage(name.substr(at))) {
+            continue;
+        }
+        if (std::optional<NamedStatement> named = whole_statement(name.substr(0, at))) {
+            named->coverage = name.substr(at);
+            named->may_be_quantity = false;
+            return named;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Statement> statement_of(std::string_view name) {
+    const std::optional<NamedStatement> named = named_statement(name);
+    return named ? std::optional(named->statement) : std::nullopt;
+}
+
+std::string certificate_in(std::string_view text) {
+    const std::string lower = text::in_small_letters(text);
+    for (const std::string_view word : {"certificate", "cert.", "kalibrierschein", "zertifikat", "certificado"}) {
+        const std::size_t at = lower.find(word);
+        if (at == std::string::npos || lower.size() != text.size()) {
+            continue;
+        }
+        const std::size_t number = text.find_first_not_of(" :#", at + word.size());
+        if (number == std::string_view::npos) {
+            continue;
+        }
+        const std::string_view rest = text.substr(number);
+        const std::string_view named = trimmed(rest.substr(0, rest.find_first_of(";,()")));
+        const std::string_view first = named.substr(0, named.find(' '));
+        // What has no digit in its first words is no number: "certificate of the maker, 2024".
+        constexpr std::size_t k_longest = 40;
+        const bool is_number_word =
+            first == "No" || first == "No." || first == "Nr" || first == "Nr." || first == "no.";
+        if (named.size() <= k_longest &&
+            (first.find_first_of("0123456789") != std::string_view::npos ||
+             (is_number_word && named.find_first_of("0123456789") != std::string_view::npos))) {
+            return std::string(word == "cert." ? "certificate" : text.substr(at, word.size())) + " " +
+                   std::string(named);
+        }
+    }
+    return "";
+}
+
+CoverageText coverage_in(std::string_view text) {
+    text = cut(text, k_longest_text);
+    CoverageText found;
+    for (std::size_t at = 0; at < text.size() && found.k.empty(); ++at) {
+        found.k = number_of_k(text, at);
+    }
+    for (std::size_t percent = text.find('%'); percent != std::string_view::npos && !found.p;
+         percent = text.find('%', percent + 1)) {
+        std::size_t end = percent;
+        while (end > 0 && (text[end - 1] == ' ' || text[end - 1] == '\xA0' || text[end - 1] == '\xC2')) {
+            --end;
+        }
+        std::size_t from = end;
+        while (from > 0 && is_of_number(text[from - 1])) {
+            --from;
+        }
+        const bool is_number_alone = from == 0 || !is_letter(text[from - 1]);
+        const std::optional<StatedNumber> p =
+            is_number_alone ? read_number(text.substr(from, end - from), "") : std::nullopt;
+        if (p && p->value > 50.0 && p->value < 100.0) {
+            found.p = p->value / 100.0;
+        }
+    }
+    if (const std::size_t at = text.find("p =");
+        !found.p && at != std::string_view::npos && (at == 0 || !is_letter(text[at - 1]))) {
+        const std::optional<LeadingNumber> p = read_leading_number(text.substr(at + 3), "");
+        if (p && p->number.value > 0.5 && p->number.value < 1.0) {
+            found.p = p->number.value;
+        }
+    }
+    return found;
 }
 
 }  // namespace gumcert::audit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace gumcert::audit {
@@ -51,5 +52,27 @@ enum class Statement {
     equation,
 };
 [[nodiscard]] std::optional<Statement> statement_of(std::string_view name);
+
+/// What the name of a line states, with what the name says beside it.
+struct NamedStatement {
+    Statement statement = Statement::value;
+    /// Some quantity may be called so as well: "U" is a voltage, "p" a pressure, "tolerance" a contribution.
+    bool may_be_quantity = false;
+    std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
+    std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
+};
+[[nodiscard]] std::optional<NamedStatement> named_statement(std::string_view name);
+
+/// The certificate that a text names by its number: "certificate 91-E" of "U = 1.5 µV, k = 2; certificate 91-E; 39 µV/K"; ""
+/// where it names none.
+[[nodiscard]] std::string certificate_in(std::string_view text);
+
+/// What a text says of coverage: "k = 2.08, p = 95.45 %", "Normal (k=2)", "Erweiterungsfaktor 2", "95 %".
+struct CoverageText {
+    std::string_view k;       ///< the number that k is, and what follows it; empty where it says none
+    std::optional<double> p;  ///< between 0.5 and 1
+    [[nodiscard]] bool says_any() const { return !k.empty() || p.has_value(); }
+};
+[[nodiscard]] CoverageText coverage_in(std::string_view text);
 
 }  // namespace gumcert::audit

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,308 +14,20 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
+#include "audit/sources/result_lines.h"
+#include "audit/sources/sheet_view.h"
+#include "audit/sources/table_heads.h"
 #include "audit/sources/table_units.h"
 #include "text/numbers.h"
-#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
 namespace {
 
 using workbook::Cell;
-using workbook::CellAddress;
 using workbook::CellKind;
-using workbook::CellValue;
 
 constexpr std::size_t k_most_tables = 10'000, k_most_rows = 2'000;
-
-struct NumberWithUnit {
-    StatedNumber number;
-    std::string unit;      ///< "" where none stands there
-    bool is_open = false;  ///< nobody can know its decimal sign
-};
-
-/// A number without dimension: of a divisor, k, or E_n.
-StatedNumber without_dimension(NumberWithUnit read) {
-    if (read.unit == "%") {
-        convert(read.number, 0.01);
-    }
-    return std::move(read.number);
-}
-
-/// The decimal sign of a file, where its numbers show one: "1.200" alone may be 1.2 or 1200, and beside "0,5" it is 1200.
-///
-/// The numbers of cells decide, and where they show none, those in its words. In a workbook numbers are no texts, and show
-/// nothing. Between columns that commas separate, a number without quotes has no comma: it has a point, if any sign.
-DecimalSign decimal_sign_of(const workbook::Workbook& workbook) {
-    std::size_t points = 0, commas = 0;
-    bool open = false;
-    const auto count = [&](DecimalSign shown) {
-        points += shown == DecimalSign::point ? 1U : 0U;
-        commas += shown == DecimalSign::comma ? 1U : 0U;
-        open = open || shown == DecimalSign::open;
-    };
-    const auto each_cell = [&workbook](const auto& look) {
-        for (const workbook::Sheet& sheet : workbook.sheets) {
-            for (const Cell& cell : sheet.cells) {
-                const bool is_text = cell.value.kind == CellKind::text ||
-                                     (cell.value.kind == CellKind::number && workbook.csv_separator != '\0');
-                if (is_text && sheet.state == workbook::SheetState::visible) {
-                    look(cell.value.text);
-                }
-            }
-        }
-    };
-    each_cell([&count](const std::string& text) {
-        const std::optional<LeadingNumber> number = read_leading_number(text, "", Percent::unit);
-        const bool is_number = number && (number->rest.empty() || known_unit(unit_in_rest(number->rest)));
-        count(is_number ? number->shows : DecimalSign::each);
-    });
-    if (points + commas == 0) {
-        each_cell([&count](const std::string& text) { count(decimal_sign_in(text)); });
-    }
-    // A slip of the keyboard or two do not make the sign of a table open.
-    constexpr std::size_t k_few = 8;
-    if (!open && points > k_few * commas) {
-        return DecimalSign::point;
-    }
-    if (!open && commas > k_few * points) {
-        return DecimalSign::comma;
-    }
-    return points + commas == 0 && !open && workbook.csv_separator == ',' ? DecimalSign::point : DecimalSign::open;
-}
-
-/// Without the signs that set thousands apart: on a page in another language "2.440" would be another number.
-std::string without_groups(const StatedNumber& number) {
-    const std::size_t decimal = number.half_step > 0.0 ? number.text.find_last_of(".,") : std::string::npos;
-    std::string plain;
-    for (std::size_t i = 0; i < number.text.size(); ++i) {
-        const char c = number.text[i];
-        if ((c != '.' && c != ',' && c != '\'') || i == decimal) {
-            plain += c;
-        }
-    }
-    return plain;
-}
-
-/// The cells of a sheet row by row, with the values that formulas give.
-class SheetView {
-public:
-    /// \param sign  of the file
-    SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet,
-              DecimalSign sign)
-        : workbook_(workbook),
-          evaluation_(evaluation),
-          sheet_(sheet),
-          sign_(sign),
-          name_(workbook::quoted_sheet(workbook.sheets[sheet].name)) {
-        for (const Cell& cell : workbook.sheets[sheet].cells) {
-            rows_[cell.address.row].push_back(&cell);
-        }
-    }
-
-    [[nodiscard]] const std::map<std::uint32_t, std::vector<const Cell*>>& rows() const { return rows_; }
-    [[nodiscard]] std::string place(const CellAddress& address) const {
-        return name_ + "!" + workbook::a1_text(address);
-    }
-    /// What the cell shows: of a formula the value that we computed, where we did.
-    [[nodiscard]] CellValue value(const Cell& cell) const {
-        if (cell.formula_kind != workbook::FormulaKind::none) {
-            const workbook::EvaluatedCell* evaluated =
-                workbook::find_evaluated(evaluation_, workbook_, sheet_, cell.address);
-            if (evaluated != nullptr && evaluated->state != workbook::EvaluationState::not_evaluated) {
-                return evaluated->value;
-            }
-        }
-        return cell.value;
-    }
-    /// A number of a cell. One that a formula gave is exact; one that was typed has the digits that were typed, of
-    /// which a spreadsheet computes as if they were exact.
-    [[nodiscard]] std::optional<StatedNumber> number(const Cell& cell) const {
-        std::optional<NumberWithUnit> read = number_with_unit(cell);
-        return read && !read->is_open && (read->unit.empty() || read->unit == "%")
-                   ? std::optional(std::move(read->number))
-                   : std::nullopt;
-    }
-    /// The number that a cell begins with, and the unit behind it: "0.36 µm" and "5 %".
-    [[nodiscard]] std::optional<NumberWithUnit> number_with_unit(const Cell& cell) const {
-        const CellValue held = value(cell);
-        const bool is_csv = workbook_.csv_separator != '\0';
-        if (held.kind == CellKind::text || (held.kind == CellKind::number && is_csv)) {
-            std::optional<LeadingNumber> leading =
-                read_leading_number(held.text, place(cell.address), Percent::unit, sign_);
-            if (leading) {
-                leading->number.text = without_groups(leading->number);
-            }
-            return leading ? std::optional(NumberWithUnit{.number = std::move(leading->number),
-                                                          .unit = unit_in_rest(leading->rest),
-                                                          .is_open = leading->is_open})
-                           : std::nullopt;
-        }
-        if (held.kind != CellKind::number) {
-            return std::nullopt;
-        }
-        NumberWithUnit read{.number = exact_number(held.number, place(cell.address)), .unit = ""};
-        if (cell.formula_kind == workbook::FormulaKind::none && !has_formulas()) {
-            if (std::optional<StatedNumber> printed = read_number(held.text, place(cell.address))) {
-                printed->value = held.number;
-                // A workbook stores a point, whatever sign it shows.
-                if (sign_ == DecimalSign::comma) {
-                    std::replace(printed->text.begin(), printed->text.end(), '.', ',');
-                }
-                read.number = std::move(*printed);
-            }
-        }
-        return read;
-    }
-    /// A number that its cell shows in percent, as it is shown: 0.0014 is 0.14 %.
-    [[nodiscard]] NumberWithUnit as_shown(NumberWithUnit read, const Cell& cell) const {
-        const std::vector<std::string>& formats = workbook_.number_formats;
-        const bool in_percent = value(cell).kind == CellKind::number && cell.number_format < formats.size() &&
-                                formats[cell.number_format].ends_with('%');
-        return in_percent
-                   ? NumberWithUnit{.number = exact_number(100.0 * read.number.value, read.number.place), .unit = "%"}
-                   : std::move(read);
-    }
-    [[nodiscard]] DecimalSign decimal_sign() const { return sign_; }
-    [[nodiscard]] std::string words(const Cell& cell) const {
-        const CellValue held = value(cell);
-        if (held.kind == CellKind::text) {
-            return held.text;
-        }
-        return held.kind == CellKind::number ? (held.text.empty() ? text::shortest(held.number) : held.text) : "";
-    }
-    /// A table of values alone was computed elsewhere and rounded.
-    [[nodiscard]] bool has_formulas() const { return !evaluation_.cells.empty(); }
-
-private:
-    const workbook::Workbook& workbook_;
-    const workbook::Evaluation& evaluation_;
-    std::size_t sheet_;
-    DecimalSign sign_;
-    std::string name_;  ///< of the sheet, as formulas write it
-    std::map<std::uint32_t, std::vector<const Cell*>> rows_;
-};
-
-/// Which column of the sheet has which meaning, and where the units of its numbers stand.
-struct Heads {
-    std::map<Column, std::uint32_t> columns;
-    std::map<Column, std::string> units;             ///< that heads state: "u [µm]"
-    std::map<Column, std::uint32_t> unit_columns;    ///< of columns that have one of their own, to their right
-    std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
-    std::vector<const Cell*> second;                 ///< heads of columns of numbers whose meaning another one has
-};
-
-bool has_numbers_with_units(Column column) {
-    return column == Column::estimate || column == Column::stated || column == Column::u ||
-           column == Column::sensitivity || column == Column::contribution;
-}
-
-std::optional<Heads> heads_of(const SheetView& sheet, const std::vector<const Cell*>& row) {
-    Heads heads;
-    std::vector<std::pair<std::optional<Column>, std::uint32_t>> owned;  // unit columns, and the column before each
-    std::optional<Column> before;
-    for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        if (held.kind != CellKind::text) {
-            continue;
-        }
-        const std::optional<Column> column = column_of(held.text);
-        if (!column) {
-            before.reset();
-            continue;
-        }
-        if (*column == Column::unit) {
-            owned.emplace_back(before, cell->address.column);
-        }
-        if (heads.columns.emplace(*column, cell->address.column).second) {
-            heads.units[*column] = unit_in_head(held.text);
-            heads.all_units[cell->address.column] = heads.units[*column];
-        } else if (has_numbers_with_units(*column) || *column == Column::divisor || *column == Column::nu) {
-            heads.second.push_back(cell);
-        }
-        before = column;
-    }
-    // One column of units holds those of the rows; of several, each holds those of the numbers before it.
-    for (const auto& [column, position] : owned) {
-        if (owned.size() > 1 && column && has_numbers_with_units(*column)) {
-            heads.unit_columns.emplace(*column, position);
-        }
-    }
-    const auto has = [&heads](Column column) { return heads.columns.contains(column); };
-    const bool uncertainty = has(Column::u) || has(Column::stated) || has(Column::contribution);
-    return has(Column::quantity) && uncertainty && heads.columns.size() >= 3 ? std::optional(heads) : std::nullopt;
-}
-
-using Rows = std::map<std::uint32_t, std::vector<const Cell*>>;
-
-/// Where the tables beside each other begin in a row of heads, which is where its quantities are headed again: the columns of
-/// all but the first. Empty where there is one table, or none.
-std::vector<std::uint32_t> further_tables(const SheetView& sheet, const std::vector<const Cell*>& row) {
-    std::vector<std::uint32_t> columns;
-    auto begin = row.begin();
-    for (auto at = row.begin(); at != row.end(); ++at) {
-        const CellValue held = sheet.value(**at);
-        const bool is_quantity = held.kind == CellKind::text && column_of(held.text) == Column::quantity;
-        // A symbol beside a description are two columns of one table: what stands on each side has to be heads by itself.
-        if (is_quantity && heads_of(sheet, {begin, at}) && heads_of(sheet, {at, row.end()})) {
-            columns.push_back((*at)->address.column);
-            begin = at;
-        }
-    }
-    return columns;
-}
-
-/// The rows of a sheet in parts that are read one after the other: all of them, unless tables stand beside each other. Then
-/// each table has its own columns, from the statements above it to those below.
-std::vector<Rows> parts_of(const SheetView& sheet) {
-    const Rows& rows = sheet.rows();
-    std::vector<std::uint32_t> heads;  // rows
-    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
-    for (const auto& [number, row] : rows) {
-        if (heads_of(sheet, row)) {
-            heads.push_back(number);
-            if (std::vector<std::uint32_t> columns = further_tables(sheet, row); !columns.empty()) {
-                beside.emplace(number, std::move(columns));
-            }
-        }
-    }
-    if (beside.empty()) {
-        return {rows};
-    }
-    std::vector<Rows> parts;
-    for (std::size_t i = 0; i < heads.size(); ++i) {
-        const auto first = i == 0 ? rows.begin() : rows.find(heads[i]);
-        const auto last = i + 1 == heads.size() ? rows.end() : rows.find(heads[i + 1]);
-        const auto columns = beside.find(heads[i]);
-        const std::vector<std::uint32_t> starts =
-            columns == beside.end() ? std::vector<std::uint32_t>() : columns->second;
-        std::vector<Rows> tables(starts.size() + 1);
-        for (auto at = first; at != last; ++at) {
-            for (const Cell* cell : at->second) {
-                const auto start = std::upper_bound(starts.begin(), starts.end(), cell->address.column);
-                tables[static_cast<std::size_t>(start - starts.begin())][at->first].push_back(cell);
-            }
-        }
-        for (Rows& table : tables) {
-            parts.push_back(std::move(table));
-        }
-    }
-    return parts;
-}
-
-const Cell* cell_in(const std::vector<const Cell*>& row, std::uint32_t column) {
-    const auto found =
-        std::find_if(row.begin(), row.end(), [column](const Cell* cell) { return cell->address.column == column; });
-    return found == row.end() ? nullptr : *found;
-}
-
-Sentence open_sign(const std::string& place, const std::string& held) {
-    return say(
-        "{cell}: {text} may be set apart in thousands or have three decimals, and no other number of the file shows "
-        "which; the number is not used; what is meant?",
-        place, text::in_quotes(held));
-}
 
 /// One row of a table being read.
 class RowReader {
@@ -326,6 +40,9 @@ public:
         AuditedRow read;
         read.decimal_sign = sheet_.decimal_sign();
         read.quantity = words(Column::quantity);
+        if (const Cell* cell = heads_.description ? cell_in(row_, *heads_.description) : nullptr) {
+            read.description = sheet_.words(*cell);
+        }
         read.source = words(Column::source);
         read.comment = words(Column::comment);
         if (const Cell* cell = at(Column::quantity)) {
@@ -389,9 +106,11 @@ private:
         }
         std::optional<NumberWithUnit> read = sheet_.number_with_unit(*cell);
         const std::string held = sheet_.words(*cell);
-        const bool says_nothing = held.empty() || held == "-" || held == "–" || held == "—";
+        if (!read && column == Column::nu) {  // "> 100" are 100 at least
+            read = least_in(held, *cell);
+        }
         if (!read) {
-            if (!says_nothing) {
+            if (!says_nothing(held)) {
                 not_read_.push_back(say("{cell}: {text} is no number; what is meant?", sheet_.place(cell->address),
                                         text::in_quotes(held)));
             }
@@ -416,6 +135,15 @@ private:
         return std::move(read->number);
     }
 
+    [[nodiscard]] std::optional<NumberWithUnit> least_in(std::string_view held, const Cell& cell) const {
+        for (const std::string_view sign : {">=", ">", "≥"}) {
+            if (held.starts_with(sign)) {
+                return sheet_.number_in_text(held.substr(sign.size()), cell);
+            }
+        }
+        return std::nullopt;
+    }
+
     [[nodiscard]] std::string unit_of_column(Column column) const {
         const auto position = heads_.unit_columns.find(column);
         const Cell* cell = position == heads_.unit_columns.end() ? nullptr : cell_in(row_, position->second);
@@ -429,286 +157,19 @@ private:
     bool has_open_ = false;
 };
 
-/// A number that a statement gives.
-struct StatedResult {
-    StatedNumber number;
-    std::string unit;          ///< "" where none stands beside it
-    std::uint32_t column = 0;  ///< where the number stands
-};
-
-/// Statements on a result, from the rows above and below its table.
-struct Statements {
-    std::map<Statement, StatedResult> numbers;
-    std::map<Statement, std::string> words;
-};
-
-/// Whether a statement is a number with the dimension of the result.
-bool is_of_result(Statement statement) {
-    switch (statement) {
-        case Statement::value:
-        case Statement::u_c:
-        case Statement::U:
-        case Statement::reported_U:
-        case Statement::capability:
-        case Statement::lower_limit:
-        case Statement::upper_limit:
-        case Statement::tolerance:
-        case Statement::nominal:
-        case Statement::reference_value:
-        case Statement::reference_U:
-            return true;
-        default:
-            return false;
-    }
-}
-
-/// Whether a statement is made in words: "100 mm gauge block" is a name, and no number.
-bool is_in_words(Statement statement) {
-    return statement == Statement::verdict || statement == Statement::decision_rule || statement == Statement::method ||
-           statement == Statement::measurand || statement == Statement::equation;
-}
-
-std::optional<Statement> take_statement(const SheetView& sheet, const std::vector<const Cell*>& row,
-                                        Statements& statements, std::vector<Sentence>& not_read) {
-    std::optional<Statement> statement;
-    std::size_t named = 0;
-    std::string name;
-    for (std::size_t i = 0; i < row.size() && !statement; ++i) {
-        const CellValue held = sheet.value(*row[i]);
-        if (held.kind != CellKind::text) {
-            return std::nullopt;  // a name stands before what it names
-        }
-        statement = statement_of(held.text);
-        named = i;
-        name = held.text;
-        if (!statement && i > 0) {
-            return std::nullopt;
-        }
-    }
-    if (!statement) {
-        return std::nullopt;
-    }
-    const bool has_unit = is_of_result(*statement);
-    const auto follows_number = [&](std::size_t i) {
-        return i + 1 < row.size() && sheet.number(*row[i + 1]).has_value();
-    };
-    std::string of_quantity, of_cell, words;
-    std::optional<StatedResult> result;
-    for (std::size_t i = named + 1; i < row.size(); ++i) {
-        const std::string held = sheet.words(*row[i]);
-        if (held == "1" && follows_number(i)) {
-            of_quantity = "1";  // of a quantity without dimension
-            continue;
-        }
-        std::optional<NumberWithUnit> number;
-        if (!result && !is_in_words(*statement)) {
-            number = sheet.number_with_unit(*row[i]);
-        }
-        if (number && number->is_open) {
-            not_read.push_back(open_sign(sheet.place(row[i]->address), held));
-            continue;
-        }
-        if (number && has_unit) {
-            number = sheet.as_shown(std::move(*number), *row[i]);
-        } else if (number && *statement != Statement::coverage_probability) {
-            number = NumberWithUnit{.number = without_dimension(std::move(*number)), .unit = ""};
-        }
-        if (number) {
-            of_cell = number->unit;
-            result = StatedResult{.number = std::move(number->number), .unit = "", .column = row[i]->address.column};
-            continue;
-        }
-        if (held.empty() || (sheet.number(*row[i]) && !is_in_words(*statement))) {
-            continue;
-        }
-        // The unit is the first word that is one, or the first word.
-        if (words.empty() || (has_unit && !known_unit(words) && known_unit(held))) {
-            words = held;
-        }
-    }
-    if (result) {
-        for (const std::string& unit : {of_cell, has_unit ? words : std::string(), of_quantity, unit_in_head(name)}) {
-            result->unit = result->unit.empty() ? unit : result->unit;
-        }
-        statements.numbers.emplace(*statement, std::move(*result));
-    }
-    if (!words.empty()) {
-        statements.words.emplace(*statement, std::move(words));
-    }
-    return statement;
-}
-
-std::string verdict_in_our_words(const std::string& verdict) {
-    const std::string lower = text::in_small_letters(verdict);
-    const auto is_one_of = [&lower](std::initializer_list<std::string_view> words) {
-        return std::find(words.begin(), words.end(), lower) != words.end();
-    };
-    if (is_one_of({"pass", "passed", "conform", "conforms", "in tolerance", "ok", "erfüllt", "bestanden", "konform"})) {
-        return "pass";
-    }
-    if (is_one_of({"fail", "failed", "does not conform", "out of tolerance", "nicht erfüllt", "nicht konform"})) {
-        return "fail";
-    }
-    return verdict;
-}
-
-/// How the table comes from u_c to U: by the k that it claims. Whether that is t_p of its ν_eff, note_unexplained() sees.
-void state_coverage(AuditedBudget& budget) {
-    const Claims& claims = budget.claims;
-    if (claims.coverage_probability) {
-        budget.coverage.probability = *claims.coverage_probability;
-    }
-    std::optional<double> k;
-    if (claims.k) {
-        k = claims.k->value;
-    } else if (claims.U && claims.u_c && claims.u_c->value > 0.0) {
-        k = claims.U->value / claims.u_c->value;
-    }
-    if (!k || !(*k > 0.0)) {
-        return;
-    }
-    budget.coverage.k = *k;
-    budget.coverage.kind = CoverageRule::Kind::fixed;
-}
-
-std::string words_of(const Statements& statements, Statement statement) {
-    const auto found = statements.words.find(statement);
-    return found == statements.words.end() ? "" : found->second;
-}
-
-/// The numbers of statements, in the unit of the result.
-class ResultNumbers {
-public:
-    /// \param of_contributions  the unit that contributions state
-    ResultNumbers(const Statements& statements, const std::string& of_contributions, std::vector<Sentence>& not_read)
-        : statements_(statements), not_read_(not_read) {
-        const std::string of_value = own(Statement::value);
-        for (const std::string& unit :
-             {own(Statement::reported_U), own(Statement::U), own(Statement::u_c), of_contributions, of_value,
-              own(Statement::capability), own(Statement::lower_limit), own(Statement::upper_limit),
-              own(Statement::tolerance), own(Statement::reference_value)}) {
-            unit_ = unit_.empty() ? unit : unit_;
-        }
-        unit_ = shared_unit(unit_, of_value);
-        const std::optional<double> factor = factor_between(of_value, unit_);
-        has_two_units_ = !of_value.empty() && factor != 1.0;
-    }
-
-    [[nodiscard]] const std::string& unit() const { return unit_; }
-    /// Nothing where the statement is not there, or its unit cannot be turned into that of the result; then it is said.
-    [[nodiscard]] std::optional<StatedNumber> number(Statement statement) {
-        const auto found = statements_.numbers.find(statement);
-        if (found == statements_.numbers.end()) {
-            return std::nullopt;
-        }
-        StatedNumber number = found->second.number;
-        if (!is_of_result(statement)) {
-            return number;
-        }
-        const std::string& from = found->second.unit;
-        const bool is_uncertainty = statement == Statement::U || statement == Statement::reported_U ||
-                                    statement == Statement::u_c || statement == Statement::value;
-        if (from.empty() && has_two_units_ && !is_uncertainty && number.value != 0.0) {
-            not_read_.push_back(
-                say("{cell}: no unit is stated, and value and U are in {value} and {unit}; the number is not "
-                    "used; in which unit is it?",
-                    number.place, text::in_quotes(own(Statement::value)), text::in_quotes(unit_)));
-            return std::nullopt;
-        }
-        const std::optional<double> factor = factor_between(from, unit_);
-        if (!factor) {
-            not_read_.push_back(
-                say("{cell}: a number in {from} beside a result in {to}; it is not used, as one unit cannot "
-                    "be turned into the other",
-                    number.place, text::in_quotes(from), text::in_quotes(unit_)));
-            return std::nullopt;
-        }
-        if (*factor != 1.0 && statement != Statement::value) {
-            number.half_step = printed_half_step(number);
-        }
-        convert(number, *factor);
-        return number;
-    }
-    [[nodiscard]] std::optional<double> value(Statement statement) {
-        const std::optional<StatedNumber> stated = number(statement);
-        return stated ? std::optional(stated->value) : std::nullopt;
-    }
-
-private:
-    [[nodiscard]] std::string own(Statement statement) const {
-        const auto found = statements_.numbers.find(statement);
-        return found == statements_.numbers.end() ? "" : found->second.unit;
-    }
-
-    const Statements& statements_;
-    std::vector<Sentence>& not_read_;
-    std::string unit_;
-    bool has_two_units_ = false;  ///< the value is in another unit than its uncertainty
-};
-
-void state_limits(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers) {
-    budget.limits.lower = numbers.value(Statement::lower_limit);
-    budget.limits.upper = numbers.value(Statement::upper_limit);
-    const std::optional<double> tolerance = numbers.value(Statement::tolerance);
-    const std::optional<double> nominal = numbers.value(Statement::nominal);
-    // A nominal value that could not be read is not 0.
-    const bool has_nominal = nominal || !statements.numbers.contains(Statement::nominal);
-    if (tolerance && has_nominal && !budget.limits.lower && !budget.limits.upper) {
-        budget.limits.lower = nominal.value_or(0.0) - std::abs(*tolerance);
-        budget.limits.upper = nominal.value_or(0.0) + std::abs(*tolerance);
-    }
-    const std::string rule = words_of(statements, Statement::decision_rule);
-    budget.rule = gum::decision_rule_from_id(rule.substr(0, 5));
-}
-
-void state_claims(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers) {
-    Claims& claims = budget.claims;
-    claims.value = numbers.number(Statement::value);
-    claims.u_c = numbers.number(Statement::u_c);
-    claims.nu_eff = numbers.number(Statement::nu_eff);
-    claims.k = numbers.number(Statement::k);
-    claims.U = numbers.number(Statement::reported_U);
-    if (!claims.U) {
-        claims.U = numbers.number(Statement::U);
-    }
-    claims.coverage_probability = numbers.value(Statement::coverage_probability);
-    if (claims.coverage_probability && *claims.coverage_probability > 1.0) {
-        *claims.coverage_probability /= 100.0;  // "95" and "95 %"
-    }
-    claims.verdict = verdict_in_our_words(words_of(statements, Statement::verdict));
-    claims.en = numbers.number(Statement::en);
-    budget.value = claims.value ? std::optional(claims.value->value) : std::nullopt;
-    budget.unit = numbers.unit();
-    budget.equation = words_of(statements, Statement::equation);
-    budget.method = words_of(statements, Statement::method);
-    budget.capability = numbers.value(Statement::capability);
-    if (budget.capability && claims.U) {
-        budget.floor_applied = claims.U->value + claims.U->half_step >= *budget.capability;
-    }
-    const std::optional<double> reference = numbers.value(Statement::reference_value);
-    const std::optional<double> reference_U = numbers.value(Statement::reference_U);
-    if (reference && reference_U) {
-        budget.reference =
-            ComparedReference{.value = *reference, .expanded_uncertainty = *reference_U, .name = "reference value"};
-    }
-    state_limits(budget, statements, numbers);
-    if (const std::string measurand = words_of(statements, Statement::measurand); !measurand.empty()) {
-        budget.name = measurand;
-    }
-}
-
 /// Reads one sheet, or a part of it, from top to bottom.
 class TableReader {
 public:
     TableReader(const SheetView& sheet, std::string name, ForeignTables& tables)
         : sheet_(sheet), name_(std::move(name)), tables_(tables) {}
 
-    void read(const Rows& rows) {
+    void read(const SheetView::Rows& rows) {
         std::uint32_t last = 0;
         for (const auto& [number, row] : rows) {
             if (number > last + 2) {
-                in_rows_ = false;
+                in_rows_ = is_near_ = false;
             }
+            is_next_ = number == last + 1;
             last = number;
             if (tables_.budgets.size() >= k_most_tables) {
                 tables_.not_read.push_back(
@@ -735,13 +196,16 @@ private:
                         "meaning",
                         sheet_.place(cell->address), text::in_quotes(sheet_.words(*cell))));
             }
-            in_rows_ = true;
+            in_rows_ = is_near_ = true;
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
-        if (!is_row_of_numbers(row) && take_statement(sheet_, row, statements_, tables_.not_read)) {
+        if (!is_row(row) && take_line(row)) {
             in_rows_ = false;
             return;
+        }
+        if (heads_ && is_near_ && !in_rows_) {
+            note_line_behind(row);
         }
         if (!in_rows_ || !heads_ || is_too_long_) {
             return;
@@ -752,28 +216,175 @@ private:
         }
         RowUnits units;
         RowReader reader(sheet_, *heads_, row, tables_.not_read);
+        const std::size_t told = tables_.not_read.size();
         AuditedRow read = reader.read(units);
         is_unusable_ = is_unusable_ || reader.has_open_number();
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
+        } else if (tables_.not_read.size() == told && !is_constant(row)) {
+            note_unread(row);
         }
     }
 
-    /// Whether a line below heads has numbers in several of their columns: a quantity may be named "p" or "k", and what
-    /// states a result has one number.
-    [[nodiscard]] bool is_row_of_numbers(const std::vector<const Cell*>& row) const {
+    /// Whether a line below heads is a row of the table. A quantity may be named "p" or "k", and a line of a result may have several
+    /// numbers, each under its head: what is added up has a coefficient, or something that is divided.
+    [[nodiscard]] bool is_row(const SheetView::Row& row) {
         if (!in_rows_ || !heads_) {
             return false;
         }
-        std::size_t numbers = 0;
-        for (const Column column : {Column::estimate, Column::stated, Column::divisor, Column::u, Column::sensitivity,
-                                    Column::contribution, Column::nu}) {
-            const auto position = heads_->columns.find(column);
-            const Cell* cell = position == heads_->columns.end() ? nullptr : cell_in(row, position->second);
-            numbers += cell != nullptr && sheet_.number_with_unit(*cell) ? 1U : 0U;
+        const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        if (numbers.size() < 2) {
+            return false;
         }
-        return numbers > 1;
+        const std::optional<NamedLine> line = name_of_line(sheet_, row, &*heads_);
+        return !line || !(states_result(line->named, numbers) || is_number_with_one(sheet_, row, *line));
+    }
+    [[nodiscard]] bool states_result(const NamedStatement& named, const NumbersUnderHeads& numbers) {
+        const auto has = [&numbers](Column column) { return numbers.contains(column); };
+        const auto headed = [this](Column column) { return heads_->columns.contains(column); };
+        const bool has_amount = has(Column::u) || has(Column::contribution);
+        const bool has_amount_column = headed(Column::u) || headed(Column::contribution);
+        const bool is_divided = has(Column::stated) && has(Column::divisor) && (has_amount || !has_amount_column);
+        const bool adds = has(Column::sensitivity) || is_divided;
+        switch (named.statement) {
+            case Statement::U:
+            case Statement::reported_U:
+                if (named.may_be_quantity) {
+                    return has_amount && !adds && !has(Column::estimate) && !has(Column::stated) &&
+                           !(has(Column::u) && has(Column::contribution)) &&
+                           (has(Column::divisor) || (has(Column::contribution) && headed(Column::u)));
+                }
+                return !adds || is_sum(numbers, named.statement);
+            case Statement::u_c:
+                if (named.may_be_quantity) {
+                    return has(Column::contribution) && !has(Column::u) && !has(Column::estimate) && !adds &&
+                           (headed(Column::u) || headed(Column::stated));
+                }
+                return !adds || is_sum(numbers, named.statement);
+            case Statement::value:
+                return !named.may_be_quantity && !adds;
+            case Statement::nu_eff:
+                return !adds;
+            default:
+                return false;
+        }
+    }
+    /// Whether the number of a line that looks like a row is u_c, or U, of the rows above it.
+    [[nodiscard]] bool is_sum(const NumbersUnderHeads& numbers, Statement statement) {
+        // Each look adds up all rows; a table states few results.
+        constexpr std::size_t k_most_looks = 20;
+        if (budget_.rows.size() < 2 || ++looks_ > k_most_looks) {
+            return false;
+        }
+        const auto number = [&](Column column) -> std::optional<StatedResult> {
+            const auto found = numbers.find(column);
+            std::vector<Sentence> unused;
+            return found == numbers.end() ? std::nullopt : result_in(sheet_, *found->second, statement, unused);
+        };
+        const std::optional<StatedResult> divisor = number(Column::divisor);
+        for (const Column column : {Column::contribution, Column::u, Column::stated}) {
+            const std::optional<StatedResult> amount = number(column);
+            if (!amount || (statement != Statement::u_c && !divisor)) {
+                continue;
+            }
+            const std::optional<Interval> sum = sum_above(*amount);
+            const double k = statement == Statement::u_c ? 1.0 : divisor->number.value;
+            if (sum && k > 0.0 && seen(amount->number, k).meets(*sum)) {
+                return true;
+            }
+        }
+        return false;
+    }
+    /// A printed number over k, as wide as a laboratory may have rounded it: by a whole unit of its last digit.
+    [[nodiscard]] static Interval seen(const StatedNumber& number, double k) {
+        constexpr double k_of_digits = 1e-3;
+        const double half = 2.0 * printed_half_step(number) + k_of_digits * std::abs(number.value);
+        return {(std::abs(number.value) - half) / k, (std::abs(number.value) + half) / k};
+    }
+    /// The root of the sum of squares of the rows, in the unit of a number.
+    /// \param without_last  not of the last one
+    [[nodiscard]] std::optional<Interval> sum_above(const StatedResult& of, bool without_last = false) const {
+        std::string unit = of.unit;
+        if (const auto head = heads_->all_units.find(of.column); unit.empty() && head != heads_->all_units.end()) {
+            unit = head->second;
+        }
+        std::vector<AuditedRow> rows = budget_.rows;
+        std::vector<RowUnits> units = units_;
+        if (without_last) {
+            rows.pop_back();
+            units.pop_back();
+        }
+        std::vector<Sentence> unused;
+        if (rows.empty() || !settle_units(rows, units, unit, unused)) {
+            return std::nullopt;
+        }
+        double low = 0.0, high = 0.0;
+        for (AuditedRow& row : rows) {
+            settle_words(row);
+            const double c = std::abs(row.used_sensitivity);
+            const double least =
+                std::max(0.0, c - row.sensitivity_half_step) * std::max(0.0, row.used_u - row.u_half_step);
+            const double most = (c + row.sensitivity_half_step) * (row.used_u + row.u_half_step);
+            low += least * least;
+            high += most * most;
+        }
+        return Interval{std::sqrt(low), std::sqrt(high)};
+    }
+
+    /// Takes a line that states something. One that states the value may have its uncertainty beside it.
+    [[nodiscard]] bool take_line(const SheetView::Row& row) {
+        const Heads* heads = heads_ && is_near_ ? &*heads_ : nullptr;
+        const std::optional<Statement> statement = take_statement(sheet_, row, heads, statements_, tables_.not_read);
+        if (statement == Statement::value && heads != nullptr && !result_line_) {
+            const NumbersUnderHeads numbers = numbers_under(sheet_, *heads, row);
+            const bool has_amount = numbers.contains(Column::u) || numbers.contains(Column::contribution);
+            if (numbers.contains(Column::estimate) && has_amount) {
+                result_line_ = numbers;
+            }
+        }
+        return statement.has_value();
+    }
+
+    /// A line below a table that is no row of it and states nothing that is known.
+    void note_line_behind(const SheetView::Row& row) {
+        const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        const auto has = [&numbers](Column column) { return numbers.contains(column); };
+        const bool has_amount = has(Column::u) || has(Column::contribution) || has(Column::stated);
+        if (is_next_ && has_amount && (has(Column::sensitivity) || has(Column::divisor))) {
+            is_open_ = true;
+            tables_.not_read.push_back(
+                say("{cell}: a line like the rows of the table stands below a result; the table is not looked at; what "
+                    "is it "
+                    "of?",
+                    sheet_.place(row.front()->address)));
+            return;
+        }
+        note_unread(row);
+    }
+    /// Whether the only number of a line is an estimate: a constant has no uncertainty.
+    [[nodiscard]] bool is_constant(const SheetView::Row& row) const {
+        const auto numbers = std::count_if(row.begin(), row.end(), [this](const Cell* cell) {
+            const bool is_name = cell->address.column == heads_->columns.at(Column::quantity);
+            return !is_name && sheet_.number_with_unit(*cell).has_value() && sheet_.words(*cell) != "1";
+        });
+        return numbers == 1 && numbers_under(sheet_, *heads_, row).contains(Column::estimate);
+    }
+    /// Names a line with a number of which nothing is used, and the first of several together.
+    void note_unread(const SheetView::Row& row) {
+        const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
+            return sheet_.number_with_unit(*cell).has_value();
+        });
+        const std::uint32_t line = row.front()->address.row;
+        if (!has_number || sheet_.value(*row.front()).kind != CellKind::text) {
+            return;
+        }
+        if (!last_unread_ || line > *last_unread_ + 1) {
+            tables_.not_read.push_back(
+                say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used",
+                    sheet_.place(row.front()->address), text::in_quotes(sheet_.words(*row.front()))));
+        }
+        last_unread_ = line;
     }
 
     /// A row whose numbers could not be evaluated is still a row: its divisor and formulas are looked at.
@@ -795,6 +406,13 @@ private:
                     budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
+            settle_last_row();
+            settle_result_line();
+            if (is_open_) {
+                tables_.has_unusable = true;
+                clear();
+                return;
+            }
             settle_statements();
             if (is_unusable_) {
                 tables_.not_read.push_back(
@@ -828,8 +446,147 @@ private:
         units_ = {};
         statements_ = {};
         heads_.reset();
-        in_rows_ = false;
-        is_too_long_ = is_unusable_ = false;
+        in_rows_ = is_near_ = false;
+        is_too_long_ = is_unusable_ = is_open_ = false;
+        result_line_.reset();
+        last_unread_.reset();
+        looks_ = 0;
+    }
+
+    /// Takes a number for a statement that no other line has made.
+    void state(Statement statement, std::optional<StatedResult> result) {
+        if (result) {
+            statements_.numbers.emplace(statement, std::move(*result));
+        }
+    }
+    [[nodiscard]] std::optional<StatedNumber> stated(Statement statement) const {
+        const auto found = statements_.numbers.find(statement);
+        return found == statements_.numbers.end() ? std::nullopt : std::optional(found->second.number);
+    }
+
+    /// What stands beside the value of a result under u or the contributions: u_c, or U where k says so.
+    void settle_result_line() {
+        if (!result_line_) {
+            return;
+        }
+        const auto number = [&](Column column, Statement statement) -> std::optional<StatedResult> {
+            const auto found = result_line_->find(column);
+            std::vector<Sentence> unused;
+            return found == result_line_->end() ? std::nullopt : result_in(sheet_, *found->second, statement, unused);
+        };
+        std::optional<StatedResult> amount = number(Column::contribution, Statement::u_c);
+        amount = amount ? amount : number(Column::u, Statement::u_c);
+        const std::optional<Interval> sum = amount ? sum_above(*amount) : std::nullopt;
+        if (!sum) {
+            return;
+        }
+        const std::optional<StatedResult> divisor = number(Column::divisor, Statement::k);
+        const std::optional<StatedResult> last = number(Column::nu, Statement::k);
+        if (seen(amount->number, 1.0).meets(*sum)) {
+            state(Statement::u_c, std::move(amount));
+            state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
+            return;
+        }
+        const std::optional<StatedNumber> k = stated(Statement::k);
+        for (const std::optional<StatedNumber>& by : {divisor ? std::optional(divisor->number) : std::nullopt, k,
+                                                      last ? std::optional(last->number) : std::nullopt}) {
+            if (!by || !(by->value > 1.0) || !seen(amount->number, by->value).meets(*sum)) {
+                continue;
+            }
+            state(Statement::U, std::move(amount));
+            if (divisor && by->place == divisor->number.place) {
+                state(Statement::k, divisor);
+            } else if (last && by->place == last->number.place) {
+                state(Statement::k, last);
+            }
+            return;
+        }
+        constexpr double k_still_u_c = 1.6;  // no coverage factor is as small
+        if (amount->number.value < k_still_u_c * sum->high) {
+            state(Statement::u_c, std::move(amount));
+            state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
+            return;
+        }
+        is_open_ = true;
+        tables_.not_read.push_back(
+            say("{cell}: beside the value of the result stands {text}, which is neither u_c of the rows nor U with a k "
+                "that is stated; the table is not looked at; what is it?",
+                amount->number.place, text::in_quotes(amount->number.text)));
+    }
+
+    static bool has_columns_of_a_row(const AuditedRow& row) {
+        return row.stated || row.divisor || row.sensitivity || !row.shape_text.empty() || row.type_a;
+    }
+    /// Whether rows that add up to this have the u_c or the U that is stated; nothing where neither is.
+    [[nodiscard]] std::optional<bool> gives_statements(const Interval& sum) const {
+        if (const std::optional<StatedNumber> u_c = stated(Statement::u_c)) {
+            return seen(*u_c, 1.0).meets(sum);
+        }
+        const std::optional<StatedNumber> U = stated(Statement::U), k = stated(Statement::k);
+        if (U && k && k->value > 0.0) {
+            return seen(*U, k->value).meets(sum);
+        }
+        return std::nullopt;
+    }
+
+    /// The last row of a table may be its result: u_c under u or the contributions, without anything that is divided, a distribution
+    /// or a coefficient (the layout of EA-4/02, chapter 4 and its examples).
+    void settle_last_row() {
+        constexpr std::size_t k_least = 3;
+        if (budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back())) {
+            return;
+        }
+        const AuditedRow& last = budget_.rows.back();
+        const bool by_u = !last.contribution;
+        const std::optional<StatedNumber>& amount = by_u ? last.u : last.contribution;
+        if (!amount || (last.u && last.contribution && !seen(*last.u, 1.0).meets(seen(*last.contribution, 1.0)))) {
+            return;
+        }
+        const auto head = heads_->columns.find(by_u ? Column::u : Column::contribution);
+        const StatedResult result{
+            .number = *amount, .unit = by_u ? units_.back().u : units_.back().contribution, .column = head->second};
+        const std::optional<Interval> above = sum_above(result, true), all = sum_above(result);
+        if (!above || !all) {
+            return;
+        }
+        const bool is_distinct = std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
+                                             [](const AuditedRow& row) { return has_columns_of_a_row(row); });
+        const bool is_sum = seen(*amount, 1.0).meets(*above);
+        const std::optional<bool> with = gives_statements(*all), without = gives_statements(*above);
+        const bool is_stated = with.has_value();
+        if (is_stated && *with) {
+            return;
+        }
+        if (is_sum && (is_distinct || (is_stated && *without))) {
+            take_last_row(result);
+            return;
+        }
+        const bool has_u_c = statements_.numbers.contains(Statement::u_c);
+        const bool looks_like_result =
+            is_distinct && last.estimate && !has_u_c && !result_line_ && !(is_stated && *without);
+        if (is_sum || looks_like_result) {
+            is_open_ = true;
+            tables_.not_read.push_back(
+                say("{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
+                    "looked at; which one is it?",
+                    last.place, text::in_quotes(last.quantity)));
+        }
+    }
+    void take_last_row(const StatedResult& result) {
+        const AuditedRow last = budget_.rows.back();
+        const RowUnits units = units_.back();
+        budget_.rows.pop_back();
+        units_.pop_back();
+        state(Statement::u_c, result);
+        if (last.estimate) {
+            state(Statement::value,
+                  StatedResult{
+                      .number = *last.estimate, .unit = units.estimate, .column = heads_->columns[Column::estimate]});
+        }
+        if (last.nu) {
+            state(Statement::nu_eff,
+                  StatedResult{.number = *last.nu, .unit = "", .column = heads_->columns[Column::nu]});
+        }
     }
 
     /// Brings statements and rows to the units that an audit takes, and reads what the words of rows say in them.
@@ -844,15 +601,33 @@ private:
                 result.unit = of_head->second;
             }
         }
-        ResultNumbers numbers(statements_, of_contributions, tables_.not_read);
-        state_claims(budget_, statements_, numbers);
+        state_claims(budget_, statements_, of_contributions, one_of_rows(), tables_.not_read);
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
-            row.contributor = contributor_of(row.quantity, row.comment, row.source);
-            read_comment(row);
-            complete_row(row);
+            settle_words(row);
             note_row_facts(row);
+            if (row.source.empty() && row.origin == Origin::certificate) {
+                row.source = certificate_in(row.comment);
+            }
         }
+    }
+
+    static void settle_words(AuditedRow& row) {
+        row.contributor = contributor_of(name_in_words(row), row.comment, row.source);
+        read_comment(row);
+        complete_row(row);
+    }
+    /// "1" where all rows that are added as they are state it: the result is of dimension one then, and has no unit to show.
+    [[nodiscard]] std::string one_of_rows() const {
+        bool any = false;
+        for (const AuditedRow& row : budget_.rows) {
+            const bool as_it_is = !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
+            if (as_it_is && row.unit != "1" && row.unit != "-" && row.unit != "–") {
+                return "";
+            }
+            any = any || as_it_is;
+        }
+        return any ? "1" : "";
     }
 
     const SheetView& sheet_;
@@ -860,11 +635,17 @@ private:
     ForeignTables& tables_;
     std::optional<Heads> heads_;
     bool in_rows_ = false;
+    bool is_near_ = false;  ///< no two empty lines since the heads
+    bool is_next_ = false;  ///< no empty line before this one
+    bool is_open_ = false;  ///< nobody can know what the result is, and it was said
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;
     std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
+    std::optional<NumbersUnderHeads> result_line_;  ///< states the value, and more
+    std::size_t looks_ = 0;                         ///< at sums of the rows, for lines that look like rows
+    std::optional<std::uint32_t> last_unread_;      ///< line that was named as not read, or follows such
 };
 
 }  // namespace
@@ -879,7 +660,7 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         }
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
-        for (const Rows& rows : parts_of(sheet)) {
+        for (const SheetView::Rows& rows : parts_of(sheet)) {
             TableReader(sheet, name, tables).read(rows);
         }
     }

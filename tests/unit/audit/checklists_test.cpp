@@ -47,6 +47,60 @@ TEST(Checklists, know_their_method_by_its_title) {
     EXPECT_EQ(method_in_title("viscosity"), "");
 }
 
+// The law: one word of its own tells the method of a checklist, and no longer where another instrument is named by it.
+TEST(Checklists, are_not_of_other_instruments_with_a_word_of_theirs) {
+    for (const MethodChecklist& checklist : method_checklists()) {
+        for (const std::string_view word : checklist.words) {
+            std::string title(word.substr(word.starts_with('*') ? 1 : 0));
+            EXPECT_EQ(method_in_title(title), checklist.method) << title;
+            for (const std::string_view other : checklist.not_with) {
+                title = std::string(other.substr(other.starts_with('*') ? 1 : 0)) + " " + std::string(word);
+                EXPECT_NE(method_in_title(title), checklist.method) << title;
+            }
+        }
+    }
+    for (const char* const title : {"Sound level calibrator 94 dB",
+                                    "Vibration calibrator",
+                                    "Dry block calibrator",
+                                    "Torque transducer 100 N m",
+                                    "Drehmomentaufnehmer",
+                                    "Reference torque machine",
+                                    "Thermocouple type N at 600 °C",
+                                    "Digital thermometer with thermocouple type K",
+                                    "Thermoelement Typ K",
+                                    "Infrared radiation thermometer",
+                                    "Strahlungsthermometer",
+                                    "Liquid-in-glass thermometer",
+                                    "Flüssigkeits-Glasthermometer",
+                                    "Hardness of water, titration",
+                                    "Wasserhärte, Titration",
+                                    "Shore hardness durometer",
+                                    "Shore-Härteprüfmaschine",
+                                    "Dead weight tester",
+                                    "Kolbendruckwaage 5 MPa",
+                                    "Wasserwaage",
+                                    "Molecular weight by light scattering",
+                                    "Sphygmomanometer",
+                                    "Stage micrometer 1 mm",
+                                    "Volumetric flow meter",
+                                    "Drehmoment-Prüfmaschine"}) {
+        EXPECT_EQ(method_in_title(title), "") << title;
+    }
+    EXPECT_EQ(method_in_title("Multifunction calibrator, 10 V DC"), "multimeter");
+    EXPECT_EQ(method_in_title("Drehmomentschlüssel 200 N m"), "torque_wrench");
+    EXPECT_EQ(method_in_title("Setting torque wrench"), "torque_wrench");
+    EXPECT_EQ(method_in_title("Widerstandsthermometer im Flüssigkeitsbad"), "thermometer");
+}
+
+TEST(Checklists, look_at_the_description_beside_a_symbol) {
+    AuditedRow row;
+    row.quantity = "m";
+    const RequiredContributor weighing{"weighing (balance)", {}, {"balance", "weighing"}};
+    EXPECT_FALSE(stands_for(row, weighing));
+    row.description = "weighing, mass of the water";
+    EXPECT_TRUE(stands_for(row, weighing));
+}
+
 TEST(Checklists, name_a_method_in_words) {
     EXPECT_EQ(method_in_words("cmm_fixture"), "Measurement of a fixture by CMM");
     EXPECT_EQ(method_in_words("SOP 17"), "SOP 17");

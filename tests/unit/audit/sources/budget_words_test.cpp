@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace gumcert::audit {
 namespace {
 
@@ -50,6 +52,49 @@ TEST(StatementOf, KnowsTheRowsOfTheContractAndTheirSynonyms) {
 TEST(ColumnOf, KnowsShortFormsOfDistribution) {
     for (const char* head : {"prob. distribution", "probability dist.", "prob. dist."}) {
         EXPECT_EQ(column_of(head), Column::distribution) << head;
+    }
+}
+
+TEST(NamedStatement, HasWhatItsNameSaysBesideIt) {
+    const std::optional<NamedStatement> covered = named_statement("Expanded uncertainty (k = 2.08, p = 95.45 %)");
+    ASSERT_TRUE(covered);
+    EXPECT_EQ(covered->statement, Statement::U);
+    EXPECT_FALSE(covered->may_be_quantity);
+    EXPECT_EQ(coverage_in(covered->coverage).k.substr(0, 4), "2.08");
+    const std::optional<NamedStatement> assigned = named_statement("U = 0.096 mg");
+    ASSERT_TRUE(assigned);
+    EXPECT_EQ(assigned->statement, Statement::U);
+    EXPECT_EQ(assigned->assigned, "0.096 mg");
+    EXPECT_TRUE(named_statement("U")->may_be_quantity);
+    EXPECT_TRUE(named_statement("measured value")->may_be_quantity);
+    EXPECT_FALSE(named_statement("Messergebnis")->may_be_quantity);
+    EXPECT_FALSE(named_statement("U (k = 2)")->may_be_quantity);
+    EXPECT_EQ(named_statement("Kombinierte Standardunsicherheit")->statement, Statement::u_c);
+    EXPECT_FALSE(named_statement("calibration of the standard (k = 2)"));
+    EXPECT_FALSE(named_statement("uncertainty of the weighing, 95 %"));
+}
+
+TEST(CoverageIn, KnowsKAndPHoweverTheyAreWritten) {
+    for (const char* const text : {"k = 2", "(k=2)", "Normal (k = 2)", "coverage factor of 2",
+                                   "Erweiterungsfaktor k = 2", "k95 = 2", "U with k = 2"}) {
+        EXPECT_EQ(coverage_in(text).k.substr(0, 1), "2") << text;
+    }
+    for (const char* const text : {"95 %", "p = 95 %", "k = 2, 95%", "0.95 of it: p = 0.95"}) {
+        ASSERT_TRUE(coverage_in(text).p) << text;
+        EXPECT_NEAR(*coverage_in(text).p, 0.95, 1e-12) << text;
+    }
+    EXPECT_NEAR(*coverage_in("95,45 %").p, 0.9545, 1e-12);
+    for (const char* const text : {"", "Normal", "0.5 % of the reading", "kPa 2", "100 %", "risk 2", "u = 2 mm"}) {
+        EXPECT_FALSE(coverage_in(text).says_any()) << text;
+    }
+}
+
+TEST(CertificateIn, IsNamedByItsNumber) {
+    EXPECT_EQ(certificate_in("U = 1.5 µV, k = 2; certificate 91-E; 39 µV/K"), "certificate 91-E");
+    EXPECT_EQ(certificate_in("Kalibrierschein 4711-D-K-2025"), "Kalibrierschein 4711-D-K-2025");
+    EXPECT_EQ(certificate_in("cert. No. 12, 2024"), "certificate No. 12");
+    for (const char* const text : {"", "certificate", "certificate of the maker, 2024", "see the certificate"}) {
+        EXPECT_EQ(certificate_in(text), "") << text;
     }
 }
 

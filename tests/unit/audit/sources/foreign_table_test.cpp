@@ -294,6 +294,47 @@ TEST(BudgetsIn, TakesANameForWordsThatBeginsWithANumber) {
     EXPECT_TRUE(tables.not_read.empty());
 }
 
+TEST(BudgetsIn, ReadsADescriptionBesideASymbol) {
+    for (const char* const heads : {"symbol,description", "description,symbol"}) {
+        const ForeignTables tables =
+            tables_of(std::string(heads) + ",unit,u,sensitivity\n" +
+                      (heads[0] == 's' ? "ev,evaporation" : "evaporation,ev") + ",ml,0.1,1\n" +
+                      (heads[0] == 's' ? "dr,drift of the reference standard" : "drift of the reference standard,dr") +
+                      ",ml,0.1,1\nU,,,0.3,ml\n");
+        ASSERT_EQ(tables.budgets.size(), 1U) << heads;
+        ASSERT_EQ(tables.budgets[0].rows.size(), 2U) << heads;
+        EXPECT_EQ(tables.budgets[0].rows[1].contributor, Contributor::reference_drift) << heads;
+        EXPECT_EQ(tables.budgets[0].rows[0].quantity + tables.budgets[0].rows[0].description,
+                  heads[0] == 's' ? "evevaporation" : "evaporationev");
+    }
+}
+
+TEST(BudgetsIn, ReadsDegreesOfFreedomThatAreALeast) {
+    const ForeignTables tables = tables_of(
+        "quantity,unit,type,u,sensitivity,nu\na,dB,A,0.03,1,>100\nb,dB,A,0.04,1,≥ "
+        "50\nc,dB,B,0.02,1,n/a\nU,,,,0.11,dB\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    EXPECT_TRUE(tables.not_read.empty());
+    EXPECT_EQ(tables.budgets[0].rows[0].used_nu, 100.0);
+    EXPECT_EQ(tables.budgets[0].rows[1].used_nu, 50.0);
+    EXPECT_TRUE(std::isinf(tables.budgets[0].rows[2].used_nu));
+}
+
+TEST(BudgetsIn, TakesACertificateInTheCommentForTheSource) {
+    const ForeignTables tables = tables_of(
+        "quantity,unit,U or a,divisor,u,sensitivity,comment\n"
+        "\"voltmeter, standard\",µV,1.5,2,0.75,1,\"U = 1.5 µV, k = 2; certificate 91-E; 10.2 µV/K\"\n"
+        "\"voltmeter, device\",µV,1.5,2,0.75,1,\"U = 1.5 µV, k = 2; certificate 91-E; 39 µV/K\"\n"
+        "drift,µV,0.3,√3,0.173,1,±0.3 µV\n"
+        "U,µV,2.1\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const std::vector<AuditedRow>& rows = tables.budgets[0].rows;
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[0].source, "certificate 91-E");
+    EXPECT_EQ(rows[0].source, rows[1].source);
+    EXPECT_EQ(rows[2].source, "");
+}
+
 TEST(BudgetsIn, NamesAColumnThatIsNotRead) {
     const ForeignTables tables = tables_of(
         "symbol,description,unit,u,u(xi),sensitivity\na,length,mm,0.1,0.5,1\nb,form,mm,0.2,0.5,1\nU,0.45,mm\n");

@@ -1,0 +1,175 @@
+#include "audit/sources/sheet_view.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "audit/sources/table_units.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
+
+namespace gumcert::audit {
+namespace {
+
+using workbook::Cell;
+using workbook::CellKind;
+using workbook::CellValue;
+
+/// Without the signs that set thousands apart: on a page in another language "2.440" would be another number.
+std::string without_groups(const StatedNumber& number) {
+    const std::size_t decimal = number.half_step > 0.0 ? number.text.find_last_of(".,") : std::string::npos;
+    std::string plain;
+    for (std::size_t i = 0; i < number.text.size(); ++i) {
+        const char c = number.text[i];
+        if ((c != '.' && c != ',' && c != '\'') || i == decimal) {
+            plain += c;
+        }
+    }
+    return plain;
+}
+
+}  // namespace
+
+StatedNumber without_dimension(NumberWithUnit read) {
+    if (read.unit == "%") {
+        convert(read.number, 0.01);
+    }
+    return std::move(read.number);
+}
+
+DecimalSign decimal_sign_of(const workbook::Workbook& workbook) {
+    std::size_t points = 0, commas = 0;
+    bool open = false;
+    const auto count = [&](DecimalSign shown) {
+        points += shown == DecimalSign::point ? 1U : 0U;
+        commas += shown == DecimalSign::comma ? 1U : 0U;
+        open = open || shown == DecimalSign::open;
+    };
+    const auto each_cell = [&workbook](const auto& look) {
+        for (const workbook::Sheet& sheet : workbook.sheets) {
+            for (const Cell& cell : sheet.cells) {
+                const bool is_text = cell.value.kind == CellKind::text ||
+                                     (cell.value.kind == CellKind::number && workbook.csv_separator != '\0');
+                if (is_text && sheet.state == workbook::SheetState::visible) {
+                    look(cell.value.text);
+                }
+            }
+        }
+    };
+    each_cell([&count](const std::string& text) {
+        const std::optional<LeadingNumber> number = read_leading_number(text, "", Percent::unit);
+        const bool is_number = number && (number->rest.empty() || known_unit(unit_in_rest(number->rest)));
+        count(is_number ? number->shows : DecimalSign::each);
+    });
+    if (points + commas == 0) {
+        each_cell([&count](const std::string& text) { count(decimal_sign_in(text)); });
+    }
+    // A slip of the keyboard or two do not make the sign of a table open.
+    constexpr std::size_t k_few = 8;
+    if (!open && points > k_few * commas) {
+        return DecimalSign::point;
+    }
+    if (!open && commas > k_few * points) {
+        return DecimalSign::comma;
+    }
+    return points + commas == 0 && !open && workbook.csv_separator == ',' ? DecimalSign::point : DecimalSign::open;
+}
+
+SheetView::SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet,
+                     DecimalSign sign)
+    : workbook_(workbook),
+      evaluation_(evaluation),
+      sheet_(sheet),
+      sign_(sign),
+      name_(workbook::quoted_sheet(workbook.sheets[sheet].name)) {
+    for (const Cell& cell : workbook.sheets[sheet].cells) {
+        rows_[cell.address.row].push_back(&cell);
+    }
+}
+
+CellValue SheetView::value(const Cell& cell) const {
+    if (cell.formula_kind != workbook::FormulaKind::none) {
+        const workbook::EvaluatedCell* evaluated =
+            workbook::find_evaluated(evaluation_, workbook_, sheet_, cell.address);
+        if (evaluated != nullptr && evaluated->state != workbook::EvaluationState::not_evaluated) {
+            return evaluated->value;
+        }
+    }
+    return cell.value;
+}
+
+std::optional<StatedNumber> SheetView::number(const Cell& cell) const {
+    std::optional<NumberWithUnit> read = number_with_unit(cell);
+    return read && !read->is_open && (read->unit.empty() || read->unit == "%") ? std::optional(std::move(read->number))
+                                                                               : std::nullopt;
+}
+
+std::optional<NumberWithUnit> SheetView::number_in_text(std::string_view text, const Cell& cell) const {
+    std::optional<LeadingNumber> leading = read_leading_number(text, place(cell.address), Percent::unit, sign_);
+    if (!leading) {
+        return std::nullopt;
+    }
+    leading->number.text = without_groups(leading->number);
+    return NumberWithUnit{
+        .number = std::move(leading->number), .unit = unit_in_rest(leading->rest), .is_open = leading->is_open};
+}
+
+std::optional<NumberWithUnit> SheetView::number_with_unit(const Cell& cell) const {
+    const CellValue held = value(cell);
+    const bool is_csv = workbook_.csv_separator != '\0';
+    if (held.kind == CellKind::text || (held.kind == CellKind::number && is_csv)) {
+        return number_in_text(held.text, cell);
+    }
+    if (held.kind != CellKind::number) {
+        return std::nullopt;
+    }
+    NumberWithUnit read{.number = exact_number(held.number, place(cell.address)), .unit = ""};
+    if (cell.formula_kind == workbook::FormulaKind::none && !has_formulas()) {
+        if (std::optional<StatedNumber> printed = read_number(held.text, place(cell.address))) {
+            printed->value = held.number;
+            // A workbook stores a point, whatever sign it shows.
+            if (sign_ == DecimalSign::comma) {
+                std::replace(printed->text.begin(), printed->text.end(), '.', ',');
+            }
+            read.number = std::move(*printed);
+        }
+    }
+    return read;
+}
+
+NumberWithUnit SheetView::as_shown(NumberWithUnit read, const Cell& cell) const {
+    const std::vector<std::string>& formats = workbook_.number_formats;
+    const bool in_percent = value(cell).kind == CellKind::number && cell.number_format < formats.size() &&
+                            formats[cell.number_format].ends_with('%');
+    return in_percent
+               ? NumberWithUnit{.number = exact_number(100.0 * read.number.value, read.number.place), .unit = "%"}
+               : std::move(read);
+}
+
+std::string SheetView::words(const Cell& cell) const {
+    const CellValue held = value(cell);
+    if (held.kind == CellKind::text) {
+        return held.text;
+    }
+    return held.kind == CellKind::number ? (held.text.empty() ? text::shortest(held.number) : held.text) : "";
+}
+
+const Cell* cell_in(const SheetView::Row& row, std::uint32_t column) {
+    const auto found =
+        std::find_if(row.begin(), row.end(), [column](const Cell* cell) { return cell->address.column == column; });
+    return found == row.end() ? nullptr : *found;
+}
+
+bool says_nothing(std::string_view text) {
+    constexpr std::string_view k_none[] = {"", "-", "–", "—", "n/a", "N/A", "n.a.", "k. A.", "k.A."};
+    return std::find(std::begin(k_none), std::end(k_none), text) != std::end(k_none);
+}
+
+Sentence open_sign(const std::string& place, const std::string& held) {
+    return say(
+        "{cell}: {text} may be set apart in thousands or have three decimals, and no other number of the file shows "
+        "which; the number is not used; what is meant?",
+        place, text::in_quotes(held));
+}
+
+}  // namespace gumcert::audit

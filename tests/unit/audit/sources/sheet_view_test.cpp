@@ -1,0 +1,47 @@
+#include "audit/sources/sheet_view.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/workbook_of.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+TEST(SheetView, ShowsWhatFormulasGiveAndHowNumbersArePrinted) {
+    const workbook::Workbook workbook = test::workbook_of({{"A1", "0.30"}, {"B1", "=2*A1"}, {"C1", "n/a"}});
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+    const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+    const SheetView::Row& row = sheet.rows().at(1);
+    ASSERT_EQ(row.size(), 3U);
+    EXPECT_TRUE(sheet.has_formulas());
+    EXPECT_EQ(sheet.number(*row[1])->value, 0.6);
+    EXPECT_EQ(sheet.place(row[1]->address), "Sheet1!B1");
+    EXPECT_FALSE(sheet.number(*row[2]));
+    EXPECT_TRUE(says_nothing(sheet.words(*row[2])));
+    EXPECT_EQ(cell_in(row, row[1]->address.column), row[1]);
+    EXPECT_EQ(cell_in(row, 99), nullptr);
+}
+
+TEST(SheetView, SettlesTheDecimalSignOfAFile) {
+    const auto sign = [](const std::string& csv) { return decimal_sign_of(workbook::read_csv(csv, "b.csv", "b")); };
+    EXPECT_EQ(sign("a;0,5\nb;1,25\n"), DecimalSign::comma);
+    EXPECT_EQ(sign("a;0.5\nb;1.25\n"), DecimalSign::point);
+    EXPECT_EQ(sign("a;1.200\n"), DecimalSign::open);
+    EXPECT_EQ(sign("a,1.200\n"), DecimalSign::point);
+}
+
+TEST(SheetView, ReadsNumbersWithUnits) {
+    const workbook::Workbook workbook = workbook::read_csv("a,0.36 µm,5 %\n", "b.csv", "b");
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+    const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+    const SheetView::Row& row = sheet.rows().at(1);
+    EXPECT_EQ(sheet.number_with_unit(*row[1])->unit, "µm");
+    EXPECT_NEAR(without_dimension(*sheet.number_with_unit(*row[2])).value, 0.05, 1e-15);
+    EXPECT_NE(open_sign("b!B1", "1.200").english().find("1.200"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gumcert::audit

@@ -1,0 +1,47 @@
+#include "audit/sources/table_heads.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+std::optional<Heads> heads_in(const std::string& csv) {
+    const workbook::Workbook workbook = workbook::read_csv(csv, "b.csv", "b");
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+    const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+    return heads_of(sheet, sheet.rows().at(1));
+}
+
+TEST(TableHeads, AreAQuantityAndAnUncertainty) {
+    const std::optional<Heads> heads = heads_in("symbol,description,u [nm],unit,sensitivity\n");
+    ASSERT_TRUE(heads);
+    EXPECT_EQ(heads->columns.size(), 4U);
+    EXPECT_EQ(heads->units.at(Column::u), "nm");
+    ASSERT_TRUE(heads->description);
+    EXPECT_EQ(*heads->description, heads->columns.at(Column::quantity) + 1);
+    EXPECT_FALSE(heads_in("quantity,unit,comment\n"));
+    EXPECT_FALSE(heads_in("u,unit,comment\n"));
+    EXPECT_TRUE(has_numbers_with_units(Column::u));
+    EXPECT_FALSE(has_numbers_with_units(Column::nu));
+}
+
+TEST(TableHeads, NameAThirdColumnOfQuantities) {
+    const std::optional<Heads> heads = heads_in("symbol,description,parameter,u,unit\n");
+    ASSERT_TRUE(heads);
+    EXPECT_EQ(heads->second.size(), 1U);
+}
+
+TEST(TableHeads, PartTablesBesideEachOther) {
+    const workbook::Workbook workbook =
+        workbook::read_csv("quantity,unit,u,quantity,unit,u\na,mm,0.1,b,mm,0.2\n", "b.csv", "b");
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook);
+    const SheetView sheet(workbook, evaluation, 0, DecimalSign::point);
+    EXPECT_EQ(parts_of(sheet).size(), 2U);
+}
+
+}  // namespace
+}  // namespace gumcert::audit
