@@ -624,12 +624,21 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         found.push_back(finding);
     };
     std::ranges::for_each(gross, set_aside);
-    const StartValues start = find_start_values(measurement, active);
+    StartValues start = find_start_values(measurement, active);
+    refuse_inclined_fixture(measurement.axis, start.set_up);
+    // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
+    RigidMotion start_set_up;
+    if (inclination(measurement.axis, start.set_up) > k_small_inclination) {
+        start_set_up = start.set_up;
+        for (Eigen::Vector3d& station : start.stations) {
+            station = start_set_up * station;
+        }
+    }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
         throw gum::NoResultError(*line);
     }
-    JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
+    JointAdjustment first(measurement, active, start_set_up, start, stochastic);
     first.adjustment().set_workers(options.workers);
     const auto require_rank = [&](const JointAdjustment& adjustment) {
         const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
@@ -655,14 +664,14 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     };
     // What is largest hides what is smaller: the search goes on while it finds something.
     for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
-        JointAdjustment robust(measurement, active, RigidMotion{}, search == 0 ? start : first.present_values(),
+        JointAdjustment robust(measurement, active, start_set_up, search == 0 ? start : first.present_values(),
                                stochastic);
         const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
         if (search > 0 && deviating.empty()) {
             break;
         }
         std::ranges::for_each(deviating, set_aside);
-        first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
+        first = JointAdjustment(measurement, active, start_set_up, robust.present_values(), stochastic);
         first.adjustment().set_workers(options.workers);
         first.copy_parameters_from(robust);
         first.set_weights(stochastic);
@@ -938,6 +947,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                k_harm;
     };
     std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
+    if (const auto inclined = inclination_note(measurement.axis, rigid_motion(solution.datum.set_up))) {
+        solution.notes.push_back(*inclined);
+    }
     return {std::move(solution), may_depend};
 }
 

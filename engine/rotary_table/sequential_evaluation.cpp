@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "gum/quantity/dense_factors.h"
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -378,6 +380,14 @@ Stages SequentialModel::solve(const Inputs& in) const {
 
     // Six errors of each angle, eqs. (7)-(9), in the stationary frame T.
     const RigidMotion table_from_fixture = rigid_motion(stages.set_up);
+    if (const double angle = inclination(measurement_.axis, table_from_fixture); !(angle <= k_small_inclination)) {
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-SEQUENTIAL-0003", "sequential method",
+            "the fixture is tilted against the axis by " + text::fixed(angle / gum::k_degree, 1) + "°",
+            "the equations of the stages are linear in the tilt: up to 10°",
+            "use \"method\": \"joint\", or state the coordinates of the fixture in a frame along the axis",
+            gum::Severity::error});
+    }
     stages.errors = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(angles));
     for (std::size_t i = 0; i < angles; ++i) {
         if (i == measurement_.home) {

@@ -44,6 +44,19 @@ TEST(SequentialEvaluation, IsLessPreciseThanTheJointOne) {
     }
 }
 
+TEST(SequentialEvaluation, RefusesAnInclinedFixture) {
+    synthetic::CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.tilt = {0.0, 0.3};
+    const synthetic::Campaign campaign = synthetic::simulate(plan);
+    try {
+        (void)evaluate_sequentially(campaign.measurement, EvaluationOptions{});
+        FAIL() << "no failure";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-SEQUENTIAL-0003") << error.what();
+    }
+}
+
 TEST(SequentialEvaluation, NamesTheStageThatIsNotDetermined) {
     synthetic::Campaign campaign = small_campaign(0.0);
     // Two reflectors of station P2 are left at home: too few for its position and its dead path.
