@@ -215,6 +215,45 @@ TEST(EvaluateRotaryTable, NothingThatAgreesIsLeftOut) {
     EXPECT_GT(left_out, 20);
 }
 
+// A variance with few degrees of freedom that the trials do not draw is in U by its degrees of freedom: Monte Carlo has
+// no say there, and what is reported covers what it says (JCGM 101:2008, 6.4.9).
+TEST(EvaluateRotaryTable, MonteCarloIsSilentWhereItDoesNotDrawAVariance) {
+    int quantities_of_the_law = 0;
+    Covered reported;
+    for (const SmallPlan& plan : {SmallPlan{4, 3, 4}, SmallPlan{4, 6, 4}}) {
+        for (std::uint64_t seed = 1; seed <= 7; ++seed) {
+            const Campaign campaign = small_campaign(plan.stations, plan.reflectors, plan.angles, 200 + seed);
+            RotaryTableRequest request = request_of(campaign);
+            request.monte_carlo = {.trials = 2000, .digits = 1, .seed = 1, .validate = false, .where = "a test"};
+            const RotaryTableResult result = evaluate_rotary_table(request, 1);
+            const RotaryTableMonteCarlo& trials = *result.monte_carlo;
+            ASSERT_EQ(trials.law_stands.size(), trials.validations.size());
+            const UncertaintyBudget& budget = result.reported.budget;
+            const bool all_drawn = std::ranges::none_of(result.solution.components, [](const auto& component) {
+                return component.estimated && component.used && component.degrees_of_freedom <= 4.0;
+            });
+            const Eigen::VectorXd truth = campaign.true_values(false);
+            for (Eigen::Index i = 0; i < 6 * plan.angles; ++i) {
+                const auto at = static_cast<std::size_t>(i);
+                double U = budget.expanded_uncertainty[i];
+                if (trials.law_stands[at]) {
+                    ++quantities_of_the_law;
+                    EXPECT_FALSE(all_drawn);
+                    EXPECT_FALSE(trials.validations[at]);
+                } else if (const auto& validation = trials.validations[at];
+                           validation && validation->precise_enough && !validation->validated) {
+                    const CoverageInterval& interval = trials.result.outputs[at].symmetric;
+                    U = 0.5 * (interval.high - interval.low);
+                }
+                reported.within += std::abs(budget.value[i] - truth[i]) <= U ? 1 : 0;
+                ++reported.all;
+            }
+        }
+    }
+    EXPECT_GT(quantities_of_the_law, 20);
+    EXPECT_GT(reported.share(), 0.93);
+}
+
 TEST(EvaluateRotaryTable, RefusesMonteCarloOfTheSequentialMethod) {
     RotaryTableRequest request = request_of(engine::synthetic::simulate(plan_of_twelve()));
     request.measurement.method = engine::AdjustmentMethod::sequential;
