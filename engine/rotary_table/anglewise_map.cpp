@@ -120,7 +120,7 @@ AnglewiseMap reported_map(const DatumSolution& datum, Eigen::Index border,
     map.by_change = Eigen::MatrixXd::Zero(rows, 10);
     map.by_change.topRows(errors) = datum.motion_map;
     // The change is (six of the world, O, O, S, S): its last four are the set-up, whose reported values move with it.
-    map.by_change.block<4, 4>(errors, 6).setIdentity();
+    map.by_change.block<4, 4>(errors, 6) = datum.set_up_rates;
     map.change = datum.change_map();
     return map;
 }

@@ -8,6 +8,8 @@
 
 #include "engine/rotary_table/rotary_table_measurement.h"
 #include "engine/rotary_table/rotation.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/units.h"
 
 namespace gumcert::engine {
 
@@ -21,6 +23,10 @@ namespace gumcert::engine {
 ///
 /// The S-transformation has ten dimensions, ∂errors/∂poses = I + D K: it is held as D and K, whose size is proportional
 /// to the angles. At the home angle of the datum `home` the error motions are zero by definition, and so is their map.
+///
+/// A fixture whose frame is inclined to the axis by more than k_small_inclination has no small tilts: its set-up is
+/// changed by composing motions, and `set_up_rates` and `along_rates` carry the map of the change on to the numbers by
+/// which the set-up is stated. Below it they are 1 and 0.
 struct DatumSolution {
     Eigen::MatrixXd errors;              ///< 6×angles, [m] and [rad]
     Eigen::Matrix<double, 6, 1> set_up;  ///< O and S of T_s, zero along the axis, [m] and [rad]
@@ -28,18 +34,44 @@ struct DatumSolution {
     Eigen::MatrixXd motion_map;  ///< D, 6N×10: ∂errors/∂(parameters of `world`, O, O, S, S), angle by angle
     Eigen::MatrixXd set_up_map;  ///< 4×6N, ∂(O, O, S, S)/∂poses, the two across the axis of each
     Eigen::MatrixXd world_map;   ///< 6×6N, ∂(parameters of `world`)/∂poses; K is this above `set_up_map`
-    std::optional<Eigen::Index> zero_angle = std::nullopt;  ///< angle whose error motions are zero by definition
+    std::optional<Eigen::Index> zero_angle = std::nullopt;       ///< angle whose error motions are zero by definition
+    Eigen::Matrix4d set_up_rates = Eigen::Matrix4d::Identity();  ///< ∂(O, O, S, S)/∂(motion of the fixture in T)
+    Eigen::Matrix<double, 2, 4> along_rates =
+        Eigen::Matrix<double, 2, 4>::Zero();  ///< ∂(shift and turn of T along the axis)/∂(motion of the fixture in T)
+    bool inclined = false;
 
     /// K, 10×6N.
     [[nodiscard]] Eigen::MatrixXd change_map() const;
+    /// ∂(O, O, S, S as stated)/∂poses, 4×6N.
+    [[nodiscard]] Eigen::MatrixXd stated_set_up_map() const;
+    /// ∂(parameters of `world`, with the turn about the axis that keeps S along it at zero)/∂poses, 6×6N.
+    [[nodiscard]] Eigen::MatrixXd frame_map(RotaryAxis axis) const;
     /// (∂errors/∂poses) X for any X with a row for each component of the poses, 6N×k.
     [[nodiscard]] Eigen::MatrixXd carried(const Eigen::Ref<const Eigen::MatrixXd>& by_pose) const;
     /// Y (∂errors/∂poses) for any Y with a column for each component of the errors, k×6N.
     [[nodiscard]] Eigen::MatrixXd pulled_back(const Eigen::Ref<const Eigen::MatrixXd>& by_error) const;
 };
 
+/// Angle between the axis and the coordinate axis of the fixture that has its letter, up to which tilts of the fixture
+/// are small, [rad].
+constexpr double k_small_inclination = 10.0 * gum::k_degree;
+/// The same, up to which a measurement is evaluated: beyond it another coordinate axis may be the nearer one, and a tilt
+/// of 90° about one coordinate leaves the other one open.
+constexpr double k_largest_inclination = 45.0 * gum::k_degree;
+
+/// The angle between the axis and the coordinate axis of the fixture that has its letter, [rad], 0 … π.
+[[nodiscard]] double inclination(RotaryAxis axis, const RigidMotion& set_up);
+
+/// The axis of letter `axis` in a frame that is inclined to it.
+/// \return warning GC-GEOMETRY-0006 above k_small_inclination
+[[nodiscard]] std::optional<gum::Diagnostic> inclination_note(RotaryAxis axis, const RigidMotion& set_up);
+/// \throws gum::NoResultError  GC-GEOMETRY-0007 above k_largest_inclination
+void refuse_inclined_fixture(RotaryAxis axis, const RigidMotion& set_up);
+
 /// \param poses   6×angles, error motions with respect to `set_up`, with zero at home
 /// \param set_up  T_s with which the poses were found
+/// \throws gum::NoResultError  GC-GEOMETRY-0007 for a frame inclined by more than k_largest_inclination; GC-GEOMETRY-0008
+///         where the ten conditions do not hold at the end
 [[nodiscard]] DatumSolution transform_to_datum(const RotaryTableMeasurement& measurement, const Eigen::MatrixXd& poses,
                                                const RigidMotion& set_up, Datum datum);
 

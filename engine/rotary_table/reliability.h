@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -73,6 +74,10 @@ public:
     /// The distance with the largest |w|, where that is above `critical`.
     [[nodiscard]] std::optional<Suspect> largest(double critical) const;
     void leave_out(std::size_t length);
+    /// Never a suspect.
+    void hold(std::size_t length) {
+        floor_[places_[place_of_[length]].index] = std::numeric_limits<double>::infinity();
+    }
 
 private:
     struct Place {

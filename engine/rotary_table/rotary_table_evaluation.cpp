@@ -238,6 +238,14 @@ public:
                 }
             }
             step = estimate_variance_components(adjustment, *normal, covariance, stochastic, estimated_);
+            if (i == 0 && !length_asked_) {
+                length_asked_ = true;
+                if (length_noise_is_weak()) {
+                    hold_length_noise(adjustment, stochastic);
+                    solve(adjustment, solver);
+                    step = estimate_variance_components(adjustment, *normal, covariance, stochastic, estimated_);
+                }
+            }
             if (!any_estimated() || step.relative_change < tolerance) {
                 components_converged = true;
                 return;
@@ -259,6 +267,11 @@ public:
             settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
                    options.solver);
         }
+        if (length_noise_is_weak()) {
+            hold_length_noise(adjustment, stochastic);
+            settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
+                   options.solver);
+        }
         adjustment.set_weights(stochastic);
         solve(adjustment, options.solver);
         normal.emplace(adjustment.adjustment().linearise());
@@ -276,6 +289,11 @@ public:
     [[nodiscard]] bool fixture_is_weak() const {
         return step.fixture_at_bound || step.components[fixture_cmm].redundancy < k_least_component_redundancy;
     }
+    /// True where too little of the redundancy depends on the length noise: its estimate would be made of the few
+    /// residuals that it is then to judge.
+    [[nodiscard]] bool length_noise_is_weak() const {
+        return estimated_.length && step.length_separable && step.length_redundancy < k_least_length_redundancy;
+    }
     [[nodiscard]] bool any_estimated() const { return estimated_.length || estimated_.table || estimated_.fixture; }
 
     std::optional<NormalEquations> normal;
@@ -285,6 +303,7 @@ public:
     int component_iterations = 0;
     bool components_converged = false;
     bool fixture_separable = true;
+    std::optional<double> held_length_redundancy;  ///< of a length noise that was to be estimated and is held as stated
 
 private:
     void solve(JointAdjustment& adjustment, const SolverOptions& solver) {
@@ -295,6 +314,13 @@ private:
         covariance = normal->bordered_covariance();
     }
 
+    void hold_length_noise(JointAdjustment& adjustment, StochasticModel& stochastic) {
+        held_length_redundancy = step.length_redundancy;
+        estimated_.length = false;
+        stochastic.length_factor = 1.0;
+        adjustment.set_weights(stochastic);
+    }
+
     void drop_fixture(StochasticModel& stochastic) {
         estimated_.fixture = false;
         fixture_separable = false;
@@ -303,7 +329,7 @@ private:
 
     const Progress& progress_;
     EstimatedComponents estimated_;
-    bool fixture_asked_ = false;
+    bool fixture_asked_ = false, length_asked_ = false;
 };
 
 /// Critical value of the test values, and what it rests on.
@@ -624,12 +650,21 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
         found.push_back(finding);
     };
     std::ranges::for_each(gross, set_aside);
-    const StartValues start = find_start_values(measurement, active);
+    StartValues start = find_start_values(measurement, active);
+    refuse_inclined_fixture(measurement.axis, start.set_up);
+    // Error motions about another axis would be large turns: of an inclined fixture the adjustment starts upright.
+    RigidMotion start_set_up;
+    if (inclination(measurement.axis, start.set_up) > k_small_inclination) {
+        start_set_up = start.set_up;
+        for (Eigen::Vector3d& station : start.stations) {
+            station = start_set_up * station;
+        }
+    }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
         throw gum::NoResultError(*line);
     }
-    JointAdjustment first(measurement, active, RigidMotion{}, start, stochastic);
+    JointAdjustment first(measurement, active, start_set_up, start, stochastic);
     first.adjustment().set_workers(options.workers);
     const auto require_rank = [&](const JointAdjustment& adjustment) {
         const RankReport rank = adjustment.adjustment().linearise().rank(options.solver.rank_tolerance);
@@ -655,14 +690,14 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     };
     // What is largest hides what is smaller: the search goes on while it finds something.
     for (int search = 0; search < k_most_gross_searches && may_leave_out && is_grossly_wrong(); ++search) {
-        JointAdjustment robust(measurement, active, RigidMotion{}, search == 0 ? start : first.present_values(),
+        JointAdjustment robust(measurement, active, start_set_up, search == 0 ? start : first.present_values(),
                                stochastic);
         const std::vector<std::size_t> deviating = find_gross_deviations(robust, rough);
         if (search > 0 && deviating.empty()) {
             break;
         }
         std::ranges::for_each(deviating, set_aside);
-        first = JointAdjustment(measurement, active, RigidMotion{}, robust.present_values(), stochastic);
+        first = JointAdjustment(measurement, active, start_set_up, robust.present_values(), stochastic);
         first.adjustment().set_workers(options.workers);
         first.copy_parameters_from(robust);
         first.set_weights(stochastic);
@@ -678,6 +713,14 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     JointAdjustment adjustment = with_set_up(first, rigid_motion(preliminary.set_up), stochastic);
 
     std::vector<bool> reinserted(all.size(), false);
+    std::vector<bool> for_good(all.size(), false);  // came back twice
+    const auto hold_in = [&](OneAtATime& search) {
+        for (std::size_t i = 0; i < for_good.size(); ++i) {
+            if (for_good[i] && active[i]) {
+                search.hold(i);
+            }
+        }
+    };
     std::vector<DistanceReliability> rows;
     TestLimits limits;
     const auto leave_out = [&](const OneAtATime::Suspect& suspect) {
@@ -701,6 +744,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
             iteration.settle(adjustment, stochastic, 3, 0.05, rough);
             limits = test_limits(options, iteration.step.components[length_noise]);
             OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            hold_in(search);
             double largest = 0.0;
             while (const auto suspect = search.largest(limits.critical_value)) {
                 const double size = std::abs(suspect->estimated_error);
@@ -725,17 +769,20 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                 break;
             }
             // At weights that have settled. The rough ones above may have let one pass.
-            const OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            OneAtATime search(adjustment, *iteration.normal, iteration.covariance);
+            hold_in(search);
             if (const auto suspect = search.largest(limits.critical_value)) {
                 leave_out(*suspect);
                 changed = true;
             } else {
-                // Distances that were left out in the shadow of larger ones come back when they agree after all, and
-                // once only: what is then found again stays out.
+                // Distances that were left out in the shadow of larger ones come back when they agree after all. What is
+                // then found again and agrees again is in for good: the test says of no distance that is left out that
+                // it agrees.
                 for (OutlierFinding& finding : found) {
                     const std::size_t i = finding.length;
-                    if (!active[i] && !reinserted[i] && std::abs(rows[i].test_value) <= limits.critical_value) {
+                    if (!active[i] && std::abs(rows[i].test_value) <= limits.critical_value) {
                         active[i] = true;
+                        for_good[i] = reinserted[i];
                         reinserted[i] = true;
                         finding.came_back = true;
                         changed = true;
@@ -908,6 +955,16 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                                   "table; their sum is estimated",
                                   "", gum::Severity::note});
     }
+    if (iteration.held_length_redundancy) {
+        solution.components[length_noise].separable = false;
+        solution.notes.push_back(
+            {"GC-VARIANCE-0005", "variance components, length noise",
+             "kept as stated: its redundancy is " + text::significant(*iteration.held_length_redundancy, 2),
+             "below a redundancy of 30 the estimate is made of the few residuals that the test of outlying distances "
+             "is to judge with it",
+             "measure more reflectors, angles or stations where the length noise is to be estimated",
+             gum::Severity::note});
+    }
     if (!solution.components[fixture_cmm].separable) {
         solution.notes.push_back(
             {"GC-VARIANCE-0004", "variance components, fixture CMM",
@@ -938,6 +995,9 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
                k_harm;
     };
     std::ranges::move(geometry_notes(measurement, positions, harms), std::back_inserter(solution.notes));
+    if (const auto inclined = inclination_note(measurement.axis, rigid_motion(solution.datum.set_up))) {
+        solution.notes.push_back(*inclined);
+    }
     return {std::move(solution), may_depend};
 }
 

@@ -123,7 +123,8 @@ using Progress = std::function<void(const std::string&)>;
 /// Variance components are estimated where the measurement asks for it. Outlying distances are found one at a time: the
 /// largest test value, an adjustment without it, and again (OneAtATime, at the weights of the last estimation of the
 /// components, which is repeated when no more are found, until the exact adjustment finds none). One that agrees with
-/// the others at the end comes back. By `OutlierAction` they are left out of the result or kept and flagged.
+/// the others at the end comes back; where it is found and agrees once more it stays. A length noise whose redundancy
+/// is below k_least_length_redundancy is held as stated, and tested with. By `OutlierAction` they are left out of the result or kept and flagged.
 ///
 /// With ReversalModel::automatic the reversal is one of all angles, unless an adjustment with one at every angle shows
 /// that they differ (test_reversals); what remains of the difference would else be taken for repeatability of the

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "gum/quantity/dense_factors.h"
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
 
 namespace gumcert::engine {
 
@@ -378,6 +380,14 @@ Stages SequentialModel::solve(const Inputs& in) const {
 
     // Six errors of each angle, eqs. (7)-(9), in the stationary frame T.
     const RigidMotion table_from_fixture = rigid_motion(stages.set_up);
+    if (const double angle = inclination(measurement_.axis, table_from_fixture); !(angle <= k_small_inclination)) {
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-SEQUENTIAL-0003", "sequential method",
+            "the fixture is tilted against the axis by " + text::fixed(angle / gum::k_degree, 1) + "°",
+            "the equations of the stages are linear in the tilt: up to 10°",
+            "use \"method\": \"joint\", or state the coordinates of the fixture in a frame along the axis",
+            gum::Severity::error});
+    }
     stages.errors = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(angles));
     for (std::size_t i = 0; i < angles; ++i) {
         if (i == measurement_.home) {
@@ -721,27 +731,21 @@ RotaryTableSolution evaluate_sequentially(const RotaryTableMeasurement& measurem
     }
     misfit.set_weights(solution.stochastic);
     const NormalEquations normal = misfit.adjustment().linearise();
-    solution.chi_square = 0.0;
-    solution.observations = 0;
+    // Chi-square, its degrees of freedom and the variance factor stay those of the joint adjustment: these are no residuals
+    // of a least-squares adjustment, and no chi-square distribution is theirs (ADR 0010).
+    double squares = 0.0;
     for (std::size_t v = 0; v < misfit.visits().size(); ++v) {
-        solution.chi_square += normal.groups()[v].residual.squaredNorm();
-        solution.observations += normal.groups()[v].residual.size();
+        squares += normal.groups()[v].residual.squaredNorm();
     }
-    const bool free = measurement.length_uncertainty.scale_model == ScaleModel::free;
-    // Home has no pose of its own.
-    solution.parameters =
-        static_cast<Eigen::Index>((free ? 4 : 3) * measurement.stations.size() + measurement.dead_paths.size() +
-                                  6 * (measurement.angles.size() - 1));
-    solution.degrees_of_freedom = solution.observations - solution.parameters;
-    solution.variance_factor =
-        solution.degrees_of_freedom > 0 ? solution.chi_square / static_cast<double>(solution.degrees_of_freedom) : 1.0;
     solution.model = model;
-    solution.notes.push_back({"GC-SEQUENTIAL-0002", "sequential method",
-                              "variance components, outlying distances and reliability are those of the joint "
-                              "adjustment of the same distances",
-                              "the stages have no residuals of their own to tell them from",
-                              "use \"method\": \"joint\" for a certificate: its uncertainties are smaller",
-                              gum::Severity::note});
+    solution.notes.push_back(
+        {"GC-SEQUENTIAL-0002", "sequential method",
+         "chi-square, variance components, outlying distances and reliability are those of the "
+         "joint adjustment of the same distances; the weighted squares of the sequential solution are " +
+             text::significant(squares, 4),
+         "the stages have no least-squares residuals of their own: their weighted squares have no "
+         "chi-square distribution and test nothing",
+         "use \"method\": \"joint\" for a certificate: its uncertainties are smaller", gum::Severity::note});
     return solution;
 }
 

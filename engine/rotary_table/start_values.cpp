@@ -143,7 +143,8 @@ public:
         StartValues start;
         start.dead_paths = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measurement_.dead_paths.size()));
         // JointAdjustment starts with T_s = 1: its table frame is the fixture frame at home.
-        const RigidMotion fixture_from_table = set_up_motion(set_up_).inverse();
+        start.set_up = set_up_motion(set_up_);
+        const RigidMotion fixture_from_table = start.set_up.inverse();
         for (std::size_t j = 0; j < stations_.size(); ++j) {
             start.stations.emplace_back(fixture_from_table * fits_[j].position);
             const Eigen::VectorXd centres = deviations(j, set_up_, fits_[j].position).second;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/rotary_table/rotary_table_measurement.h"
+#include "engine/rotary_table/rotation.h"
 
 namespace gumcert::engine {
 
@@ -13,6 +14,7 @@ namespace gumcert::engine {
 struct StartValues {
     std::vector<Eigen::Vector3d> stations;  ///< [m]
     Eigen::VectorXd dead_paths;             ///< [m]
+    RigidMotion set_up = {};                ///< T_s that was found with them; the positions do not contain it
 };
 
 /// Start values of stations and dead paths without an operator.

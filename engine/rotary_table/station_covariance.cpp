@@ -15,7 +15,7 @@ Eigen::MatrixXd position_by_parameter(const JointAdjustment& adjustment, const N
     const auto block = adjustment.station_block(station);
     const Eigen::Vector3d position = adjustment.adjustment().parameters(block).head<3>();
     // The datum moves the world, and a station with it: its position depends on all poses.
-    const Eigen::MatrixXd by_pose = point_displacement(position) * datum.world_map;
+    const Eigen::MatrixXd by_pose = point_displacement(position) * datum.frame_map(adjustment.measurement().axis);
     Eigen::MatrixXd by_parameter = Eigen::MatrixXd::Zero(3, normal.parameter_count());
     for (int c = 0; c < 3; ++c) {
         by_parameter.col(normal.column(block, c)) += Eigen::Vector3d::Unit(c);

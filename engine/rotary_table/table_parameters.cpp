@@ -189,7 +189,7 @@ TableParameters::TableParameters(const RotaryTableMeasurement& measurement, cons
     if (measurement.datum != Datum::axis_average_line) {
         const DatumSolution average =
             transform_to_datum(measurement, datum.errors, rigid_motion(datum.set_up), Datum::axis_average_line);
-        to_average_line_.leftCols(6 * angles_) = average.set_up_map;
+        to_average_line_.leftCols(6 * angles_) = average.stated_set_up_map();
         const auto across = across_axis(axis_);
         for (int c = 0; c < 2; ++c) {
             nominal_set_up_[c] = average.set_up[across[static_cast<std::size_t>(c)]];

@@ -372,6 +372,8 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         present.variance_tilt / k_angular_scale, fixture_factor;
     const LengthUncertainty& lengths = adjustment.measurement().length_uncertainty;
     const double known = lengths.resolution * lengths.resolution / 12.0;
+    // What the display rounds away is known, and controls the lengths as well as noise of their own does.
+    step.length_redundancy = (theta[0] + known / mean_stated) * trace[0];
     // Without noise of their own the lengths are still weighted by their resolution.
     const std::array<double, k_components> bound{known > 0.0 ? 0.0 : k_least_length_factor, 0.0, 0.0, 0.0,
                                                  k_least_fixture_factor};

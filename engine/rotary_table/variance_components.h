@@ -41,6 +41,9 @@ enum ComponentRow : std::size_t { length_noise, table_linear, table_axial, table
 /// Redundancy of a component below which the residuals say nothing of it.
 constexpr double k_least_component_redundancy = 2.0;
 
+/// Redundancy of the length noise below which it is held as stated: single distances are tested with it.
+constexpr double k_least_length_redundancy = 30.0;
+
 /// The weights that a job asks for, before anything is estimated: what it states of the table, and where it asks for an
 /// estimate without an idea of it, what a good commercial table has.
 [[nodiscard]] StochasticModel start_variances(const TableRepeatability& table);
@@ -48,6 +51,7 @@ constexpr double k_least_component_redundancy = 2.0;
 struct VarianceComponentStep {
     StochasticModel stochastic;                 ///< after the step
     double relative_change = 0.0;               ///< largest change of a variance against its standard uncertainty
+    double length_redundancy = 0.0;             ///< tr(R V) of length noise and resolution, at the weights taken
     bool length_separable = true;               ///< false: one distance a visit, length noise kept as stated
     bool fixture_at_bound = false;              ///< true: the fixture's factor would fall below what is sensible
     std::vector<VarianceComponent> components;  ///< one a ComponentRow

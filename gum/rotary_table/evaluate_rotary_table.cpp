@@ -1,5 +1,6 @@
 #include "gum/rotary_table/evaluate_rotary_table.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -43,6 +44,22 @@ Stated stated(const RotaryTableResult& result, Eigen::Index output) {
     return {from.value[index], from.standard_uncertainty[index], from.expanded_uncertainty[index]};
 }
 
+/// Whether a component whose estimated variance the trials do not draw has a part in an output. Deviations drawn with
+/// that estimate as if it were known lack the spread of the estimate itself, which JCGM 101:2008, 6.4.9, draws with it
+/// and the law of propagation has in its coverage factor.
+bool law_stands_for(const std::vector<InputGroup>& inputs, const RotaryTableResult& result, Eigen::Index output) {
+    constexpr double k_felt = 0.01;  // of the variance: with ν = 1 it makes k larger by 1e-4
+    const Eigen::Index reported = result.reported.budget.value.size();
+    const UncertaintyBudget& from = output < reported ? result.reported.budget : result.parameters;
+    const Eigen::Index index = output < reported ? output : output - reported;
+    return std::ranges::any_of(inputs, [&](const InputGroup& group) {
+        const bool undrawn = group.degrees_of_freedom <= engine::RotaryTableTrials::k_least_degrees_of_freedom;
+        return undrawn && std::ranges::any_of(from.budget, [&](const BudgetContribution& contribution) {
+                   return contribution.name == group.name && contribution.share[index] > k_felt;
+               });
+    });
+}
+
 RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const RotaryTableResult& result,
                                      unsigned threads, const Progress& progress) {
     const MonteCarloRequest& asked = *request.monte_carlo;
@@ -72,7 +89,9 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
         // more (ADR 0017).
         const bool compared =
             i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
-        if (law.u > 0.0 && compared) {
+        monte_carlo.law_stands.push_back(law.u > 0.0 &&
+                                         law_stands_for(joint->inputs(), result, static_cast<Eigen::Index>(i)));
+        if (law.u > 0.0 && compared && !monte_carlo.law_stands.back()) {
             const double unit = unit_of(trials.outputs()[i]).si;
             const auto scaled = [unit](double value) { return value / unit; };
             validation = validation_in_unit(law.value, law.u, law.U, monte_carlo.result.outputs[i], {scaled, scaled},
@@ -191,6 +210,10 @@ RotaryTableResult evaluate_rotary_table(RotaryTableRequest& request, unsigned th
             const bool failed = validation && !(validation->validated && validation->precise_enough);
             result.validation_failed = result.validation_failed || (request.monte_carlo->validate && failed);
         }
+        // What the trials do not draw they have not confirmed either.
+        result.validation_failed =
+            result.validation_failed ||
+            (request.monte_carlo->validate && std::ranges::count(result.monte_carlo->law_stands, true) > 0);
     }
     return result;
 }

@@ -25,6 +25,9 @@ struct RotaryTableMonteCarlo {
     MonteCarloResult result;  ///< outputs: the reported quantities, then the table parameters
     /// One an output, in the unit of documents; none where the law of propagation states no uncertainty.
     std::vector<std::optional<Validation>> validations;
+    /// One an output: the law of propagation stands, because an estimated variance with so few degrees of freedom is in
+    /// it that the trials did not draw it (RotaryTableTrials). Nothing of Monte Carlo is stated or compared there.
+    std::vector<bool> law_stands;
     std::int64_t most_steps = 0;  ///< of one trial until it converged
     double mean_steps = 0.0;
 };

@@ -92,7 +92,7 @@ DatumView seen_in_datum(const RotaryTableMeasurement& measurement, const Eigen::
     const auto carry = [&](const Eigen::MatrixXd& rows) {
         Eigen::MatrixXd result = rows;
         result.topRows(size) = solution.carried(rows.topRows(size));
-        result.middleRows<4>(size).noalias() += solution.set_up_map * rows.topRows(size);
+        result.middleRows<4>(size).noalias() += solution.stated_set_up_map() * rows.topRows(size);
         return result;
     };
     // A V Aᵀ by the same map on rows and columns.

@@ -68,9 +68,10 @@ struct TrialExtras {
 /// Outputs: `ReportedQuantities`, then the derived quantities if there are any.
 class RotaryTableTrials final : public gum::MeasurementModel {
 public:
-    /// A variance estimated with no more degrees of freedom than these is drawn as known: it says that a component is
-    /// too small to be seen, and a t-distribution without a fourth moment would draw deviations thousands of times
-    /// larger than any of the measurement. The law of propagation takes the same standard uncertainty.
+    /// A variance estimated with no more degrees of freedom than these is not drawn: a t-distribution without a fourth
+    /// moment would draw deviations thousands of times larger than any of the measurement. Trials that take it as known
+    /// lack its spread (JCGM 101:2008, 6.4.9), so that they say nothing of a quantity in which it has a part: there the
+    /// law of propagation stands, with its degrees of freedom (RotaryTableMonteCarlo::law_stands).
     static constexpr double k_least_degrees_of_freedom = 4.0;
 
     /// \param solved      converged, at its final weights, which are held; is not referred to afterwards

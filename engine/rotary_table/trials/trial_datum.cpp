@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "engine/rotary_table/datum.h"
 #include "engine/rotary_table/rotation.h"
@@ -41,6 +42,10 @@ TrialDatum::TrialDatum(const JointAdjustment& solved)
     start_world = motion_parameters(solution.world);
     start_set_up = solution.set_up;
     change_map = solution.change_map();
+    // The set-up of a trial is changed by its own numbers.
+    if (solution.inclined) {
+        change_map.bottomRows<4>() = solution.stated_set_up_map();
+    }
 }
 
 namespace {
@@ -224,10 +229,14 @@ void transform_to_datum(const TrialNetwork& network, const TrialDatum& datum, Tr
     constexpr double k_negligible = 1e-16;  // [m] and [rad]
     begin_datum(network, datum, batch);
     change_datum(datum, batch);
+    // As of the solution: beyond it the conditions of the datum do not hold.
+    constexpr double k_holds = 1e-12;
+    std::array<double, k_lanes> forbidden{};
     for (int iteration = 0; iteration < 20; ++iteration) {
         compose_errors(network, datum, batch);
         for (int t = 0; t < k_lanes; ++t) {
-            double largest = 0.0;
+            double& largest = forbidden[static_cast<std::size_t>(t)];
+            largest = 0.0;
             for (const Lanes& change : batch.change) {
                 largest = std::max(largest, std::abs(change[t]));
             }
@@ -238,6 +247,14 @@ void transform_to_datum(const TrialNetwork& network, const TrialDatum& datum, Tr
             break;
         }
         change_datum(datum, batch);
+    }
+    // A trial that is not in the datum has no value: Monte Carlo ends and names it.
+    for (int t = 0; t < k_lanes; ++t) {
+        if (forbidden[static_cast<std::size_t>(t)] >= k_holds) {
+            for (Lanes& error : batch.errors) {
+                error[t] = std::numeric_limits<double>::quiet_NaN();
+            }
+        }
     }
     // Zero by definition and not by what the last step leaves.
     if (datum.datum == Datum::home) {

@@ -76,9 +76,15 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
     summary.most_steps = monte_carlo.most_steps;
     summary.mean_steps = monte_carlo.mean_steps;
     std::int64_t undecided = 0;
+    std::int64_t law_stands = 0;
 
-    const auto of = [&](Eigen::Index output, const DocumentUnit& unit, const std::string& name) {
+    const auto of = [&](Eigen::Index output, const DocumentUnit& unit,
+                        const std::string& name) -> std::optional<MonteCarloSummary> {
         const auto at = static_cast<std::size_t>(output);
+        if (monte_carlo.law_stands[at]) {
+            ++law_stands;
+            return std::nullopt;
+        }
         const auto scaled = [&unit](double value) { return value / unit.si; };
         const std::optional<gum::Validation>& validation = monte_carlo.validations[at];
         if (validation) {
@@ -124,10 +130,15 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
     for (const engine::VarianceComponent& component : result.solution.components) {
         if (component.used && component.estimated &&
             component.degrees_of_freedom <= engine::RotaryTableTrials::k_least_degrees_of_freedom) {
-            summary.statement += " The component \"" + component.name +
-                                 "\" is too small for its variance to be told from the residuals; it was drawn as "
-                                 "normal with its estimate.";
+            summary.statement += " The variance of the component \"" + component.name + "\" is estimated with " +
+                                 gum::round_significant(component.degrees_of_freedom, 2) +
+                                 " degrees of freedom, and was not drawn: the trials took its estimate as known.";
         }
+    }
+    if (law_stands > 0) {
+        summary.statement += " For " + std::to_string(law_stands) +
+                             " quantities, which contain such a component, no Monte Carlo comparison is stated: their "
+                             "U is that of the law of propagation.";
     }
     if (summary.compared > 0) {
         const auto contradicted = static_cast<std::int64_t>(summary.not_validated.size());
@@ -150,10 +161,13 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
         record.diagnostics.push_back(
             {"GC-VALIDATION-0001", "validation of the law of propagation",
              "not validated for " + std::to_string(contradicted) + " of " + std::to_string(summary.compared) +
-                 " quantities, and not decided for " + std::to_string(undecided),
+                 " quantities, and not decided for " + std::to_string(undecided + law_stands),
              "the job demands that Monte Carlo confirms every expanded uncertainty (JCGM 101:2008, clause 8)",
-             undecided > 0 ? "state more trials; use the Monte Carlo intervals of the quantities that are not validated"
-                           : "use the Monte Carlo intervals of the quantities that are not validated",
+             law_stands > 0 ? "measure more visits of the table, so that every variance is estimated with more than 4 "
+                              "degrees of freedom, or state it"
+             : undecided > 0
+                 ? "state more trials; use the Monte Carlo intervals of the quantities that are not validated"
+                 : "use the Monte Carlo intervals of the quantities that are not validated",
              gum::Severity::warning});
     }
     rotary.monte_carlo = std::move(summary);

@@ -4,11 +4,15 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "engine/rotary_table/sequential_evaluation.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/units.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -587,6 +591,47 @@ INSTANTIATE_TEST_SUITE_P(
                },
                false}),
     [](const auto& layout) { return std::string(layout.param.name); });
+
+// A fixture whose coordinates are in a frame far from the axis: the same results as of any other, and a warning.
+TEST(InclinedFixture, ErrorsAreAsLargeAsTheirUncertainties) {
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CampaignPlan plan;
+        plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[seed % 3];
+        plan.angles_deg = synthetic::full_turn(8);
+        plan.tilt = 0.12 * static_cast<double>(seed) *
+                    Eigen::Vector2d(std::cos(static_cast<double>(seed)), std::sin(static_cast<double>(seed)));
+        plan.seed = seed;
+        const Campaign campaign = simulate(plan);
+        RotaryTableMeasurement measurement = campaign.measurement;
+        measurement.table_repeatability = {RepeatabilityMode::given, 0.0, 0.0, 0.0};
+        const RotaryTableSolution solution = evaluate_jointly(measurement, EvaluationOptions{});
+        const bool told = std::ranges::any_of(solution.notes, [](const gum::Diagnostic& note) {
+            return note.code == "GC-GEOMETRY-0006" && note.severity == gum::Severity::warning;
+        });
+        EXPECT_EQ(told, plan.tilt.norm() > 10.0 * gum::k_degree) << seed;
+        const Eigen::VectorXd difference = solution.values - campaign.true_values(false);
+        const Eigen::VectorXd normalised = difference.cwiseQuotient(solution.covariance.diagonal().cwiseSqrt());
+        EXPECT_LT(normalised.cwiseAbs().maxCoeff(), 4.5) << seed;
+        squares += normalised.squaredNorm();
+        count += static_cast<double>(normalised.size());
+    }
+    EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.2);
+}
+
+TEST(InclinedFixture, IsRefusedWhereAnotherCoordinateMayBeNearer) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.tilt = {0.01, 1.3};
+    try {
+        (void)evaluate_jointly(simulate(plan).measurement, EvaluationOptions{});
+        FAIL() << "no failure";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-GEOMETRY-0007") << error.what();
+        EXPECT_NE(std::string(error.what()).find("nearest to their"), std::string::npos) << error.what();
+    }
+}
 
 }  // namespace
 }  // namespace gumcert::engine

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,36 @@ TEST(SequentialEvaluation, IsLessPreciseThanTheJointOne) {
     EXPECT_GT(stages.covariance.diagonal().sum(), joint.covariance.diagonal().sum());
     for (Eigen::Index i = 0; i < stages.values.size(); ++i) {
         EXPECT_LE(joint.covariance(i, i), stages.covariance(i, i) * (1.0 + 1e-9)) << "least squares is the best of all";
+    }
+}
+
+// The stages are no least-squares adjustment: what they leave of the distances has no chi-square distribution.
+TEST(SequentialEvaluation, TestsTheResidualsOfTheJointOne) {
+    for (const std::uint64_t seed : {3U, 4U, 5U}) {
+        synthetic::CampaignPlan plan;
+        plan.angles_deg = synthetic::full_turn(8);
+        plan.start_values = true;
+        plan.seed = seed;
+        const synthetic::Campaign campaign = synthetic::simulate(plan);
+        const RotaryTableSolution stages = evaluate_sequentially(campaign.measurement, EvaluationOptions{});
+        const RotaryTableSolution joint = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        EXPECT_EQ(stages.chi_square, joint.chi_square);
+        EXPECT_EQ(stages.degrees_of_freedom, joint.degrees_of_freedom);
+        EXPECT_EQ(stages.variance_factor, joint.variance_factor);
+        EXPECT_LT(stages.variance_factor, 1.5);
+    }
+}
+
+TEST(SequentialEvaluation, RefusesAnInclinedFixture) {
+    synthetic::CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.tilt = {0.0, 0.3};
+    const synthetic::Campaign campaign = synthetic::simulate(plan);
+    try {
+        (void)evaluate_sequentially(campaign.measurement, EvaluationOptions{});
+        FAIL() << "no failure";
+    } catch (const gum::NoResultError& error) {
+        EXPECT_EQ(error.diagnostics().front().code, "GC-SEQUENTIAL-0003") << error.what();
     }
 }
 

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "gum/coverage.h"
@@ -126,6 +130,128 @@ TEST(EvaluateRotaryTable, RepeatsTheMeasurementByMonteCarlo) {
         EXPECT_TRUE(result.monte_carlo->validations[i]) << i;
     }
     EXPECT_FALSE(result.validation_failed);
+}
+
+/// A small campaign of which everything is to be estimated.
+Campaign small_campaign(std::size_t stations, std::size_t reflectors, int angles, std::uint64_t seed) {
+    CampaignPlan plan;
+    plan.angles_deg = engine::synthetic::full_turn(angles);
+    plan.stations.resize(stations);
+    plan.reflectors.resize(reflectors);
+    plan.start_values = true;
+    plan.table_linear = 0.15e-6;
+    plan.table_axial = 1.5e-6;
+    plan.table_tilt = 1e-6;
+    plan.seed = seed;
+    Campaign campaign = engine::synthetic::simulate(plan);
+    campaign.measurement.table_repeatability = {engine::RepeatabilityMode::estimate, 0.0, 0.0, 0.0};
+    campaign.measurement.estimate_length_noise = true;
+    campaign.measurement.outliers = {engine::OutlierTest::data_snooping, 0.0001, engine::OutlierAction::remove};
+    return campaign;
+}
+
+struct Covered {
+    int within = 0, all = 0;
+    [[nodiscard]] double share() const { return static_cast<double>(within) / static_cast<double>(all); }
+};
+
+struct SmallPlan {
+    std::size_t stations, reflectors;
+    int angles;
+};
+constexpr std::array k_small_plans{SmallPlan{4, 3, 4}, SmallPlan{4, 3, 6}, SmallPlan{6, 3, 4}, SmallPlan{4, 3, 8}};
+
+// The length noise of small campaigns cannot be told from the few residuals that depend on it: good distances stay in,
+// and U covers what it says.
+TEST(EvaluateRotaryTable, LeavesOutNoGoodDistanceOfASmallMeasurement) {
+    int campaigns_with_removals = 0;
+    Covered covered;
+    for (const SmallPlan& plan : k_small_plans) {
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            const Campaign campaign = small_campaign(plan.stations, plan.reflectors, plan.angles, 100 + seed);
+            RotaryTableRequest request = request_of(campaign);
+            const RotaryTableResult result = evaluate_rotary_table(request, 1);
+            const auto removed = std::ranges::count_if(result.solution.outliers, &engine::OutlierFinding::removed);
+            campaigns_with_removals += removed > 0 ? 1 : 0;
+            const Eigen::VectorXd truth = campaign.true_values(false);
+            for (Eigen::Index i = 0; i < 6 * plan.angles; ++i) {
+                covered.within += std::abs(result.reported.budget.value[i] - truth[i]) <=
+                                          result.reported.budget.expanded_uncertainty[i]
+                                      ? 1
+                                      : 0;
+                ++covered.all;
+            }
+        }
+    }
+    // 80 campaigns of 48 to 96 distances at a level of 1e-4: 0.6 are expected.
+    EXPECT_LE(campaigns_with_removals, 3);
+    EXPECT_GT(covered.share(), 0.93);
+}
+
+// What is left out is what the test, as it stands at the end, says to disagree.
+TEST(EvaluateRotaryTable, NothingThatAgreesIsLeftOut) {
+    int left_out = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        CampaignPlan plan = plan_of_twelve();
+        plan.outliers = 6;
+        plan.outlier_size = 3e-6;
+        plan.seed = seed;
+        if (seed % 2 == 0) {
+            plan.stations.resize(4);
+            plan.reflectors.resize(4);
+        }
+        RotaryTableRequest request = request_of(engine::synthetic::simulate(plan));
+        request.measurement.outliers = {engine::OutlierTest::data_snooping, 0.0001, engine::OutlierAction::remove};
+        const RotaryTableResult result = evaluate_rotary_table(request, 1);
+        for (const engine::OutlierFinding& finding : result.solution.outliers) {
+            if (finding.removed) {
+                ++left_out;
+                EXPECT_GT(std::abs(result.solution.reliability[finding.length].test_value),
+                          result.solution.critical_value)
+                    << "seed " << seed << ", distance " << finding.length;
+            }
+        }
+    }
+    EXPECT_GT(left_out, 20);
+}
+
+// A variance with few degrees of freedom that the trials do not draw is in U by its degrees of freedom: Monte Carlo has
+// no say there, and what is reported covers what it says (JCGM 101:2008, 6.4.9).
+TEST(EvaluateRotaryTable, MonteCarloIsSilentWhereItDoesNotDrawAVariance) {
+    int quantities_of_the_law = 0;
+    Covered reported;
+    for (const SmallPlan& plan : {SmallPlan{4, 3, 4}, SmallPlan{4, 6, 4}}) {
+        for (std::uint64_t seed = 1; seed <= 7; ++seed) {
+            const Campaign campaign = small_campaign(plan.stations, plan.reflectors, plan.angles, 200 + seed);
+            RotaryTableRequest request = request_of(campaign);
+            request.monte_carlo = {.trials = 2000, .digits = 1, .seed = 1, .validate = false, .where = "a test"};
+            const RotaryTableResult result = evaluate_rotary_table(request, 1);
+            const RotaryTableMonteCarlo& trials = *result.monte_carlo;
+            ASSERT_EQ(trials.law_stands.size(), trials.validations.size());
+            const UncertaintyBudget& budget = result.reported.budget;
+            const bool all_drawn = std::ranges::none_of(result.solution.components, [](const auto& component) {
+                return component.estimated && component.used && component.degrees_of_freedom <= 4.0;
+            });
+            const Eigen::VectorXd truth = campaign.true_values(false);
+            for (Eigen::Index i = 0; i < 6 * plan.angles; ++i) {
+                const auto at = static_cast<std::size_t>(i);
+                double U = budget.expanded_uncertainty[i];
+                if (trials.law_stands[at]) {
+                    ++quantities_of_the_law;
+                    EXPECT_FALSE(all_drawn);
+                    EXPECT_FALSE(trials.validations[at]);
+                } else if (const auto& validation = trials.validations[at];
+                           validation && validation->precise_enough && !validation->validated) {
+                    const CoverageInterval& interval = trials.result.outputs[at].symmetric;
+                    U = 0.5 * (interval.high - interval.low);
+                }
+                reported.within += std::abs(budget.value[i] - truth[i]) <= U ? 1 : 0;
+                ++reported.all;
+            }
+        }
+    }
+    EXPECT_GT(quantities_of_the_law, 20);
+    EXPECT_GT(reported.share(), 0.93);
 }
 
 TEST(EvaluateRotaryTable, RefusesMonteCarloOfTheSequentialMethod) {
