@@ -239,14 +239,13 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
     return signals;
 }
 
-/// U(X) for the probability of the scores.
-double expanded_value_of_scores(const Scene& scene) {
+/// U(X) for the probability of the scores; by scatter as the other results show it.
+double expanded_value_of_scores(const Scene& scene, const ScoredResult& point) {
     if (!scene.assigned.scatter) {
         return scene.item.U_of_scores.value_or(*scene.item.U);
     }
-    return spread_difference({}, scene.assigned.scatter->of_value, scene.item.u_of_item(), 0.0, 0.0, 1.0,
-                             scene.score_probability())
-        .U;
+    const SpreadUncertainty& of_value = point.scatter ? point.scatter->others : scene.assigned.scatter->of_value;
+    return spread_difference({}, of_value, scene.item.u_of_item(), 0.0, 0.0, 1.0, scene.score_probability()).U;
 }
 
 /// Whether the score that decides could not have found a fault of the size that it is to find: a small score clears
@@ -261,7 +260,7 @@ bool is_too_uncertain_to_clear(const Scene& scene, const ScoredResult& point) {
         // As the others show it: the scatter of all would let a result far off widen the limit that it is held against.
         const double u_of_value = point.scatter ? point.scatter->others.u : *item.u;
         return u_of_value > point.uncertainty->u * k_rounding ||
-               expanded_value_of_scores(scene) > point.U_of_scores() * k_rounding;
+               expanded_value_of_scores(scene, point) > point.U_of_scores() * k_rounding;
     }
     if (!item.u) {
         return true;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
 #include "tests/unit/gum/printed.h"
 
@@ -89,6 +90,16 @@ TEST(ScoredResults, AReferenceThatIsWorseClearsNobody) {
     const std::vector<ScoredResult> scores = scores_of(stated);
     EXPECT_EQ(scores[0].verdict, Verdict::inconclusive);
     EXPECT_EQ(scores[1].verdict, Verdict::none);
+}
+
+TEST(ScoredResults, AResultFarOffDoesNotMakeTheOthersUncertain) {
+    test::StatedComparison stated =
+        test::comparison_of({10.0, 10.1, 9.9, 10.05, 9.95, 13.02}, {0.1, 0.1, 0.1, 0.1, 0.1, 3.0});
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::mandel_paule;
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(scores[i].verdict, Verdict::none) << i;
+    }
 }
 
 TEST(ScoredResults, DifferencesHaveIntervalsWhereTheValueHasOne) {
