@@ -81,6 +81,7 @@ constexpr std::array k_gate_findings{
     GateFinding{"G03", "B06"},
     GateFinding{"G04", "B06"},
     GateFinding{"G05", "B06"},
+    GateFinding{"G06", "B06"},
     GateFinding{"C01", "B06"},
     GateFinding{"C02", "B06"},
     GateFinding{"C03", "B06"},

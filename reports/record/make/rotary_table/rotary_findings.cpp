@@ -106,6 +106,42 @@ std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
     return remarks;
 }
 
+/// Components that the weights take from the distances, where these are far from what the job states: the result is right
+/// then, and the laboratory's own budget is not.
+std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
+    constexpr double k_far = 2.0;  // a factor of two is what nobody takes for a choice of rounding
+    std::vector<Remark> remarks;
+    for (const reports::VarianceComponent& c : rotary.variance_components) {
+        if (!c.used || !c.estimated || !c.stated.number || !c.degrees_of_freedom || *c.stated.number <= 0.0 ||
+            *c.degrees_of_freedom <= 0.0) {
+            continue;
+        }
+        const double nu = *c.degrees_of_freedom;
+        const double ratio = c.value / *c.stated.number;
+        const double above = gum::chi_square_upper_tail(nu * ratio * ratio, nu);
+        const bool is_far = (ratio > k_far && above < k_refuting_probability) ||
+                            (ratio < 1.0 / k_far && 1.0 - above < k_refuting_probability);
+        if (!is_far) {
+            continue;
+        }
+        const std::string unit = c.unit == "um" ? " µm" : "″";
+        remarks.push_back(
+            {.message = {.code = "GC-VARIANCE-0006",
+                         .where = "variance components, " + c.name,
+                         .what = "the distances give " + c.printed.value + unit + ", and " + c.stated.text + unit +
+                                 " is stated: the result rests on what they give",
+                         .rule = "an estimate agrees with what is stated within a factor of two, or passes a "
+                                 "one-sided chi-square test at 0.1 %",
+                         .action = "Correct what the job states, or find out why this measurement was other "
+                                   "than the laboratory's budget says.",
+                         .severity = gum::Severity::warning},
+             .id = "G06",
+             .clause = "ISO/IEC 17025:2017, 7.7.1",
+             .accredited = FindingSeverity::major});
+    }
+    return remarks;
+}
+
 std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     std::vector<Remark> remarks;
     if (!record.rotary) {
@@ -126,6 +162,7 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     if (distances > 0 && static_cast<double>(removed) > k_most_left_out * static_cast<double>(distances)) {
         remarks.push_back(left_out(removed, distances));
     }
+    std::ranges::move(far_from_stated(rotary), std::back_inserter(remarks));
     return remarks;
 }
 

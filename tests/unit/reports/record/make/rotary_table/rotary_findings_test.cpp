@@ -52,6 +52,27 @@ TEST(RotaryFindings, ResidualsThatRefuteTheUncertaintiesBlockTheCertificate) {
     EXPECT_EQ(rotary_remarks(record).front().code, "GC-ADJUST-0010");
 }
 
+TEST(RotaryFindings, ANoiseThatIsFarFromWhatIsStatedIsTold) {
+    const auto with_noise = [](double value, double stated, bool used) {
+        EvaluationRecord record = record_with(100.0, 0.48);
+        reports::VarianceComponent noise;
+        noise.name = "length noise";
+        noise.unit = "um";
+        noise.value = value;
+        noise.estimated = true;
+        noise.used = used;
+        noise.stated.number = stated;
+        noise.stated.text = "x";
+        noise.degrees_of_freedom = 200.0;
+        record.rotary->variance_components = {noise};
+        return ids(record);
+    };
+    EXPECT_EQ(with_noise(0.15, 0.1, true), Ids());
+    EXPECT_EQ(with_noise(1.04, 0.1, true), Ids{"G06"});
+    EXPECT_EQ(with_noise(0.1, 100.0, true), Ids{"G06"});
+    EXPECT_EQ(with_noise(1.04, 0.1, false), Ids()) << "a check of the fixture has its own finding";
+}
+
 TEST(RotaryFindings, ResidualsThatAreFarTooSmallAreTold) {
     EXPECT_EQ(ids(record_with(70.0, 0.99)), Ids());
     EXPECT_EQ(ids(record_with(10.0, 1.0)), Ids{"G02"});
