@@ -60,7 +60,13 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     suspicious.rotary->group_tests->kinds.front().suspicious = true;
     suspicious.rotary->adjustment.global_test.accepted = false;
     EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("1 are suspicious: see their table"));
-    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("The residuals do not agree with the uncertainties"));
+    AdjustmentSummary& adjustment = suspicious.rotary->adjustment;
+    adjustment.p_value.number = 0.004;
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("The residuals are larger than those of 39 in 40 adjustments"));
+    adjustment.p_value.number = 1e-5;
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("The residuals refute the uncertainties"));
+    adjustment.chi_square.number = 0.5 * adjustment.global_test.lower.number;
+    EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("smaller than the uncertainties let expect"));
 }
 
 TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
