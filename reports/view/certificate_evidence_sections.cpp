@@ -5,17 +5,38 @@
 #include "reports/plots/rotary_evidence_plots.h"
 #include "reports/plots/rotary_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/printable_text.h"
 #include "reports/reported_results.h"
 #include "reports/result_names.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gumcert::reports {
+
+void add_warnings(Facts& rows, const Wording& words, const EvaluationRecord& record) {
+    // Messages may name the file of a budget, and with it a laboratory that must not be named.
+    const bool is_confidential =
+        record.comparison && record.comparison->form == "laboratories" && !record.comparison->names_released;
+    std::vector<const gum::Diagnostic*> first;
+    std::map<std::string, std::size_t> counts;
+    for (const gum::Diagnostic& d : record.diagnostics) {
+        if (d.severity == gum::Severity::warning && ++counts[d.code] == 1) {
+            first.push_back(&d);
+        }
+    }
+    for (const gum::Diagnostic* d : first) {
+        const std::size_t count = counts.at(d->code);
+        const Text times = count > 1 ? " (" + std::to_string(count) + " ×)" : "";
+        rows.emplace_back(words("value", "severity", "warning") + " " + printable(d->code),
+                          (is_confidential ? words("heading", "messages") : words.sentence(d->what)) + times);
+    }
+}
 
 namespace {
 
@@ -93,7 +114,8 @@ const char* sentence_of_test(const RotaryTable& r) {
 }
 
 /// What the tests of the evaluation say, one line each.
-void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTable& r) {
+void verdicts(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const RotaryTable& r = *record.rotary;
     Facts facts;
     if (!r.adjustment.global_test.lower.text.empty()) {
         facts.emplace_back(words("label", "global_test"),
@@ -119,6 +141,7 @@ void verdicts(CertificateBuilder& builder, const Wording& words, const RotaryTab
                            words.fill("monte_carlo_verdict", {{"validated", std::to_string(r.monte_carlo->validated)},
                                                               {"all", std::to_string(r.monte_carlo->compared)}}));
     }
+    add_warnings(facts, words, record);
     if (!facts.empty()) {
         builder.definitions(facts);
     }
@@ -239,7 +262,7 @@ void overview(CertificateBuilder& builder, const Wording& words, const Evaluatio
     const RotaryTable& r = *record.rotary;
     builder.section("overview");
     overview_table(builder, words, r);
-    verdicts(builder, words, r);
+    verdicts(builder, words, record);
     const Plot plot = error_motion_plot(r, words);
     builder.figure(plot.id, words("sentence", r.sense_curves.empty() ? "figure_errors" : "figure_errors_by_sense"),
                    plot.description, svg(plot));

@@ -6,6 +6,10 @@
 
 namespace gumcert::reports {
 
+/// What an evaluation of any kind warns of, once for each code: a doubt stands on the page that the results stand on, and its
+/// message with the others further down.
+void add_warnings(Facts& rows, const Wording& words, const EvaluationRecord& record);
+
 // Sections of a rotary table that a machine builder reads, and what the distances say of the measurement. Each one
 // writes nothing where the record does not hold what it is about, as records of earlier releases do not.
 

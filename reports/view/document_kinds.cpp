@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,26 +41,6 @@ void figure(CertificateBuilder& builder, const Text& caption, const Plot& plot) 
     builder.figure(plot.id, caption, plot.description, svg(plot));
 }
 
-/// What the evaluation warns of, once for each code: a doubt stands on the page that the results stand on, and its message
-/// with the others further down.
-void add_warnings(Facts& rows, const Wording& words, const EvaluationRecord& record) {
-    // Messages may name the file of a budget, and with it a laboratory that must not be named.
-    const bool is_confidential = record.comparison && !record.comparison->names_released;
-    std::vector<const gum::Diagnostic*> first;
-    std::map<std::string, std::size_t> counts;
-    for (const gum::Diagnostic& d : record.diagnostics) {
-        if (d.severity == gum::Severity::warning && ++counts[d.code] == 1) {
-            first.push_back(&d);
-        }
-    }
-    for (const gum::Diagnostic* d : first) {
-        const std::size_t count = counts.at(d->code);
-        const Text times = count > 1 ? " (" + std::to_string(count) + " ×)" : "";
-        rows.emplace_back(words("value", "severity", "warning") + " " + printable(d->code),
-                          (is_confidential ? words("heading", "messages") : words.sentence(d->what)) + times);
-    }
-}
-
 /// \param own  facts of this kind of record
 void identification(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record,
                     const Facts& own = {}) {
@@ -72,7 +51,9 @@ void identification(CertificateBuilder& builder, const Wording& words, const Eva
     rows.emplace_back(words("label", "coverage"), words.number(record.coverage_probability.text));
     rows.emplace_back(words("label", "software"), record.software.name + " " + record.software.version);
     rows.emplace_back(words("label", "commit"), record.software.commit);
-    add_warnings(rows, words, record);
+    if (!record.rotary) {  // there, they stand with the tests, on the page before
+        add_warnings(rows, words, record);
+    }
     builder.definitions(rows);
 }
 

@@ -69,6 +69,25 @@ TEST(EvidenceSections, BeginWithWhatTheTableDoes) {
     EXPECT_THAT(text_of_evidence(suspicious), HasSubstr("smaller than the uncertainties let expect"));
 }
 
+TEST(EvidenceSections, WarnOnceForEachCodeOnTheFirstPage) {
+    EvaluationRecord record = test::sample_record();
+    const gum::Diagnostic doubt{.code = "GC-WARN-0004",
+                                .where = "lengths.csv",
+                                .what = "the angles span 90°",
+                                .rule = {},
+                                .action = {},
+                                .severity = gum::Severity::warning};
+    record.diagnostics = {doubt, doubt};
+    record.diagnostics.push_back(doubt);
+    record.diagnostics.back().code = "GC-NOTE-1";
+    record.diagnostics.back().severity = gum::Severity::note;
+    const std::string text = text_of_evidence(record);
+    const std::size_t at = text.find("warning GC-WARN-0004 the angles span 90° (2 ×)");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_LT(at, text.find("Error motions"));
+    EXPECT_EQ(text.find("GC-NOTE-1"), text.rfind("GC-NOTE-1")) << "a note stands with the remarks alone";
+}
+
 TEST(EvidenceSections, NameTheGroupWithTheLargestTestValue) {
     EvaluationRecord record = record_with_evidence();
     GroupTestRow drift = test::sample_group_test("drift", true);
