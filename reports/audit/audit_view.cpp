@@ -310,6 +310,10 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
         // no error.
         view.change.relative = result.audited.U / result.unrounded_U - 1.0;
         view.change.percent = signed_percent(view.change.relative);
+        constexpr double k_no_percent = 5e-4;  // what prints as 0.0 %
+        if (std::abs(view.change.relative) < k_no_percent) {
+            view.change.direction = "unchanged";
+        }
     }
     if (!budget.claims.broken.U.empty()) {
         view.change.percent = "–";

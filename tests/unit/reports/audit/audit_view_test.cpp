@@ -40,6 +40,24 @@ TEST(AuditViewOfABudget, HoldsNumbersBesideTheirTexts) {
     EXPECT_EQ(view.files[0].sha256, std::string(64, 'a'));
 }
 
+TEST(AuditViewOfABudget, RoundingOfTheClaimIsNoError) {
+    // 2 × 29.3 mg was rounded to 59 mg, and the rows give 58.48 mg, which rounds to 58 mg.
+    audit::AuditReport report = test::sample_audit();
+    audit::AuditedResult& result = report.results[0];
+    result.claimed.U = 59.0;
+    result.claimed.printed_U = "59";
+    result.claimed.stated_step = 1.0;
+    result.audited.U = 58.48;
+    result.audited.printed_U = "58";
+    result.unrounded_U = 58.48;
+    const AuditView unchanged = view_of(report);
+    EXPECT_EQ(unchanged.files.at(0).results.at(0).change.direction, "unchanged");
+    EXPECT_EQ(unchanged.files.at(0).results.at(0).change.percent, "0.0");
+    result.audited.U = 50.0;
+    const AuditView changed = view_of(report);
+    EXPECT_EQ(changed.files.at(0).results.at(0).change.direction, "overstated");
+}
+
 TEST(AuditViewOfABudget, SortsRowsByTheirShareAndTiesFindingsToThem) {
     const AuditView view = view_of(test::sample_audit());
     const AuditedResultView& result = view.files[0].results[0];
