@@ -53,6 +53,7 @@ TEST(AuditViewOfABudget, RoundingOfTheClaimIsNoError) {
     const AuditView unchanged = view_of(report);
     EXPECT_EQ(unchanged.files.at(0).results.at(0).change.direction, "unchanged");
     EXPECT_EQ(unchanged.files.at(0).results.at(0).change.percent, "0.0");
+    EXPECT_EQ(unchanged.files.at(0).results.at(0).audited.U, unchanged.files.at(0).results.at(0).claimed.U);
     result.audited.U = 50.0;
     const AuditView changed = view_of(report);
     EXPECT_EQ(changed.files.at(0).results.at(0).change.direction, "overstated");
