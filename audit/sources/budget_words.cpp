@@ -152,6 +152,8 @@ constexpr std::array k_column_words = {
     Word{U"nui", Column::nu},
     Word{U"v", Column::nu},
     Word{U"vi", Column::nu},
+    Word{U"viorveff", Column::nu},
+    Word{U"viveff", Column::nu},
     Word{U"dof", Column::nu},
     Word{U"df", Column::nu},
     Word{U"degreesoffreedom", Column::nu},
@@ -416,6 +418,17 @@ bool may_be_quantity(Statement statement, std::string_view text) {
 
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
+    // "Value ± kPa", "ui(P) ± kPa": the layout of M3003, where ± says that the column has uncertainties, and what follows is
+    // their unit. What is headed "Value" there is divided; it is no estimate.
+    constexpr std::string_view k_plus_minus = "±";
+    if (const std::size_t at = head.find(k_plus_minus); at != std::string_view::npos && at > 0) {
+        const std::string_view name = trimmed(head.substr(0, at));
+        if (name.starts_with("ui(") || name.starts_with("u_i(")) {  // u_i(y) of any y
+            return Column::contribution;
+        }
+        const std::optional<Column> column = column_of(name);
+        return column == Column::estimate ? std::optional(Column::stated) : column;
+    }
     const std::string_view short_head = trimmed(without_brackets(head));
     for (std::string_view text = head;; text = short_head) {
         if (text == "u") {

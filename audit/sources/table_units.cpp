@@ -195,6 +195,10 @@ std::string unit_in_head(const std::string& head) {
     if (const std::size_t slash = head.rfind(" / "); slash != std::string::npos) {
         return head.substr(slash + 3);
     }
+    constexpr std::string_view k_plus_minus = "± ";  // "Value ± kPa"
+    if (const std::size_t sign = head.find(k_plus_minus); sign != std::string::npos && sign > 0) {
+        return std::string(bare_unit(std::string_view(head).substr(sign + k_plus_minus.size())));
+    }
     const std::size_t round = head.rfind(" (");
     if (round != std::string::npos && head.ends_with(')')) {
         const std::string inside = head.substr(round + 2, head.size() - round - 3);

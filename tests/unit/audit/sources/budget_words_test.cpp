@@ -7,6 +7,16 @@
 namespace gumcert::audit {
 namespace {
 
+TEST(ColumnOfAHead, KnowsTheLayoutOfM3003) {
+    EXPECT_EQ(column_of("Value ± kPa"), Column::stated);
+    EXPECT_EQ(column_of("ui(P) ± kPa"), Column::contribution);
+    EXPECT_EQ(column_of("u_i(y) ± µV/V"), Column::contribution);
+    EXPECT_EQ(column_of("u(x) ± mm"), column_of("u(x)"));
+    EXPECT_EQ(column_of("vi or veff"), Column::nu);
+    EXPECT_EQ(column_of("±"), Column::stated);
+    EXPECT_EQ(column_of("nothing ± kPa"), std::nullopt);
+}
+
 TEST(ColumnOf, KnowsHeadsOfTheContractAndTheirSynonyms) {
     EXPECT_EQ(column_of("quantity"), Column::quantity);
     EXPECT_EQ(column_of("Eingangsgröße"), Column::quantity);

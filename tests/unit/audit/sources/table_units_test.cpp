@@ -38,6 +38,7 @@ std::set<std::string> critical_in(const AuditReport& report) {
 
 TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_head("u [µm]"), "µm");
+    EXPECT_EQ(unit_in_head("Value ± kPa"), "kPa");
     EXPECT_EQ(unit_in_head("u / nm"), "nm");
     EXPECT_EQ(unit_in_head("result (mm)"), "mm");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
