@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
+#include "gum/nearest_turn.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/distribution_shape.h"
-#include "gum/turned_angles.h"
 
 namespace gumcert::gum {
 

@@ -9,6 +9,7 @@
 #include "gum/coverage.h"
 #include "gum/monte_carlo/copula_correlation.h"
 #include "gum/nearest_correlation.h"
+#include "gum/nearest_turn.h"
 #include "gum/propagation.h"
 #include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/special_values.h"
@@ -539,7 +540,17 @@ Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd BudgetModel::evaluate(const Eigen::VectorXd& x) const {
-    return system_ ? system_->evaluate(symbols(x)) : Eigen::VectorXd(symbols(x)(results_));
+    Eigen::VectorXd y = system_ ? system_->evaluate(symbols(x)) : Eigen::VectorXd(symbols(x)(results_));
+    for (const auto& [output, estimate] : turned_) {
+        y(output) = nearest_turn(y(output), estimate);
+    }
+    return y;
+}
+
+std::shared_ptr<const BudgetModel> BudgetModel::turned(Eigen::Index output, const Eigen::VectorXd& values) const {
+    auto model = std::make_shared<BudgetModel>(*this);
+    model->turned_[output] = values(output);
+    return model;
 }
 
 Eigen::VectorXd BudgetModel::rounding(const Eigen::VectorXd& x) const {
@@ -596,16 +607,19 @@ std::vector<Eigen::MatrixXd> BudgetModel::hessians(const Eigen::VectorXd& x) con
 void BudgetModel::evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const {
     if (one_to_one_ && system_) {
         system_->evaluate_trials(x, y, start_);
-        return;
-    }
-    Eigen::MatrixXd z = Eigen::MatrixXd::Zero(x.rows(), symbol_count_);
-    for (std::size_t i = 0; i < quantities_.size(); ++i) {
-        z.col(static_cast<Eigen::Index>(quantities_[i].symbol)) += x.col(static_cast<Eigen::Index>(i));
-    }
-    if (system_) {
-        system_->evaluate_trials(z, y, start_);
     } else {
-        y = z(Eigen::all, results_);
+        Eigen::MatrixXd z = Eigen::MatrixXd::Zero(x.rows(), symbol_count_);
+        for (std::size_t i = 0; i < quantities_.size(); ++i) {
+            z.col(static_cast<Eigen::Index>(quantities_[i].symbol)) += x.col(static_cast<Eigen::Index>(i));
+        }
+        if (system_) {
+            system_->evaluate_trials(z, y, start_);
+        } else {
+            y = z(Eigen::all, results_);
+        }
+    }
+    for (const auto& [output, estimate] : turned_) {
+        y.col(output) = y.col(output).unaryExpr([to = estimate](double angle) { return nearest_turn(angle, to); });
     }
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +47,10 @@ public:
     [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const override;
     [[nodiscard]] std::vector<Eigen::MatrixXd> hessians(const Eigen::VectorXd& x) const override;
     void evaluate_trials(const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::Ref<Eigen::MatrixXd> y) const override;
+    /// This model with an angle that leaps by full turns, as atan2 does at ±180°, taken as near to its estimate as turns bring it.
+    /// \param output  in rad
+    /// \param values  estimates of all outputs
+    [[nodiscard]] std::shared_ptr<const BudgetModel> turned(Eigen::Index output, const Eigen::VectorXd& values) const;
     /// How far each output may be off because numbers are rounded to double precision (EquationSystem::rounding).
     [[nodiscard]] Eigen::VectorXd rounding(const Eigen::VectorXd& x) const;
 
@@ -62,6 +68,7 @@ private:
     std::vector<Eigen::Index> results_;  ///< without a system: symbols
     Eigen::VectorXd start_;              ///< solution of implicit equations at the estimates, where every trial begins
     bool one_to_one_ = false;            ///< quantity i is symbol i: nothing to add up
+    std::map<Eigen::Index, double> turned_;  ///< outputs that leap by full turns, and their estimates
 };
 
 /// The groups of a budget at one point of its table, with all that follows from them.

@@ -12,7 +12,6 @@
 #include "gum/budget/zero_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
-#include "gum/turned_angles.h"
 
 namespace gumcert::gum {
 
@@ -150,13 +149,6 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
            std::abs(point.second_order->shift(output)) > shift * std::max(first, second);
 }
 
-MonteCarloResult trials_of(const BudgetPointResult& point, const MonteCarloOptions& options) {
-    if (std::find(point.leaps.begin(), point.leaps.end(), true) == point.leaps.end()) {
-        return run_monte_carlo(*point.model, options);
-    }
-    return run_monte_carlo(TurnedAngles(*point.model, point.leaps, point.propagation.value), options);
-}
-
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
 void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsigned threads, const Progress& progress,
                      BudgetPointResult& point) {
@@ -177,7 +169,7 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
         auto found = results.find(output.coverage_probability);
         if (found == results.end()) {
             options.coverage_probability = output.coverage_probability;
-            found = results.emplace(output.coverage_probability, trials_of(point, options)).first;
+            found = results.emplace(output.coverage_probability, run_monte_carlo(*point.model, options)).first;
             if (!point.monte_carlo) {
                 point.monte_carlo = found->second;
             }

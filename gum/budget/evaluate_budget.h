@@ -54,7 +54,6 @@ struct BudgetPointResult {
     std::vector<std::uint64_t> streams;  ///< one a group: what points have in common is equal
     Propagation propagation;
     std::vector<bool> without_derivative;  ///< one an output, as gum/budget/evaluation_choice.h; empty: none
-    std::vector<bool> leaps;               ///< one an output: an angle that leaps by full turns; empty: none
     std::optional<SecondOrderPropagation> second_order;
     std::vector<BudgetOutputResult> outputs;
     std::optional<MonteCarloResult> monte_carlo;      ///< of the first coverage probability

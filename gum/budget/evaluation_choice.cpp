@@ -147,8 +147,11 @@ std::vector<std::string> evidence_against_law(BudgetPointResult& point, bool lin
             factors.push_back(output.coverage_factor);
         }
         checks = check_linearity(*point.model, point.propagation, factors);
-        for (const LinearityCheck& check : checks) {
-            point.leaps.push_back(check.leaps);
+        for (std::size_t i = 0; i < outputs; ++i) {
+            if (checks[i].leaps) {
+                // Whatever draws trials of the point draws them from its model: all of them see the same angle.
+                point.model = point.model->turned(static_cast<Eigen::Index>(i), point.propagation.value);
+            }
         }
     }
     for (std::size_t i = 0; i < outputs; ++i) {

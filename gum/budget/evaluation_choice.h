@@ -37,7 +37,7 @@ struct PointPropagation {
                                                         const std::vector<InputSymbol>& symbols);
 
 /// What speaks against the law of propagation before any trial is drawn, one reason an output; "" where nothing does.
-/// Also notes which outputs are angles that leap by full turns (BudgetPointResult::leaps).
+/// Outputs that are found to be angles that leap by full turns are turned in the model of the point.
 /// \param linear_model  every output is an affine function of all inputs
 [[nodiscard]] std::vector<std::string> evidence_against_law(BudgetPointResult& point, bool linear_model);
 

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gum/budget/evaluate_budget.h"
+#include "gum/monte_carlo/trial_distribution.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/budget/made_budgets.h"
 
@@ -45,6 +47,35 @@ std::vector<double> wave(double shift) {
         values.push_back(std::sin(0.7 * i) + 0.5 * std::cos(1.3 * i * i) + shift * std::sin(2.9 * i * i));
     }
     return values;
+}
+
+TEST(BudgetModel, TurnsAnglesThatLeapAndLeavesOtherOutputsAlone) {
+    // The direction of (s, c) about 179°, 0.02 rad wide, and a number.
+    const double angle = 179.0 * std::numbers::pi / 180.0;
+    const StatedQuantity s = shaped(DistributionKind::normal, std::sin(angle), 0.02);
+    const StatedQuantity c = shaped(DistributionKind::normal, std::cos(angle), 0.02);
+    const BudgetResult result =
+        evaluate_budget(drawn(test::budget({"t = atan2(s, c)", "l = 7*s"}, {input("s", s), input("c", c)})), 1);
+    const BudgetPointResult& point = result.points[0];
+    Eigen::MatrixXd x(2, 2);
+    x << -0.01, -1.0, 0.01, -1.0;
+    Eigen::MatrixXd y(2, 2);
+    point.model->evaluate_trials(x, y);
+    EXPECT_GT(y(0, 0), std::numbers::pi);
+    EXPECT_LT(y(1, 0), std::numbers::pi);
+    EXPECT_NEAR(y(0, 0) - y(1, 0), 0.02, 1e-5);
+    EXPECT_EQ(y(0, 1), -0.07);
+    EXPECT_EQ(point.model->evaluate(x.row(0).transpose()), y.row(0).transpose());
+    // Whoever draws the trials again, as a decision on conformity does, sees those that are stated.
+    const TrialDistribution again = count_trials({.model = point.model,
+                                                  .output = 0,
+                                                  .unit = Unit::parse("rad"),
+                                                  .seed = point.monte_carlo->seed,
+                                                  .streams = point.streams,
+                                                  .trials = point.outputs[0].trials});
+    const CoverageInterval& stated = point.outputs[0].monte_carlo->symmetric;
+    EXPECT_NEAR(again.function(stated.high) - again.function(stated.low), 0.9545, 1e-3);
+    EXPECT_NEAR(again.function(angle), 0.5, 0.01);
 }
 
 TEST(BudgetModel, DrawsSamplesOfOneFileByItsRows) {
