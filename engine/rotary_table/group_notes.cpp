@@ -34,6 +34,12 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
         return "lengths";
     }
     std::string place = "station " + measurement.stations[test.station];
+    if (test.kind == GroupKind::pair_length) {
+        return place + ", reflector " + measurement.reflectors[test.reflector];
+    }
+    if (test.kind == GroupKind::station_place) {
+        return place + ", pass " + measurement.passes[test.pass];
+    }
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
         // A place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the
         // file.
@@ -68,6 +74,11 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
                    size_of(test.estimate) + " (root mean square)";
         case GroupKind::dead_path_change:
             return "from this visit on all distances of the station are off by " + size_of(test.estimate) + " alike";
+        case GroupKind::station_place:
+            return "from this pass on the station stood " + size_of(test.estimate) + " away from where it was before";
+        case GroupKind::pair_length:
+            return "all distances between this station and this reflector are off by " + size_of(test.estimate) +
+                   " alike";
         case GroupKind::drift:
             return test.degrees_of_freedom > 1
                        ? "the distances of the stations drift, by " + size_of(test.estimate) +
@@ -107,12 +118,17 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::station:
             selectors = "\"station\": \"" + measurement.stations[test.station] + "\"";
             break;
+        case GroupKind::pair_length:
+            selectors = "\"station\": \"" + measurement.stations[test.station] + "\", \"reflector\": \"" +
+                        measurement.reflectors[test.reflector] + "\"";
+            break;
         case GroupKind::reflector:
             selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
             break;
         // Not one visit is wrong there, but all from some visit on, or all in their order: leaving distances out is no
         // cure.
         case GroupKind::dead_path_change:
+        case GroupKind::station_place:
         case GroupKind::drift:
         case GroupKind::succession:
         case GroupKind::fixture_scale:
@@ -131,6 +147,12 @@ std::string action_of(const GroupTest& test) {
                    "again.";
         case GroupKind::dead_path_change:
             return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
+        case GroupKind::station_place:
+            return "Look at the support of the station; if it was moved, give the lengths from this pass on a station "
+                   "name of their own, so that its new place is found with the others.";
+        case GroupKind::pair_length:
+            return "Look along this line of sight: something near the beam, a soiled or damaged reflector; measure "
+                   "these distances again.";
         case GroupKind::drift:
             return "Look at the temperatures and at the supports of stations and table; measure in both senses, and "
                    "the "

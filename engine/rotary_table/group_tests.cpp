@@ -77,16 +77,21 @@ GroupSpread spread_of(const LinearisedGroup& group, const BorderedCovariance& co
     return {whitening, whitening.transpose() * group.residual, whitening.transpose() * cofactor * whitening};
 }
 
-/// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits, from which whole visits can be left out.
+/// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits and of the coordinates of the fixture, from which whole visits
+/// and other effects on distances can be left out.
 ///
 /// Leaving out a visit g is estimating an error of each of its distances: V⁻¹v ← V⁻¹v - M_g M_gg⁻¹ (V⁻¹v)_g and
 /// M ← M - M_g M_gg⁻¹ M_gᵀ, exact for the linearised model at fixed weights.
 class Visits {
 public:
     Visits(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance)
-        : normal_(normal), covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
+        : covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
         for (std::size_t g = 0; g < size_; ++g) {
-            GroupSpread spread = spread_of(normal.groups()[g], covariance);
+            groups_.push_back(&normal.groups()[g]);
+        }
+        groups_.push_back(&normal.groups()[adjustment.fixture_prior()]);
+        for (const LinearisedGroup* group : groups_) {
+            GroupSpread spread = spread_of(*group, covariance);
             // Relative to the weights of the visit, so that no unit decides what counts as controlled.
             least_.push_back(k_controlled * spread.whitening.squaredNorm());
             weighted_.push_back(std::move(spread.weighted));
@@ -100,6 +105,10 @@ public:
     [[nodiscard]] const VectorXd& weighted(std::size_t g) const { return weighted_[g]; }
     [[nodiscard]] const MatrixXd& own(std::size_t g) const { return own_[g]; }
     [[nodiscard]] double least(std::size_t g) const { return least_[g]; }
+    /// Of the coordinates of the fixture, x, y, z of one point after the other.
+    [[nodiscard]] const VectorXd& weighted_fixture() const { return weighted_.back(); }
+    [[nodiscard]] const MatrixXd& own_fixture() const { return own_.back(); }
+    [[nodiscard]] const MatrixXd& whitening_fixture() const { return whitening_.back(); }
 
     /// Errors of each distance of a visit on its own.
     void leave_out(std::size_t g) {
@@ -124,7 +133,7 @@ public:
         LeftOut left{columns(effect, q),
                      pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
         const VectorXd error = left.inverse * projected.weighted;
-        for (std::size_t h = 0; h < size_; ++h) {
+        for (std::size_t h = 0; h < groups_.size(); ++h) {
             weighted_[h] -= left.columns[h] * error;
             own_[h] -= left.columns[h] * left.inverse * left.columns[h].transpose();
         }
@@ -180,7 +189,7 @@ public:
 
 private:
     struct LeftOut {
-        Effect columns;    ///< M C at every visit when it was left out
+        Effect columns;    ///< M C at every visit, and at the fixture, when it was left out
         MatrixXd inverse;  ///< (Cᵀ M C)⁻¹ then
 
         /// Cᵀ M of what was left out with another effect.
@@ -214,14 +223,13 @@ private:
         MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
         for (std::size_t g = 0; g < size_; ++g) {
             if (effect[g].size() > 0) {
-                pull(normal_.groups()[g].columns, Eigen::all) +=
-                    normal_.groups()[g].jacobian.transpose() * (whitening_[g] * effect[g]);
+                pull(groups_[g]->columns, Eigen::all) += groups_[g]->jacobian.transpose() * (whitening_[g] * effect[g]);
             }
         }
         return pull;
     }
 
-    /// M C at every visit.
+    /// M C at every visit, and at the fixture.
     [[nodiscard]] Effect columns(const Effect& effect, Index q) const {
         const MatrixXd pull = pull_of(effect, q);
         MatrixXd shift(covariance_.size(), q);  // of the parameters
@@ -229,26 +237,26 @@ private:
             shift.col(k) = covariance_.times(pull.col(k));
         }
         Effect result;
-        for (std::size_t h = 0; h < size_; ++h) {
-            const LinearisedGroup& group = normal_.groups()[h];
+        for (std::size_t h = 0; h < groups_.size(); ++h) {
+            const LinearisedGroup& group = *groups_[h];
             MatrixXd part = -(group.jacobian * shift(group.columns, Eigen::all));
-            if (effect[h].size() > 0) {
+            if (h < size_ && effect[h].size() > 0) {
                 part += whitening_[h] * effect[h];
             }
             result.emplace_back(whitening_[h].transpose() * part);
         }
         for (const LeftOut& left : left_out_) {
             const MatrixXd error = left.inverse * left.across(effect, q);
-            for (std::size_t h = 0; h < size_; ++h) {
+            for (std::size_t h = 0; h < groups_.size(); ++h) {
                 result[h] -= left.columns[h] * error;
             }
         }
         return result;
     }
 
-    const NormalEquations& normal_;
     const BorderedCovariance& covariance_;
     std::size_t size_;
+    std::vector<const LinearisedGroup*> groups_;  ///< the visits, and last the fixture
     std::vector<bool> out_;
     std::vector<VectorXd> weighted_;
     std::vector<MatrixXd> own_;
@@ -272,7 +280,6 @@ public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
                 const GroupTestOptions& options)
         : adjustment_(adjustment),
-          normal_(normal),
           covariance_(covariance),
           options_(options),
           visits_(adjustment, normal, covariance) {
@@ -289,7 +296,7 @@ public:
         // that its effects elsewhere are not reported as causes of their own.
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
-            last = {best_visit(), best_change(), best_drift(), best_index()};
+            last = {best_visit(), best_change(), best_place(), best_pair(), best_drift(), best_index()};
             const std::optional<Candidate> worst = least_probable(last);
             if (!worst || !worst->test.suspicious) {
                 break;
@@ -639,6 +646,127 @@ private:
         return best;
     }
 
+    /// Visits of a station that are in, by pass, in the order in which the passes were measured.
+    [[nodiscard]] std::vector<std::vector<std::size_t>> passes_of(std::size_t station) const {
+        std::vector<std::vector<std::size_t>> passes;
+        std::map<std::size_t, std::size_t> place_of_pass;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const Visit& visit = adjustment_.visits()[g];
+            if (visit.station == station && !visits_.is_out(g)) {
+                const auto [at, is_new] = place_of_pass.try_emplace(visit.pass, passes.size());
+                if (is_new) {
+                    passes.emplace_back();
+                }
+                passes[at->second].push_back(g);
+            }
+        }
+        std::ranges::stable_sort(passes, {}, [this](const auto& pass) {
+            double sum = 0.0;
+            for (const std::size_t g : pass) {
+                sum += time_of(g);
+            }
+            return sum / static_cast<double>(pass.size());
+        });
+        return passes;
+    }
+
+    /// A station that was moved between two of its passes: three coordinates from a pass on. The table, whose visits
+    /// are seen by several stations, would take it up as its repeatability, pass by pass.
+    [[nodiscard]] std::optional<Candidate> best_place() {
+        const std::size_t stations = adjustment_.measurement().stations.size();
+        std::vector<std::vector<std::vector<std::size_t>>> passes;
+        std::size_t count = 0;
+        for (std::size_t j = 0; j < stations; ++j) {
+            passes.push_back(passes_of(j));
+            count += passes.back().empty() ? 0 : passes.back().size() - 1;
+        }
+        std::optional<Candidate> best;
+        for (std::size_t j = 0; j < stations; ++j) {
+            for (std::size_t from = 1; from < passes[j].size(); ++from) {
+                Visits::Effect effect(visits_.size());
+                for (std::size_t pass = from; pass < passes[j].size(); ++pass) {
+                    for (const std::size_t g : passes[j][pass]) {
+                        // The distance is |P - q|: what moves the table by t moves the station by -t (contract,
+                        // section 4).
+                        effect[g] = -poses_[g].leftCols(3);
+                    }
+                }
+                if (const std::optional<GroupTest> test = place_test(effect, count)) {
+                    GroupTest placed = *test;
+                    place(placed, passes[j][from].front());
+                    placed.angle = GroupTest::k_none;  // the whole pass, not its first angle
+                    take(best, {placed, [this, effect] { visits_.take_away(effect, 3); }});
+                }
+            }
+        }
+        return best;
+    }
+    [[nodiscard]] std::optional<GroupTest> place_test(const Visits::Effect& effect, std::size_t count) const {
+        const Visits::Projection projection = visits_.projection(effect, 3);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
+        if (inverted.rank == 0) {
+            return std::nullopt;
+        }
+        // By the larger of both scales, as the angles of a station: neither a common error nor a free pose.
+        const double scale = std::max(used_scale_, pose_scale_);
+        const VectorXd error = inverted.inverse * projection.weighted;
+        GroupTest test =
+            judged(GroupKind::station_place, projection.weighted.dot(error) / (scale * scale), inverted.rank, count);
+        test.estimate = error.norm();
+        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) * scale *
+                                  std::sqrt(inverted.inverse.trace() / inverted.rank);
+        return test;
+    }
+
+    /// One error of all distances between a station and a reflector: a beam that grazes something, a reflector that is
+    /// seen from behind.
+    [[nodiscard]] std::optional<Candidate> best_pair() {
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        const std::size_t stations = measurement.stations.size();
+        const std::size_t reflectors = measurement.reflectors.size();
+        std::vector<Visits::Effect> effects(stations * reflectors, Visits::Effect(visits_.size()));
+        std::vector<std::size_t> first(effects.size(), visits_.size());
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            const Visit& visit = adjustment_.visits()[g];
+            for (std::size_t i = 0; i < visit.observations.size() && !visits_.is_out(g); ++i) {
+                const std::size_t pair =
+                    visit.station * reflectors + measurement.lengths[visit.observations[i]].reflector;
+                if (effects[pair][g].size() == 0) {
+                    effects[pair][g] = MatrixXd::Zero(static_cast<Index>(visit.observations.size()), 1);
+                }
+                effects[pair][g](static_cast<Index>(i), 0) = 1.0;
+                first[pair] = std::min(first[pair], g);
+            }
+        }
+        const double misfit_of_fixture = largest_fixture_misfit();
+        std::optional<Candidate> best;
+        for (std::size_t pair = 0; pair < effects.size(); ++pair) {
+            if (first[pair] == visits_.size()) {
+                continue;
+            }
+            const Visits::Projection projection = visits_.projection(effects[pair], 1);
+            const double spread = projection.spread(0, 0);
+            // With dead paths for each reflector it is a dead path, and nothing is left to test.
+            if (!(spread > k_controlled * projection.weight)) {
+                continue;
+            }
+            const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
+            // A displaced reflector and a fixture of another size leave something between each station and reflector:
+            // where they explain more, at the same weights, it is they.
+            if (chi_square < misfit_of_fixture) {
+                continue;
+            }
+            GroupTest test =
+                judged(GroupKind::pair_length, chi_square / (used_scale_ * used_scale_), 1, effects.size());
+            test.station = pair / reflectors;
+            test.reflector = pair % reflectors;
+            test.estimate = projection.weighted[0] / spread;
+            test.minimal_detectable = detectable(test, spread);
+            take(best, {test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }});
+        }
+        return best;
+    }
+
     /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
     struct Drifts {
         std::vector<Visits::Column> each;  ///< of every sequence
@@ -962,12 +1090,32 @@ private:
         return test;
     }
 
+    [[nodiscard]] FixtureMisfit fixture_misfit() const {
+        // Where the distances see hardly anything of a coordinate its residual is rounding, and it is not tested.
+        return {visits_.weighted_fixture(), visits_.own_fixture(),
+                1e-6 * visits_.whitening_fixture().colwise().squaredNorm().minCoeff()};
+    }
+    /// The most that a displaced reflector or the scale of the fixture explains; 0 where neither is suspicious.
+    [[nodiscard]] double largest_fixture_misfit() const {
+        const FixtureMisfit misfit = fixture_misfit();
+        const auto points = static_cast<std::size_t>(misfit.weighted.size() / 3);
+        double largest = 0.0;
+        const auto consider = [&largest](const std::optional<GroupTest>& test) {
+            if (test && test->suspicious) {
+                largest = std::max(largest, test->chi_square);
+            }
+        };
+        consider(scale_test(misfit));
+        for (std::size_t m = 0; m < points && points > 3; ++m) {
+            consider(reflector_test(misfit, m, points));
+        }
+        return largest;
+    }
+
     /// The fixture as a whole and its points, one at a time: what is least probable is taken away before the next.
     void search_fixture() {
-        auto [whitening, weighted, spread] = spread_of(normal_.groups()[adjustment_.fixture_prior()], covariance_);
-        // Where the distances see hardly anything of a coordinate its residual is rounding, and it is not tested.
-        FixtureMisfit misfit{weighted, spread, 1e-6 * whitening.colwise().squaredNorm().minCoeff()};
-        const auto points = static_cast<std::size_t>(weighted.size() / 3);
+        FixtureMisfit misfit = fixture_misfit();
+        const auto points = static_cast<std::size_t>(misfit.weighted.size() / 3);
         std::vector<bool> out(points, false);
         bool is_scaled = false;
         // Three points make a frame: of as many nothing controls the others.
@@ -997,13 +1145,12 @@ private:
             if (!worst->suspicious) {
                 return;
             }
-            misfit.take_away(effect_of_point(worst->reflector, weighted.size()));
+            misfit.take_away(effect_of_point(worst->reflector, misfit.weighted.size()));
             out[worst->reflector] = true;
         }
     }
 
     const JointAdjustment& adjustment_;
-    const NormalEquations& normal_;
     const BorderedCovariance& covariance_;
     const GroupTestOptions& options_;
     Visits visits_;
@@ -1029,7 +1176,7 @@ double share_of_level(GroupKind kind) {
     // They add up to 0.9. The tenth that is left is that of the check of the fixture (ADR 0031).
     switch (kind) {
         case GroupKind::drift:
-            return 0.40;
+            return 0.385;
         case GroupKind::visit_length:
             return 0.30;
         case GroupKind::dead_path_change:
@@ -1041,6 +1188,9 @@ double share_of_level(GroupKind kind) {
         case GroupKind::succession:
         case GroupKind::station:
             return 0.015;
+        case GroupKind::pair_length:
+            return 0.01;
+        case GroupKind::station_place:
         case GroupKind::angle_index:
         case GroupKind::fixture_scale:
             return 0.005;

@@ -17,6 +17,8 @@ enum class GroupKind {
     visit_length,      ///< one error of all distances of a visit: beam, dead path
     visit_pose,        ///< a visit in which the table stood elsewhere
     dead_path_change,  ///< one error of all distances of a station from some visit on: an interrupted beam
+    station_place,     ///< a station that stood elsewhere from one of its passes on
+    pair_length,       ///< one error of all distances between a station and a reflector
     drift,             ///< an error of the distances of a station, or of all, that grows from visit to visit
     angle_index,       ///< the angles of a station are some steps off
     succession,        ///< successive visits deviate alike
@@ -46,8 +48,8 @@ struct GroupTest {
     double p_value = 1.0;         ///< probability of a chi-square as large as this where nothing is wrong
     double critical_value = 0.0;  ///< of chi-square: the family of its kind exceeds it with its share of alpha
     /// Visit and change: error of the distances; pose: rms of what it does to the distances; drift: error at the last
-    /// visit less that at the first, rms where every station has its own; reflector: displacement, [m]; fixture scale:
-    /// relative, [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
+    /// visit less that at the first, rms where every station has its own; reflector and place of a station:
+    /// displacement, [m]; fixture scale: relative, [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
     /// standard deviations of its visits and of the others.
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
@@ -94,7 +96,7 @@ struct GroupTestOptions {
 /// freedom as C has columns (W. Baarda, A testing procedure for use in geodetic networks, 1968; P. Teunissen, Testing
 /// theory, 2000).
 ///
-/// The least probable visit, change, drift or step of the angles is taken away before the others are tested again. Test
+/// The least probable visit, change, place, pair, drift or step of the angles is taken away before the others are tested again. Test
 /// values are divided by the robust scale of all visits where it differs from 1 by more than two of its standard
 /// deviations, at the limit towards 1. The scatter of stations and the succession of visits, which name no cause, are
 /// tested where nothing else is suspicious. Of the

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -42,32 +43,36 @@ double binomial_tail(std::size_t least, std::size_t all, double share) {
     return std::max(0.0, 1.0 - below);
 }
 
-/// Whether distances that were left out are so many of one visit or of one reflector that wrong ones scattered over the
-/// measurement would hardly be: then it may be the group that is wrong, and what is left of it does not say so any more.
+/// Whether distances that were left out are so many of one visit, reflector, station, or of one reflector seen from one
+/// station, that wrong ones scattered over the measurement would hardly be: then it may be the group that is wrong, and
+/// what is left of it does not say so any more.
 bool is_concentrated(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
-    constexpr double k_expected = 0.5;  // groups with as many, by chance
+    constexpr double k_level = 0.05;  // of all groups of a kind: single blunders come together by chance
+    constexpr std::size_t k_fewest = 2;
     struct Count {
         std::size_t out = 0, all = 0;
     };
-    std::map<std::pair<std::size_t, std::size_t>, Count> visits;  // by pass and angle
-    std::vector<Count> reflectors(measurement.reflectors.size());
+    using Group = std::pair<std::size_t, std::size_t>;
+    std::map<Group, Count> visits, reflectors, stations, pairs;
     std::size_t out = 0;
     for (std::size_t i = 0; i < active.size(); ++i) {
         const LengthObservation& length = measurement.lengths[i];
-        for (Count* count : {&visits[{length.pass, length.angle}], &reflectors[length.reflector]}) {
+        const std::size_t is_out = active[i] ? 0 : 1;
+        for (Count* count : {&visits[{length.pass, length.angle}], &reflectors[{length.reflector, 0}],
+                             &stations[{length.station, 0}], &pairs[{length.station, length.reflector}]}) {
             ++count->all;
-            count->out += active[i] ? std::size_t{0} : std::size_t{1};
+            count->out += is_out;
         }
-        out += active[i] ? std::size_t{0} : std::size_t{1};
+        out += is_out;
     }
     const double share = static_cast<double>(out) / static_cast<double>(active.size());
-    const auto is_many = [&](const Count& count, std::size_t groups) {
-        constexpr std::size_t k_fewest = 2;
-        return count.out >= k_fewest &&
-               static_cast<double>(groups) * binomial_tail(count.out, count.all, share) < k_expected;
-    };
-    return std::ranges::any_of(visits, [&](const auto& visit) { return is_many(visit.second, visits.size()); }) ||
-           std::ranges::any_of(reflectors, [&](const Count& count) { return is_many(count, reflectors.size()); });
+    return std::ranges::any_of(std::array{&visits, &reflectors, &stations, &pairs}, [&](const auto* groups) {
+        return std::ranges::any_of(*groups, [&](const auto& group) {
+            const Count& count = group.second;
+            return count.out >= k_fewest &&
+                   static_cast<double>(groups->size()) * binomial_tail(count.out, count.all, share) < k_level;
+        });
+    });
 }
 
 /// Kept in, they would carry the solution away from every other distance.

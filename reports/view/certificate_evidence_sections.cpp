@@ -150,13 +150,17 @@ void verdicts(CertificateBuilder& builder, const Wording& words, const Evaluatio
 /// Where the largest test value of a kind was found: "station P1, pass P1-1, 20°", "reflector R3".
 Text subject_of(const GroupTestRow& row, const Wording& words) {
     if (!row.reflector.empty()) {
-        return words("label", "reflector") + " " + row.reflector;
+        return row.station.empty() ? words("label", "reflector") + " " + row.reflector
+                                   : words.fill("one_pair", {{"station", row.station}, {"reflector", row.reflector}});
     }
     if (row.station.empty()) {
         return words("value", "all_stations");
     }
     if (row.pass.empty()) {
         return words("label", "station") + " " + row.station;
+    }
+    if (row.angle_deg.text.empty()) {
+        return words.fill("one_pass", {{"station", row.station}, {"pass", row.pass}});
     }
     return words.fill("one_visit",
                       {{"station", row.station}, {"pass", row.pass}, {"angle", words.number(row.angle_deg.text)}});

@@ -55,6 +55,10 @@ std::optional<GroupKind> kind_of(Blunder blunder) {
         case Blunder::closed_drift:
         case Blunder::closed_drift_of_all:
             return GroupKind::drift;
+        case Blunder::moved_station:
+            return GroupKind::station_place;
+        case Blunder::pair:
+            return GroupKind::pair_length;
         case Blunder::angle_index:
             return GroupKind::angle_index;
         case Blunder::displaced_reflector:

@@ -31,6 +31,8 @@ enum class Blunder {
     large_jump,           ///< interrupted beam of one station, 1 mm to 20 mm
     closed_drift,         ///< drift of one station, whose first angle is measured again at the end of each run
     closed_drift_of_all,  ///< the same of all stations
+    moved_station,        ///< between its runs in both senses, 5 µm to 500 µm
+    pair,                 ///< all distances between a station and a reflector, 5 µm to 50 µm
 };
 
 /// Whether the first angle is measured again at the end of each run.
@@ -38,7 +40,7 @@ inline bool is_closed(Blunder blunder) {
     return blunder == Blunder::closed_drift || blunder == Blunder::closed_drift_of_all;
 }
 
-inline constexpr std::array<std::pair<Blunder, const char*>, 15> k_blunders{
+inline constexpr std::array<std::pair<Blunder, const char*>, 17> k_blunders{
     {{Blunder::none, "none"},
      {Blunder::outliers, "outliers"},
      {Blunder::visit, "visit"},
@@ -48,6 +50,8 @@ inline constexpr std::array<std::pair<Blunder, const char*>, 15> k_blunders{
      {Blunder::closed_drift, "drift, runs closed"},
      {Blunder::drift_of_all, "drift of all stations"},
      {Blunder::closed_drift_of_all, "drift of all stations, runs closed"},
+     {Blunder::moved_station, "station moved between its runs"},
+     {Blunder::pair, "one station and one reflector"},
      {Blunder::angle_index, "angle index"},
      {Blunder::displaced_reflector, "displaced reflector"},
      {Blunder::swapped_reflectors, "swapped reflectors"},
@@ -64,9 +68,10 @@ struct Planted {
 };
 
 /// A table with a repeatability of its own, whose components are estimated; a fixture of steel at 20 °C.
-inline Campaign sound_campaign(std::uint64_t seed, int angles = 24, bool closed = false) {
+inline Campaign sound_campaign(std::uint64_t seed, int angles = 24, bool closed = false, bool both_senses = false) {
     CampaignPlan plan;
     plan.closed_runs = closed;
+    plan.both_senses = both_senses;
     plan.angles_deg = full_turn(angles);
     plan.table_linear = 0.15e-6;
     plan.table_axial = 1.5e-6;
@@ -141,12 +146,30 @@ inline void add_jump(Planted& planted) {
     }
 }
 
+/// What the distances from a station change by when it is moved, exactly.
+inline void move_station(Planted& planted, const Campaign& sound, const Eigen::Vector3d& step) {
+    RotaryTableMeasurement& m = planted.measurement;
+    for (LengthObservation& length : m.lengths) {
+        if (length.station == planted.station && length.approach == Approach::negative) {
+            const auto at = [&](const Eigen::Vector3d& station) {
+                const Eigen::Vector3d reflector =
+                    nominal_rotation(m, length.angle) *
+                    sound.truth.fixture.row(static_cast<Eigen::Index>(length.reflector)).transpose();
+                return (reflector - station).norm();
+            };
+            const Eigen::Vector3d& station = sound.truth.stations[planted.station];
+            length.length += at(station + step) - at(station);
+        }
+    }
+}
+
 }  // namespace planting
 
 /// The same seed means the same campaign with the same blunder.
 inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
     using namespace planting;
-    Planted planted{.measurement = sound_campaign(seed, angles, is_closed(blunder)).measurement};
+    const Campaign sound = sound_campaign(seed, angles, is_closed(blunder), blunder == Blunder::moved_station);
+    Planted planted{.measurement = sound.measurement};
     RotaryTableMeasurement& m = planted.measurement;
     constexpr std::uint64_t k_far_away = 0x9E3779B97F4A7C15U;  // from the seeds of the campaigns
     Noise draw(k_far_away + std::uint64_t{1000003} * seed + static_cast<std::uint64_t>(blunder));
@@ -188,6 +211,20 @@ inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
             planted.size = sign * log_uniform(draw, 0.5e-6, 5e-6);
             for (std::size_t j = 0; j < m.stations.size(); ++j) {
                 add_drift(m, j, planted.size * (0.75 + 0.5 * draw.uniform()));
+            }
+            break;
+        case Blunder::moved_station: {
+            planted.size = log_uniform(draw, 5e-6, 500e-6);
+            const Eigen::Vector3d direction(draw.normal(), draw.normal(), draw.normal());
+            move_station(planted, sound, planted.size * direction.normalized());
+            break;
+        }
+        case Blunder::pair:
+            planted.size = sign * log_uniform(draw, 5e-6, 50e-6);
+            for (LengthObservation& length : m.lengths) {
+                if (length.station == planted.station && length.reflector == planted.reflector) {
+                    length.length += planted.size;
+                }
             }
             break;
         case Blunder::angle_index: {

@@ -373,6 +373,10 @@ const char* group_kind_name(GroupKind kind) {
             return "visit_pose";
         case GroupKind::dead_path_change:
             return "dead_path_change";
+        case GroupKind::station_place:
+            return "station_place";
+        case GroupKind::pair_length:
+            return "pair_length";
         case GroupKind::drift:
             return "drift";
         case GroupKind::angle_index:

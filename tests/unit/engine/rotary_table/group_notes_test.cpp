@@ -32,9 +32,10 @@ GroupTest suspicious(GroupKind kind) {
 }
 
 TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
-    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
-                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
-                                 GroupKind::reflector, GroupKind::fixture_scale}) {
+    for (const GroupKind kind :
+         {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
+          GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+          GroupKind::reflector, GroupKind::fixture_scale}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);
@@ -53,6 +54,12 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
                 testing::Not(HasSubstr("exclude")));
     EXPECT_EQ(group_notes({.tests = {suspicious(GroupKind::reflector)}, .visits = {}}, two_stations())[0].where,
               "fixture, reflector R3");
+    const auto pair = group_notes({.tests = {suspicious(GroupKind::pair_length)}, .visits = {}}, two_stations());
+    EXPECT_EQ(pair[0].where, "station P2, reflector R3");
+    EXPECT_THAT(pair[0].action, HasSubstr(R"("exclude": [{ "station": "P2", "reflector": "R3", "reason": "why" }].)"));
+    const auto moved = group_notes({.tests = {suspicious(GroupKind::station_place)}, .visits = {}}, two_stations());
+    EXPECT_EQ(moved[0].where, "station P2, pass up");
+    EXPECT_THAT(moved[0].what, HasSubstr("stood 5.04 µm away from where it was before"));
 }
 
 TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {

@@ -197,9 +197,10 @@ TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
     EXPECT_EQ(count, 70);
     EXPECT_NEAR(std::sqrt(squares / count), 1.0, 0.25);
     double shares = 0.0;
-    for (const GroupKind kind : {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change,
-                                 GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
-                                 GroupKind::reflector, GroupKind::fixture_scale}) {
+    for (const GroupKind kind :
+         {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
+          GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
+          GroupKind::reflector, GroupKind::fixture_scale}) {
         shares += share_of_level(kind);
     }
     EXPECT_NEAR(shares, 0.9, 1e-12);

@@ -215,6 +215,46 @@ TEST(PlantedBlunders, AnInterruptedBeamOfAStationWithSeveralDeadPathsIsNamedWith
     expect_named(m, "pass P2/1, 195°", k_jump);
 }
 
+/// Moved between its runs, a station would otherwise be charged to the table: as its repeatability, sense by sense.
+TEST(PlantedBlunders, AStationThatIsMovedBetweenItsRunsIsNamed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Planted planted = plant(Blunder::moved_station, seed, 12);
+        const RotaryTableSolution solution = evaluated(planted.measurement);
+        const GroupTest& first = first_group(solution);
+        EXPECT_TRUE(first.suspicious) << seed;
+        EXPECT_EQ(first.kind, GroupKind::station_place) << "seed " << seed << ", " << planted.size;
+        EXPECT_EQ(first.station, planted.station) << seed;
+        EXPECT_NEAR(first.estimate / planted.size, 1.0, 0.3) << "seed " << seed << ", " << planted.size;
+    }
+}
+
+/// The distances of one line of sight are off alike: they are left out one by one, and their cause is told all the same.
+TEST(PlantedBlunders, AStationAndAReflectorThatDisagreeAreNamed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Planted planted = plant(Blunder::pair, seed, 12);
+        const RotaryTableSolution solution = evaluated(planted.measurement);
+        const GroupTest& first = first_group(solution);
+        EXPECT_TRUE(first.suspicious) << seed;
+        EXPECT_EQ(first.kind, GroupKind::pair_length) << "seed " << seed << ", " << planted.size;
+        EXPECT_EQ(first.station, planted.station) << seed;
+        EXPECT_EQ(first.reflector, planted.reflector) << seed;
+        EXPECT_NEAR(first.estimate / planted.size, 1.0, 0.3) << "seed " << seed << ", " << planted.size;
+        for (const GroupTest& test : solution.groups->tests) {
+            EXPECT_TRUE(!test.suspicious || test.kind == GroupKind::pair_length) << seed;
+        }
+    }
+}
+
+/// Single blunders, one in fifty, are left out: no visit, station or pair is accused in their place.
+TEST(PlantedBlunders, SingleOutliersAccuseNoGroup) {
+    int accused = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const RotaryTableSolution solution = evaluated(plant(Blunder::outliers, seed, 12).measurement);
+        accused += first_group(solution).suspicious ? 1 : 0;
+    }
+    EXPECT_LE(accused, 2);
+}
+
 TEST(PlantedBlunders, AHotFixtureIsToldAsItsTemperatureAndADisplacedReflectorIsNot) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const Planted planted = plant(Blunder::hot_fixture, seed);
