@@ -12,6 +12,7 @@
 #include "jobs/job_kind.h"
 #include "jobs/laboratory/register_reader.h"
 #include "json/strict_parser.h"
+#include "text/file_guess.h"
 
 namespace gumcert::app {
 
@@ -20,8 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 FileCheck check_job(const jobs::FileSource& files, const std::string& name) {
-    const std::string word = jobs::probable_job_kind(files, name).value_or(std::string(jobs::k_rotary_table_kind));
-    FileCheck check{.kind = "job of kind " + word, .findings = {}};
+    const std::optional<std::string> stated = jobs::probable_job_kind(files, name);
+    const std::string word = stated.value_or("");
+    FileCheck check{.kind = stated ? "job of kind " + word : "job without a kind", .findings = {}};
     try {
         if (const Kind* const kind = find_kind(program_kinds(), word)) {
             check.findings = kind->read(files, name);
@@ -70,12 +72,15 @@ FileCheck check_text(const std::string& text, const fs::path& file, unsigned thr
     const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '/');
     if (!is_json) {
+        const std::optional<text::FileGuess> guess = text::guess_file(text);
         throw gum::InputError(gum::Diagnostic{.code = "GC-CHECK-0001",
                                               .where = file.string(),
-                                              .what = "neither a job nor a record",
+                                              .what = guess ? "it is " + guess->what + ", neither a job nor a record"
+                                                            : std::string("neither a job nor a record"),
                                               .rule = "gumcert check reads jobs and records, which are JSON",
-                                              .action = "for a digital certificate use gumcert check dcc, for the "
-                                                        "signature of a PDF gumcert verify"});
+                                              .action = guess ? guess->action
+                                                              : "for a digital certificate use gumcert check dcc, for "
+                                                                "the signature of a PDF gumcert verify"});
     }
     const bool is_record =
         text.find("\"gumcert/record/") != std::string::npos && text.find("\"gumcert/job/1\"") == std::string::npos;
@@ -100,7 +105,10 @@ FileCheck check_text(const std::string& text, const fs::path& file, unsigned thr
         }
     }
     const jobs::DiskFileSource disk = jobs::DiskFileSource::of_job(file, laboratory);
-    return check_job(jobs::ReadOnceSource(disk), file.filename().string());
+    const jobs::ReadOnceSource files(disk);
+    const std::string name = file.filename().string();
+    jobs::require_job_file(files, name);
+    return check_job(files, name);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 namespace gumcert::app {
 
 void require_comparison_job(const std::filesystem::path& job_file) {
+    jobs::require_job_file(jobs::DiskFileSource::of_job(job_file), job_file.filename().string());
     const std::optional<std::string> kind = jobs::probable_job_kind(job_file);
     // The reader reports an unknown kind, and lists those that there are.
     if (kind && *kind != jobs::k_comparison_kind && find_kind(program_kinds(), *kind) != nullptr) {
@@ -55,6 +56,7 @@ Evaluation evaluate_job(const jobs::FileSource& source, const std::string& job_f
                               .before = before};
     const std::vector<std::string_view> words = words_of(kinds);
     const Kind* kind = nullptr;
+    jobs::require_job_file(files, job_file);
     try {
         kind = find_kind(kinds, jobs::job_kind(files, job_file, words));
     } catch (const gum::InputError&) {

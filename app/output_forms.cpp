@@ -79,8 +79,8 @@ const std::string& Issue::digital_certificate() {
         throw gum::InputError(
             gum::Diagnostic{.code = "GC-REPORT-0041",
                             .where = "record",
-                            .what = "a comparison has no digital calibration certificate",
-                            .rule = "it judges results, it does not calibrate",
+                            .what = "a record of kind \"" + record_.kind + "\" has no digital calibration certificate",
+                            .rule = "only a record of a calibration has one",
                             .action = "use --format html, pdf, text or csv; its record (JSON) is what programs read"});
     }
     if (digital_certificate_.empty()) {

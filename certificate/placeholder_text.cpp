@@ -97,6 +97,11 @@ const WordList k_fields(
     U"informacion documento contrato site premises plant factory office facility house home werk halle planta "
     U"instalaciones company firma empresa deviations conditions remarks abweichungen bemerkungen "
     U"desviaciones particular page seite pagina folder ordner procedures ");
+/// Words of these that people and firms are called, too.
+const WordList k_also_names(
+    U" feld field land ort grund werk halle hall house home page folder office plant stelle schein mock leer present "
+    U"open planet earth testing tester noch gleich found moved cover order dolor campo blanco interno calle ");
+const WordList k_legal_forms(U" ltd limited inc llc corp co plc gmbh ag kg ohg ug sl srl slu sas bv nv oy ab as spa ");
 /// Whole texts that look like names and are those of nobody.
 const WordList k_of_nobody(
     U" johndoe janedoe maxmustermann erikamustermann acme sample example beispiel ejemplo privateperson walkincustomer "
@@ -210,6 +215,31 @@ bool any_within(const std::u32string& letters, const List& parts) {
                        [&](std::u32string_view part) { return letters.find(part) != std::u32string::npos; });
 }
 
+/// A letter with a full stop: "A. Feld". Not the last of a text: "Kunde A."
+bool has_initial(std::string_view text) {
+    for (std::size_t i = 0; i + 2 < text.size(); ++i) {
+        const bool begins = i == 0 || text[i - 1] == ' ';
+        const bool is_letter = (text[i] >= 'A' && text[i] <= 'Z');
+        if (begins && is_letter && text[i + 1] == '.') {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// "A. Feld", "Land GmbH": with an initial or a legal form, words that also stand for a field or for nothing are names.
+bool is_name_of_common_words(std::string_view text) {
+    const std::vector<std::u32string> words = words_of(text);
+    const auto is_form = [](const std::u32string& word) { return k_legal_forms.has(word); };
+    if (!has_initial(text) && std::ranges::none_of(words, is_form)) {
+        return false;
+    }
+    const auto is_also_name = [](const std::u32string& word) { return k_also_names.has(word); };
+    return std::ranges::any_of(words, is_also_name) && std::ranges::all_of(words, [&](const std::u32string& word) {
+               return word.size() == 1 || is_form(word) || is_also_name(word);
+           });
+}
+
 }  // namespace
 
 bool is_placeholder(std::string_view text) {
@@ -221,6 +251,9 @@ bool is_placeholder(std::string_view text) {
 }
 
 bool names_only_a_field(std::string_view text) {
+    if (is_name_of_common_words(text)) {
+        return false;
+    }
     const std::vector<std::u32string> words = words_of(text);
     const std::u32string letters = letters_of(text);
     return says_nothing(letters) || (letters.size() > 1 && k_fields.has(letters)) ||
@@ -234,6 +267,9 @@ bool is_particle(std::string_view text) {
 }
 
 bool names_nobody(std::string_view text) {
+    if (is_name_of_common_words(text)) {
+        return false;
+    }
     const std::vector<std::u32string> words = words_of(text);
     bool any = false;
     for (const std::u32string& word : words) {

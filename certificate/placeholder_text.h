@@ -16,7 +16,8 @@ namespace gumcert::certificate {
 [[nodiscard]] bool names_only_a_field(std::string_view text);
 
 /// The same for names: digits and single letters beside such words tell nothing ("Customer A", "Kunde 1", "Mr. X"), nor
-/// do the names of nobody ("John Doe", "Sample").
+/// do the names of nobody ("John Doe", "Sample"). With an initial or a legal form, words that people and firms are called
+/// as well are a name: "A. Feld", "Land GmbH".
 [[nodiscard]] bool names_nobody(std::string_view text);
 
 /// Whether a text is an article, a preposition or another word that tells nothing by itself: "is", "en", "für".

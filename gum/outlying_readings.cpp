@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t k_least_readings = 3;
 constexpr std::size_t k_most_suspects = 10;
 constexpr std::size_t k_readings_a_suspect = 5;
-constexpr int k_most_decimals = 15;
+constexpr int k_most_digits_of_readings = 14;  // beyond, what a double number rounds looks like digits
 
 /// Mean and standard deviation of all but one.
 struct Others {
@@ -89,18 +89,25 @@ OutlyingReading test_farthest(const std::vector<double>& readings, double least_
 }  // namespace
 
 double decimal_step(std::span<const double> readings) {
-    double step = 1.0;
-    for (int decimals = 0; decimals <= k_most_decimals; ++decimals) {
-        const double scale = std::pow(10.0, decimals);
+    double largest = 0.0;
+    for (const double reading : readings) {
+        largest = std::max(largest, std::fabs(reading));
+    }
+    if (!(largest > 0.0)) {
+        return 1.0;
+    }
+    // From the first digit of the largest one on, whatever the unit is: readings in A and in fA have the same digits.
+    const int first = -static_cast<int>(std::floor(std::log10(largest)));
+    for (int decimals = first; decimals < first + k_most_digits_of_readings; ++decimals) {
+        const double scale = decimals >= 0 ? std::pow(10.0, decimals) : 1.0 / std::pow(10.0, -decimals);
         const bool fits = std::all_of(readings.begin(), readings.end(), [&](double reading) {
             const double scaled = reading * scale;
             // A decimal reading is not exact in binary: 0.3 times 10 is 3 but for its last bits.
             const double rounding = 4.0 * std::fabs(scaled) * 0x1p-52;
-            return std::fabs(scaled - std::round(scaled)) <= std::max(rounding, 1e-12);
+            return std::fabs(scaled - std::round(scaled)) <= rounding;
         });
-        step = 1.0 / scale;
         if (fits) {
-            return step;
+            return decimals > 0 ? 1.0 / scale : std::pow(10.0, -decimals);
         }
     }
     return 0.0;

@@ -38,8 +38,9 @@ inline constexpr double k_outlier_level = 0.01;
 /// cause, never one to remove it.
 [[nodiscard]] std::vector<OutlyingReading> outlying_readings(std::span<const double> readings, double resolution = 0.0);
 
-/// The decimal place in which readings are given: the largest 10^-d, d ≥ 0, of which all of them are multiples within
-/// the rounding of double numbers. 0 where they have more than 15 decimal places.
+/// The decimal place in which readings are given: the largest power of ten of which all of them are multiples within the
+/// rounding of double numbers, whatever their unit: readings that are multiplied by a power of ten have a step that is.
+/// 1 where all are 0; 0 where they have more than 14 digits, from the first one of the largest on.
 [[nodiscard]] double decimal_step(std::span<const double> readings);
 
 }  // namespace gumcert::gum

@@ -26,9 +26,41 @@ std::optional<JobFiles::File> JobFiles::open(const std::string& name_in_job) {
     try {
         return File{source_.read(name), &problems};
     } catch (const gum::StorageError& error) {
-        not_readable_.insert(not_readable_.end(), error.diagnostics().begin(), error.diagnostics().end());
+        for (gum::Diagnostic told : error.diagnostics()) {
+            const std::string place = place_of(name_in_job);
+            told.what += place.empty() ? "" : "; it is named at " + place;
+            not_readable_.push_back(std::move(told));
+        }
         return std::nullopt;
     }
+}
+
+std::string JobFiles::place_of(const std::string& name_in_job) const {
+    // Only for the message: readers ask for a file by its name, and not where they have it from.
+    const std::optional<std::string> bytes = peek_source(names_.front());
+    ProblemList unused(names_.front());
+    const std::optional<JsonDocument> document = bytes ? read_json_document(*bytes, unused) : std::nullopt;
+    if (!document) {
+        return "";
+    }
+    std::vector<std::pair<const nlohmann::json*, std::string>> open{{&document->value, ""}};
+    while (!open.empty()) {
+        const auto [value, pointer] = open.back();
+        open.pop_back();
+        if (value->is_string() && value->get_ref<const std::string&>() == name_in_job) {
+            return document->where(pointer);
+        }
+        if (value->is_object()) {
+            for (const auto& [key, part] : value->items()) {
+                open.emplace_back(&part, child_pointer(pointer, key));
+            }
+        } else if (value->is_array()) {
+            for (std::size_t i = 0; i < value->size(); ++i) {
+                open.emplace_back(&(*value)[i], child_pointer(pointer, i));
+            }
+        }
+    }
+    return "";
 }
 
 std::string JobFiles::name_in_source(const std::string& name_in_job) const {
@@ -37,8 +69,12 @@ std::string JobFiles::name_in_source(const std::string& name_in_job) const {
 }
 
 std::optional<std::string> JobFiles::peek(const std::string& name_in_job) const {
+    return peek_source(name_in_source(name_in_job));
+}
+
+std::optional<std::string> JobFiles::peek_source(const std::string& name_in_source) const {
     try {
-        return source_.read(name_in_source(name_in_job));
+        return source_.read(name_in_source);
     } catch (const gum::StorageError&) {
         return std::nullopt;
     }

@@ -60,6 +60,9 @@ public:
 
 private:
     [[nodiscard]] std::string name_in_source(const std::string& name_in_job) const;
+    [[nodiscard]] std::optional<std::string> peek_source(const std::string& name_in_source) const;
+    /// Where the job names a file; "" where it does not, as of those that other files name.
+    [[nodiscard]] std::string place_of(const std::string& name_in_job) const;
 
     const FileSource& source_;
     std::string folder_;  ///< of the job in the source, with its /; empty at the top

@@ -1,8 +1,10 @@
 #include "jobs/job_kind.h"
 
 #include <algorithm>
+#include <string>
 
 #include "jobs/json_object.h"
+#include "text/file_guess.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
 
@@ -11,6 +13,15 @@ namespace gumcert::jobs {
 namespace {
 
 constexpr std::string_view k_schema = "gumcert/job/1";
+
+/// What a file is where it is of another kind; nothing of a job, and of what nobody knows.
+std::optional<text::FileGuess> other_file(std::string_view bytes) {
+    const std::string schema = text::outermost_string(bytes, "schema").value_or("");
+    if (schema.starts_with("gumcert/job/") || (schema.empty() && text::outermost_string(bytes, "kind"))) {
+        return std::nullopt;
+    }
+    return text::guess_file(bytes);
+}
 
 }  // namespace
 
@@ -53,7 +64,17 @@ std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& 
     return kind;
 }
 
+void require_job_file(const FileSource& source, const std::string& job_file) {
+    if (const auto other = other_file(source.read(job_file))) {
+        ProblemList problems(job_file);
+        problems.refuse(k_wrong_schema, job_file, "it is " + other->what + ", and no job",
+                        "a job is JSON with \"schema\": \"gumcert/job/1\" and its kind", other->action);
+        throw gum::InputError(problems.refused());
+    }
+}
+
 std::string job_kind(const FileSource& source, const std::string& job_file, std::span<const std::string_view> kinds) {
+    require_job_file(source, job_file);
     ProblemList problems(job_file);
     const std::string bytes = source.read(job_file);
     const std::optional<JsonDocument> document = read_json_document(bytes, problems);

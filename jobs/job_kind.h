@@ -40,6 +40,11 @@ inline constexpr std::array<std::string_view, 4> k_job_kinds{k_budget_kind, k_ro
 [[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file,
                                    std::span<const std::string_view> kinds = k_job_kinds);
 
+/// \throws InputError  GC-INPUT-0027 when the file is recognisably another one that this program knows: a record, data of
+///                     a certificate or of a laboratory, XML, a PDF, a workbook. The message says what it is, and which
+///                     command reads it
+void require_job_file(const FileSource& source, const std::string& job_file);
+
 /// `schema` and `kind` of a job that is read already; problems go to the list.
 /// \return the kind when it is one of these
 [[nodiscard]] std::optional<std::string> read_kind(const gumcert::json::JsonDocument& document, ProblemList& problems,

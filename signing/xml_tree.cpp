@@ -5,11 +5,13 @@
 #include <libxml/xmlIO.h>
 
 #include <climits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include "gum/quantity/diagnostic.h"
 #include "signing/document_limits.h"
+#include "text/file_guess.h"
 #include "text/markup_size.h"
 
 namespace gumcert::signing {
@@ -32,7 +34,8 @@ struct ParserFree {
     void operator()(xmlParserCtxt* parser) const { xmlFreeParserCtxt(parser); }
 };
 
-[[noreturn]] void refuse(const std::string& name, const std::string& what, const char* rule, const char* action) {
+[[noreturn]] void refuse(const std::string& name, const std::string& what, const char* rule,
+                         const std::string& action) {
     throw gum::InputError(
         gum::Diagnostic{.code = "GC-SIGN-0030", .where = name, .what = what, .rule = rule, .action = action});
 }
@@ -61,6 +64,11 @@ int is_in_part(void* user_data, xmlNodePtr node, xmlNodePtr parent) {
 XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
     if (bytes.size() > INT_MAX) {
         refuse(name, "larger than 2 GB", "a document is read whole", "attach large files beside the certificate");
+    }
+    const std::optional<text::FileGuess> guess = text::guess_file(bytes);
+    if (guess && guess->what != "XML") {
+        refuse(name, "it is " + guess->what + ", and no XML", "a digital certificate is XML 1.0 with namespaces",
+               guess->action);
     }
     const text::MarkupSize size = text::markup_size(bytes);
     if (size.most_in_tag > k_most_in_tag || size.tags + size.attributes > k_most_parts) {

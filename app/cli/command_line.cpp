@@ -153,8 +153,9 @@ void add_run(CLI::App& program, Arguments& a) {
         kinds_in_words() +
         ", each explained in docs/KIND_job.md.\n"
         "Writes record.json, covariance.csv, certificate.html, certificate.pdf and certificate.xml (the digital\n"
-        "certificate), all or none; of a comparison record.json, comparison.html, comparison.pdf and\n"
-        "comparison.csv. Without certificate data in the job the documents are specimens\n"
+        "certificate), and audit.html, what the audit finds, for the laboratory only: all or none; of a comparison\n"
+        "record.json, comparison.html, comparison.pdf, comparison.csv and audit.html. Without certificate data in the "
+        "job the documents are specimens\n"
         "(docs/certificate_data.md). Findings of severity critical block the documents of a certificate: the record "
         "is\n"
         "written, and the exit code is 1. Of several jobs each is done on its own; the exit code is the highest.");

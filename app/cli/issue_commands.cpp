@@ -253,6 +253,8 @@ bool naming_job(const fs::path& job, const Work& work) {
         throw gum::InputError(of_job(error.diagnostics(), job));
     } catch (const gum::NoResultError& error) {
         throw gum::NoResultError(of_job(error.diagnostics(), job));
+    } catch (const gum::StorageError& error) {
+        throw gum::StorageError(of_job(error.diagnostics(), job));
     }
 }
 

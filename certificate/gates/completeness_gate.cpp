@@ -7,6 +7,7 @@
 #include "certificate/gates/gates.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
+#include "text/visible_text.h"
 
 namespace gumcert::certificate {
 
@@ -24,8 +25,9 @@ constexpr FindingSeverity k_major = FindingSeverity::major;
 
 void laboratory_and_customer(FindingList& found, const CertificateData& data) {
     if (!is_name(data.laboratory.name)) {
-        found.item(k_critical, 'b', "/laboratory/name", "the name of the laboratory is missing",
-                   "State it as the accreditation does.");
+        const std::string given = data.laboratory.name.in("en");
+        found.item(k_critical, 'b', "/laboratory/name", what_of_name(given, "the name of the laboratory is missing"),
+                   action_of_name(given, "State it as the accreditation does."));
     }
     if (!is_postal_address(address_lines(data.laboratory.address))) {
         found.item(k_critical, 'b', "/laboratory/address", "the address of the laboratory is missing", "State it.");
@@ -36,11 +38,16 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
                    "State its address: the work was not done in the laboratory.");
     }
     if (!is_document_number(data.number)) {
-        found.item(k_critical, 'd', "/number", "the number of the certificate is missing",
+        found.item(k_critical, 'd', "/number",
+                   data.number.empty()
+                       ? "the number of the certificate is missing"
+                       : text::in_quotes(data.number) + " does not count as the number of a certificate",
                    "Give it a number that no other certificate has.");
     }
     if (!is_name(data.customer.name)) {
-        found.item(k_critical, 'e', "/customer/name", "the name of the customer is missing", "State it.");
+        found.item(k_critical, 'e', "/customer/name",
+                   what_of_name(data.customer.name.in("en"), "the name of the customer is missing"),
+                   action_of_name(data.customer.name.in("en"), "State it."));
     }
     // ISO/IEC 17025:2017, 7.8.2.1 e asks for contact information, not for a postal address.
     const bool reachable = is_postal_address(address_lines(data.customer.address)) || is_name(data.customer.contact) ||
@@ -122,8 +129,10 @@ void dates(FindingList& found, const CertificateData& data) {
 void persons(FindingList& found, const CertificateData& data, const Profile& profile) {
     const auto& [performed_by, reviewed_by, authorised_by] = data.persons;
     if (!authorised_by || !is_name(authorised_by->name)) {
-        found.item(k_critical, 'o', "/persons/authorised_by", "nobody is named who authorises the certificate",
-                   "State name and function.");
+        const std::string given = authorised_by ? authorised_by->name : "";
+        found.item(k_critical, 'o', "/persons/authorised_by",
+                   what_of_name(given, "nobody is named who authorises the certificate"),
+                   action_of_name(given, "State name and function."));
     } else if (!is_stated(authorised_by->function)) {
         found.item(FindingSeverity::minor, 'o', "/persons/authorised_by/function",
                    "the function of the person who authorises the certificate is missing", "State it.");
@@ -247,7 +256,8 @@ void adjustment(FindingList& found, const CertificateData& data) {
     } else if (data.adjustment->adjusted && !says_where(data.adjustment->as_found)) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment/as_found",
                        "the item was adjusted, and it is not said where the results before the adjustment are",
-                       "Say where they stand, or why there are none.");
+                       "Name the table or the certificate with its number, as in \"Table 2\", or say in a sentence "
+                       "why there are none.");
     }
 }
 

@@ -126,4 +126,12 @@ std::string place_in(const std::string& list, std::size_t index, const std::stri
     return list + "/" + std::to_string(index) + (key.empty() ? "" : "/" + key);
 }
 
+std::string what_of_name(const std::string& given, const std::string& missing) {
+    return given.empty() ? missing : text::in_quotes(given) + " is taken for a placeholder, not for a name";
+}
+
+std::string action_of_name(const std::string& given, const std::string& action) {
+    return given.empty() ? action : "Write the name in full; docs/findings.md has what does not count as stated.";
+}
+
 }  // namespace gumcert::certificate

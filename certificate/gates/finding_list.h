@@ -71,6 +71,11 @@ private:
 /// "ISO/IEC 17025:2017, 7.8.2.1 e" from "7.8.2.1 e".
 [[nodiscard]] std::string iso_17025(const std::string& clause);
 
+/// What is wrong with a name that does not count as stated, and what to do. Where nothing was given, `missing` and
+/// `action`; else that what was given is taken for a placeholder: nobody should look for what is there.
+[[nodiscard]] std::string what_of_name(const std::string& given, const std::string& missing);
+[[nodiscard]] std::string action_of_name(const std::string& given, const std::string& action);
+
 /// "/standards/3/valid_to".
 [[nodiscard]] std::string place_in(const std::string& list, std::size_t index, const std::string& key = "");
 

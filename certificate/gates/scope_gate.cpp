@@ -53,9 +53,10 @@ void signatories(FindingList& found, const Accreditation& a) {
     const bool any =
         std::any_of(a.signatories.begin(), a.signatories.end(), [](const std::string& name) { return is_name(name); });
     if (!any) {
+        const std::string given = a.signatories.empty() ? "" : a.signatories.front();
         found.critical("X10", iso_17025("6.2.6"), "/accreditation/signatories",
-                       "no signatory of accredited certificates is named",
-                       "Name the persons who may authorise accredited certificates.");
+                       what_of_name(given, "no signatory of accredited certificates is named"),
+                       action_of_name(given, "Name the persons who may authorise accredited certificates."));
     }
 }
 

@@ -91,7 +91,7 @@ void accreditation(FindingList& found, const CertificateData& data) {
         }
     }
     const std::optional<Person>& person = data.persons.authorised_by;
-    if (person && !a.signatories.empty() &&
+    if (person && is_name(person->name) && !a.signatories.empty() &&
         std::none_of(a.signatories.begin(), a.signatories.end(),
                      [&](const std::string& name) { return is_same_name(name, person->name); })) {
         found.critical("P03", iso_17025("6.2.6"), "/persons/authorised_by",

@@ -279,10 +279,7 @@ class GroupSearch {
 public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
                 const GroupTestOptions& options)
-        : adjustment_(adjustment),
-          covariance_(covariance),
-          options_(options),
-          visits_(adjustment, normal, covariance) {
+        : adjustment_(adjustment), covariance_(covariance), options_(options), visits_(adjustment, normal, covariance) {
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             poses_.push_back(adjustment.pose_jacobian(g));
         }

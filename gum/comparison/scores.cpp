@@ -49,6 +49,12 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
         refuse("GC-GUM-0030", "correlation of laboratory and reference", text::shortest(correlation),
                "must lie between -1 and 1", "Correct the correlation coefficient.");
     }
+    // Squares of numbers below 1e-154 vanish, and 0 would say that both are one.
+    constexpr double k_least = 1e-150;
+    const double larger = std::max(laboratory, reference);
+    if (larger > 0.0 && larger < k_least) {
+        return larger * uncertainty_of_difference(laboratory / larger, reference / larger, correlation);
+    }
     if (correlation == 0.0) {
         return std::sqrt(laboratory * laboratory + reference * reference);
     }
@@ -143,6 +149,7 @@ Signal signal_of_z(double score) {
 EnUncertainty en_uncertainty(double u, double U, double k, double degrees_of_freedom, double coverage_probability) {
     require_not_negative(u, "standard uncertainty");
     require_not_negative(U, "expanded uncertainty");
+    require_positive(k, "coverage factor");
     const double wanted = coverage_factor(en_coverage_probability(coverage_probability), degrees_of_freedom);
     // E_n compares intervals of one probability: a U with another k is taken back to u and multiplied anew.
     if (std::abs(k / wanted - 1.0) <= k_same_coverage_factor) {

@@ -86,7 +86,7 @@ struct EnUncertainty {
 };
 /// U as stated where its factor is t_p(ν) within k_same_coverage_factor, so that k = 2 stands for 95 % as for 95.45 %.
 /// \param coverage_probability  of the comparison; see en_coverage_probability()
-/// \throws InputError  GC-GUM-0001, -0002; those of coverage_factor()
+/// \throws InputError  GC-GUM-0001, -0002, -0003 for k; those of coverage_factor()
 [[nodiscard]] EnUncertainty en_uncertainty(double u, double U, double k, double degrees_of_freedom,
                                            double coverage_probability);
 inline constexpr double k_same_coverage_factor = 0.025;

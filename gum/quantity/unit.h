@@ -48,7 +48,8 @@ public:
 
     /// \param text  UTF-8, at most 256 bytes
     /// \throws InputError    GC-UNIT-0001 not a unit, -0002 a logarithmic unit, -0003 a point in time, -0004 an origin
-    ///                       of a scale other than of temperature
+    ///                       of a scale other than of temperature, -0005 an exponent that is none, -0006 a number
+    ///                       that does not stand at the beginning, -0007 a quotient that may be read in two ways
     [[nodiscard]] static Unit parse(std::string_view text);
     /// The coherent SI unit of a dimension.
     /// \param celsius  degC instead of K, where the dimension is a temperature

@@ -559,6 +559,13 @@ void BudgetInputs::set_used(const std::optional<std::set<std::string>>& names) {
     }
 }
 
+/// What no equation uses and every point of the section states is there to be printed, as a nominal value is.
+void BudgetInputs::use_stated(const std::string& input) {
+    if (const auto found = of_name_.find(input); found != of_name_.end()) {
+        used_.back()[found->second] = true;
+    }
+}
+
 bool BudgetInputs::is_used(const std::string& input, std::size_t section) const {
     const auto found = of_name_.find(input);
     return found != of_name_.end() && section < used_.size() && used_[section][found->second];
@@ -800,7 +807,13 @@ std::optional<int> BudgetInputs::decimals_of_job(const std::string& input) const
 void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
     const std::vector<gum::Diagnostic> refused = stated.pending->refused();
     const bool nothing_stated = !refused.empty() && refused.front().code == k_no_statement.code;
-    if (!nothing_stated || (stated.points == 0 && points > 0)) {
+    // A value, or an uncertainty, that the job leaves to the points: adding it to the job would be a statement of those
+    // points that nobody has made.
+    const bool is_left_open = !refused.empty() && std::ranges::all_of(refused, [](const gum::Diagnostic& one) {
+        return one.code == k_no_statement.code || one.code == k_incomplete_statement.code ||
+               one.code == k_no_uncertainty.code;
+    });
+    if (!is_left_open || (stated.points == 0 && points > 0)) {
         problems_.take(*stated.pending);
         return;
     }
@@ -815,9 +828,16 @@ void BudgetInputs::refuse_unstated(const Stated& stated, std::size_t points) {
     if (silent > stated.silent.size()) {
         names += " and " + std::to_string(silent - stated.silent.size()) + " more";
     }
-    stated.keys->refuse(k_no_statement, "nothing is stated of it, and the points " + names + " do not state it either",
-                        "an input has a statement of its own, or every point of the table has one",
-                        "state it at these points, or in the inputs");
+    if (nothing_stated) {
+        stated.keys->refuse(k_no_statement,
+                            "nothing is stated of it, and the points " + names + " do not state it either",
+                            "an input has a statement of its own, or every point of the table has one",
+                            "state it at these points, or in the inputs");
+        return;
+    }
+    const InputCode& code = refused.front().code == k_no_uncertainty.code ? k_no_uncertainty : k_incomplete_statement;
+    stated.keys->refuse(code, refused.front().what + ", and the points " + names + " do not state it either",
+                        refused.front().rule, "state it at these points; in the inputs it holds for all that do not");
 }
 
 namespace {
@@ -917,6 +937,11 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
         problems_.refuse(k_wrong_size, document_.where(pointer), std::to_string(points.size()) + " points",
                          "a table has 1 to " + std::to_string(k_most_points) + " points", "correct the list");
         return;
+    }
+    for (const Stated& stated : stated_) {
+        if (std::ranges::all_of(points, [&](const json& point) { return point.contains(stated.name); })) {
+            use_stated(stated.name);
+        }
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::string here = child_pointer(pointer, i);
@@ -1042,6 +1067,11 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             continue;
         }
         columns.push_back({.name = field.name, .input = index, .key = *known});
+    }
+    for (const FileColumn& column : columns) {
+        if (column.input) {
+            use_stated(stated_[*column.input].name);
+        }
     }
     std::vector<std::string_view> wanted;
     const auto is_of_standard = [&](const FileColumn& column, std::size_t input) {

@@ -42,7 +42,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* k_set_up = "run scripts/setup, which installs it";
+constexpr const char* k_set_up =
+    "install Node.js 18 or later (package nodejs), and set --share to the folder with "
+    "node_modules; in the source tree scripts/setup installs both";
 constexpr const char* k_make_room = "make room on the disk of this folder, or name another with TMPDIR";
 constexpr const char* k_package = "@myriaddreamin/typst-ts-node-compiler";
 

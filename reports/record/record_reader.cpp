@@ -30,6 +30,7 @@
 #include "reports/record/record_rules.h"
 #include "reports/record/record_value.h"
 #include "reports/record/reported_result.h"
+#include "text/file_guess.h"
 
 namespace gumcert::reports {
 
@@ -553,12 +554,16 @@ ReadRecord read_record_of(const std::string& text, const std::string& where, std
     }
     const auto schema = root.find("schema");
     if (schema == root.end() || *schema != EvaluationRecord::k_schema) {
+        const std::optional<text::FileGuess> guess = text::guess_file(text);
+        const bool is_other = guess && !(schema != root.end() && schema->is_string() &&
+                                         schema->get<std::string>().starts_with("gumcert/record/"));
         problems.add("GC-RECORD-0020", "/schema",
                      schema == root.end()  ? "missing"
                      : schema->is_string() ? '"' + schema->get<std::string>() + '"'
                                            : schema->type_name(),
                      std::string("must be \"") + EvaluationRecord::k_schema + '"',
-                     "use a release of the program that knows this schema");
+                     is_other ? "it is " + guess->what + ", and no record: " + guess->action
+                              : "use a release of the program that knows this schema");
         problems.throw_if_any();
     }
 

@@ -266,6 +266,7 @@ TEST_F(RefusedInput, MissingDataFileIsAFileTrouble) {
     EXPECT_EQ(message.code, "GC-STORAGE-0001");
     EXPECT_EQ(message.where, "fixture.csv");
     EXPECT_NE(message.what.find("no such file"), std::string::npos) << message.what;
+    EXPECT_NE(message.what.find("it is named at job.json#/fixture/coordinates"), std::string::npos) << message.what;
     // Problems of the other files are told in the same run.
     replace_in(lengths_, "808.831212", "NaN");
     EXPECT_EQ(messages(5).size(), 2U);

@@ -46,6 +46,21 @@ TEST(StatedText, TellsNamesFromOtherTexts) {
     EXPECT_FALSE(is_name(LocalisedText()));
 }
 
+/// People and firms are called like fields; roles and words for nothing stay what they are.
+TEST(StatedText, TakesAnInitialOrALegalFormForASignOfAName) {
+    for (const char* name : {"A. Feld",   "H. Land",     "W. Ort",     "R. Grund",           "P. Werk",
+                             "R. Page",   "P. Leer",     "M. Present", "J. Folder",          "A. Mock",
+                             "Open GmbH", "Werk GmbH",   "Feld AG",    "Planet GmbH",        "Halle GmbH",
+                             "Home GmbH", "Testing Ltd", "Page & Co",  "Land GmbH & Co. KG", "Noch S. Leer GmbH"}) {
+        EXPECT_TRUE(is_name(std::string(name))) << name;
+    }
+    for (const char* text :
+         {"Kunde GmbH", "Customer Ltd", "Firma AG", "Unknown GmbH", "Muster GmbH", "Test GmbH", "N. N.", "Mr. X",
+          "Kunde A.", "A. Name", "Feld", "Land", "Open", "GmbH", "TBD Ltd", "x. leer", "Company Ltd", "A. Unbekannt"}) {
+        EXPECT_FALSE(is_name(std::string(text))) << text;
+    }
+}
+
 TEST(StatedText, ComparesNamesByTheirLetters) {
     for (const char* other : {"A. Meier", "A.Meier", "a. meier", "A Meier", "A\u00a0. Meier", "А. Meier"}) {
         EXPECT_TRUE(is_same_name("A. Meier", other)) << other;

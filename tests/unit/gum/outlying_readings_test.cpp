@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "gum/quantity/diagnostic.h"
@@ -125,9 +127,42 @@ TEST(OutlyingReadings, AreNotLookedForAmongWhatIsNotFinite) {
 
 TEST(DecimalStep, IsTheLastPlaceThatIsUsed) {
     EXPECT_EQ(decimal_step(std::vector<double>{10.01, 10.02, 3.0}), 0.01);
-    EXPECT_EQ(decimal_step(std::vector<double>{100.0, 200.0}), 1.0);
+    EXPECT_EQ(decimal_step(std::vector<double>{100.0, 200.0}), 100.0);
+    EXPECT_EQ(decimal_step(std::vector<double>{100.0, 201.0}), 1.0);
+    EXPECT_EQ(decimal_step(std::vector<double>{0.0, 0.0}), 1.0);
     EXPECT_EQ(decimal_step(std::vector<double>{0.1 * 3.0}), 0.1);
     EXPECT_EQ(decimal_step(std::vector<double>{1.0 / 3.0}), 0.0);
+}
+
+/// A change of unit changes nothing: the same digits give the same outliers, with the same p-value.
+TEST(OutlyingReadings, DoNotDependOnTheUnit) {
+    std::mt19937_64 random(11);
+    std::normal_distribution<double> normal;
+    for (int set = 0; set < 200; ++set) {
+        std::vector<int> digits;
+        const int spread = set % 4 == 0 ? 1 : 30;
+        for (int i = 0; i < 8; ++i) {
+            digits.push_back(10000 + static_cast<int>(std::lround(spread * normal(random))));
+        }
+        digits.back() += set % 3 == 0 ? 400 : 0;
+        const auto found_in = [&](int power) {
+            std::vector<double> readings;
+            for (const int value : digits) {
+                readings.push_back(std::strtod((std::to_string(value) + "e" + std::to_string(power)).c_str(), nullptr));
+            }
+            return outlying_readings(readings);
+        };
+        const auto expected = found_in(0);
+        for (const int power : {-24, -19, -15, -9, -4, -2, 3, 9}) {
+            const auto found = found_in(power);
+            ASSERT_EQ(found.size(), expected.size()) << "set " << set << ", power " << power;
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                EXPECT_EQ(found[i].position, expected[i].position) << "set " << set << ", power " << power;
+                EXPECT_NEAR(found[i].p_value, expected[i].p_value, 1e-6 * expected[i].p_value + 1e-12)
+                    << "set " << set << ", power " << power;
+            }
+        }
+    }
 }
 
 }  // namespace

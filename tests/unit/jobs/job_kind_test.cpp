@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
@@ -49,6 +51,29 @@ TEST(JobKinds, MayBeAWordOfWhoAsks) {
     const std::string half = R"({"schema": "gumcert/job/1", "kind": "toy", )";
     const MemoryFileSource broken({{"job.json", half}});
     EXPECT_EQ(probable_job_kind(broken, "job.json", k_words), "toy");
+}
+
+/// Other files of the program are told by what they are and by the command that reads them: no list of their keys.
+TEST(JobKinds, OfAFileThatIsNoJobSaysWhatItIs) {
+    const std::vector<std::pair<std::string, std::string>> files{
+        {R"({"schema": "gumcert/record/1", "kind": "budget"})", "use gumcert render, check or rerun"},
+        {R"({"laboratory": {"name": "L"}, "customer": {}, "persons": {}})", "name it in a job"},
+        {R"({"schema": "gumcert/standard/1"})", "--laboratory"},
+        {"%PDF-1.7", "gumcert verify"},
+        {"<dcc:digitalCalibrationCertificate/>", "gumcert check dcc"}};
+    for (const auto& [bytes, action] : files) {
+        try {
+            require_job_file(MemoryFileSource({{"file", bytes}}), "file");
+            FAIL() << "not refused: " << bytes;
+        } catch (const gum::InputError& refused) {
+            ASSERT_EQ(refused.diagnostics().size(), 1U) << bytes;
+            EXPECT_EQ(refused.diagnostics().front().code, "GC-INPUT-0027") << bytes;
+            EXPECT_THAT(refused.diagnostics().front().action, HasSubstr(action)) << bytes;
+        }
+    }
+    EXPECT_NO_THROW(require_job_file(MemoryFileSource({{"file", R"({"kind": "budget"})"}}), "file"));
+    EXPECT_NO_THROW(require_job_file(MemoryFileSource({{"file", R"({"schema": "gumcert/job/2"})"}}), "file"));
+    EXPECT_NO_THROW(require_job_file(MemoryFileSource({{"file", "{}"}}), "file"));
 }
 
 }  // namespace

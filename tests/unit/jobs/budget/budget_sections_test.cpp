@@ -92,6 +92,25 @@ TEST(BudgetSections, AnInputIsStatedWhereItIsUsed) {
     EXPECT_THAT(told(job_with({k_voltage})), ElementsAre(k_no_statement.code)) << "R_x is stated nowhere";
 }
 
+/// A nominal value that no equation uses: what every point of a section states is kept, and printed there.
+TEST(BudgetSections, KeepWhatTheirPointsStateForPrintOnly) {
+    const std::string inputs = R"j("inputs": {"m_N": {"unit": "g", "constant": true, "role": "nominal"},
+                                              "m": {"unit": "g"}, "c": {"unit": "g", "value": 1, "u": 0.1}})j";
+    const std::string with = R"j(, "sections": {"load": {"model": ["E = m - c"], "points": [
+        {"m_N": 50, "m": {"value": 50.1, "u": 0.1}}, {"m_N": 100, "m": {"value": 100.2, "u": 0.1}}],
+        "tables": [{"columns": [{"show": "column", "of": "m_N"}, {"show": "value", "of": "E"}]}]},
+        "zero": {"model": ["Z = c*2"], "outputs": {"Z": {}}}})j";
+    const BudgetJob job = read_budget(inputs + with);
+    const auto column = std::find_if(job.point_columns.begin(), job.point_columns.end(),
+                                     [](const certificate::PointColumn& c) { return c.name == "m_N"; });
+    ASSERT_NE(column, job.point_columns.end());
+    EXPECT_THAT(column->values, ElementsAre(50.0, 100.0));
+    // One point that leaves it open is told by its name.
+    std::string half = inputs + with;
+    half.replace(half.find(R"("m_N": 100, )"), 12, "");
+    EXPECT_THAT(told(half), testing::Not(IsEmpty()));
+}
+
 TEST(BudgetSections, StandInPlaceOfWhatTheJobWouldHave) {
     for (const char* key : {R"("outputs": {"d": {}})", R"("points": [{"d": 1}])", R"("solve_for": {"z": {"start": 1}})",
                             R"("tables": [{}])"}) {
