@@ -528,6 +528,20 @@ bool BudgetModel::uses(std::size_t symbol) const {
                    : std::find(results_.begin(), results_.end(), static_cast<Eigen::Index>(symbol)) != results_.end();
 }
 
+std::vector<bool> BudgetModel::quantities_of(Eigen::Index output) const {
+    std::vector<bool> of_symbols(static_cast<std::size_t>(symbol_count_));
+    if (system_) {
+        of_symbols = system_->inputs_of(static_cast<std::size_t>(output));
+    } else {
+        of_symbols[static_cast<std::size_t>(results_[static_cast<std::size_t>(output)])] = true;
+    }
+    std::vector<bool> used;
+    for (const BudgetQuantity& quantity : quantities_) {
+        used.push_back(of_symbols[quantity.symbol]);
+    }
+    return used;
+}
+
 Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {
     if (one_to_one_) {
         return x;

@@ -273,12 +273,19 @@ std::vector<Unit> result_units(const BudgetJob& job, const gum::BudgetResult& re
 struct NamedCovariance {
     std::vector<std::string> names;
     std::vector<Unit> units;
+    std::vector<bool> of_trials;  ///< whether the result is reported by Monte Carlo
     Eigen::MatrixXd matrix;
 };
 
 NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, const Eigen::MatrixXd& covariance) {
     const std::vector<std::string> names = gum::budget_result_names(job, result);
     const std::vector<Unit> units = result_units(job, result);
+    std::vector<bool> of_trials;
+    for (const gum::BudgetPointResult& point : result.points) {
+        for (const gum::BudgetOutputResult& output : point.outputs) {
+            of_trials.push_back(output.by_monte_carlo);
+        }
+    }
     NamedCovariance all;
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
@@ -286,6 +293,7 @@ NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, con
             rows.push_back(i);
             all.names.push_back(names[static_cast<std::size_t>(i)]);
             all.units.push_back(units[static_cast<std::size_t>(i)]);
+            all.of_trials.push_back(of_trials[static_cast<std::size_t>(i)]);
         }
     }
     all.matrix = covariance(rows, rows);
@@ -294,7 +302,11 @@ NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, con
 
 reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetResult& result,
                                         const Eigen::MatrixXd& all, const std::string& file) {
-    const auto [names, units, covariance] = named(job, result, all);
+    // With a result of Monte Carlo a coefficient is known to 1/√M of trials, 0.004 at most: two decimals. Where there is
+    // nothing in common it is exactly 0.
+    constexpr int k_decimals = 3;
+    constexpr int k_decimals_of_trials = 2;
+    const auto [names, units, of_trials, covariance] = named(job, result, all);
     reports::ResultCovariance out;
     out.names = names;
     for (const Unit& unit : units) {
@@ -311,7 +323,9 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
     for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Eigen::Index j = 0; j < correlation.cols(); ++j) {
-            row.push_back(gum::round_to_quantum(correlation(i, j), 3));
+            const bool drawn = i != j && correlation(i, j) != 0.0 &&
+                               (of_trials[static_cast<std::size_t>(i)] || of_trials[static_cast<std::size_t>(j)]);
+            row.push_back(gum::round_to_quantum(correlation(i, j), drawn ? k_decimals_of_trials : k_decimals));
         }
         out.correlation.text.push_back(std::move(row));
     }
@@ -617,7 +631,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
 
 std::string budget_covariance_csv(const BudgetJob& job, const gum::BudgetResult& result,
                                   const Eigen::MatrixXd& covariance) {
-    const auto [names, units, matrix] = named(job, result, covariance);
+    const auto [names, units, of_trials, matrix] = named(job, result, covariance);
     const Eigen::MatrixXd scaled = in_units(matrix, units);
     std::string csv = "result";
     for (const std::string& name : names) {
