@@ -176,6 +176,7 @@ void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>
     // n sets of readings taken together: every linear combination of the means has n − 1 degrees of freedom.
     if (observed != nullptr) {
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
+        group.is_estimated_matrix = true;
         return;
     }
     double least = k_infinity;

@@ -9,6 +9,7 @@
 #include "gum/budget/budget_coverage.h"
 #include "gum/budget/evaluation_choice.h"
 #include "gum/budget/fit_scatter.h"
+#include "gum/budget/joint_region.h"
 #include "gum/budget/zero_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
@@ -239,9 +240,9 @@ void validate_together(const Budget& budget, BudgetPointResult& point, BudgetRes
     for (Eigen::Index j = 0; j < m; ++j) {
         in_unit(j) = point.outputs[static_cast<std::size_t>(j)].unit.difference_from_si(1.0);
     }
-    point.joint_validation =
-        validate_jointly(point.propagation, joint_effective_degrees_of_freedom(*point.model, point.propagation),
-                         *point.monte_carlo, in_unit, budget.monte_carlo->digits);
+    point.joint_validation = validate_jointly(
+        point.propagation, law_ellipsoid(budget, point, point.monte_carlo->coverage_probability).ellipsoid_factor,
+        *point.monte_carlo, in_unit, budget.monte_carlo->digits);
     result.validation_failed = result.validation_failed || !point.joint_validation->validated;
 }
 

@@ -678,12 +678,13 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
 void region(CertificateBuilder& builder, const Wording& words, const CoverageRegion& r) {
     builder.paragraph(words.fill("region", {{"p", words.number(percent_text(r.coverage_probability))},
                                             {"from", words("value", "region_from", r.from)}}));
-    Facts rows = {
-        {words("label", "ellipsoid"), r.k_p.number ? words.fill("ellipsoid", {{"k_p", words.number(r.k_p.text)}})
-                                                   : words("sentence", "no_ellipsoid")},
-        {words("label", "parallelepiped"), r.k_q.number
-                                               ? words.fill("parallelepiped", {{"k_q", words.number(r.k_q.text)}})
-                                               : words("sentence", "no_parallelepiped")}};
+    Facts rows = {{words("label", "ellipsoid"),
+                   r.k_p.number ? words.fill("ellipsoid", {{"k_p", words.number(r.k_p.text)}})
+                                : words("sentence", r.no_k_p_because == "distribution" ? "no_ellipsoid_distribution"
+                                                                                       : "no_ellipsoid")},
+                  {words("label", "parallelepiped"),
+                   r.k_q.number ? words.fill("parallelepiped", {{"k_q", words.number(r.k_q.text)}})
+                                : words("sentence", "no_parallelepiped")}};
     if (r.degrees_of_freedom) {
         rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(r.degrees_of_freedom, words));
     }

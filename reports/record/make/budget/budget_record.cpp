@@ -9,11 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "gum/budget/joint_region.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/budget/zero_uncertainty.h"
-#include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
-#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 #include "jobs/budget/budget_results.h"
@@ -332,44 +331,42 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
     return out;
 }
 
-/// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
-reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointResult& point) {
+/// Digits of a factor that draws hold: three, or two where its standard uncertainty is above half of the third.
+std::string printed_factor(double factor, double error) {
+    constexpr double k_half_of_third_digit = 0.005;  // of 1 to 10
+    return rounded(factor, error > k_half_of_third_digit * std::max(1.0, factor / 10.0) ? 2 : 3);
+}
+
+/// Joint region of the outputs of the only point.
+std::optional<reports::CoverageRegion> region_of(const BudgetJob& job, const gum::BudgetPointResult& point,
+                                                 const Eigen::MatrixXd& covariance) {
+    const std::optional<gum::JointRegion> found = gum::joint_region(job, point, covariance);
+    if (!found) {
+        return std::nullopt;
+    }
     reports::CoverageRegion region;
     region.coverage_probability = job.coverage_probability;
-    if (point.monte_carlo && point.monte_carlo->regions) {
+    region.from = found->of_trials ? "Monte Carlo" : "law of propagation";
+    region.degrees_of_freedom = found->degrees_of_freedom;
+    region.no_k_p_because = found->no_ellipsoid_because;
+    if (found->ellipsoid_factor) {
+        region.k_p = {found->ellipsoid_factor, printed_factor(*found->ellipsoid_factor, found->ellipsoid_error)};
+    }
+    if (found->rectangle_factor) {
+        region.k_q = {found->rectangle_factor, printed_factor(*found->rectangle_factor, found->rectangle_error)};
+    }
+    if (found->of_trials && point.monte_carlo->regions && point.monte_carlo->regions->smallest_cells > 0 &&
+        point.monte_carlo->coverage_probability == job.coverage_probability) {
         const gum::MonteCarloRegions& from = *point.monte_carlo->regions;
-        region.from = "Monte Carlo";
-        region.coverage_probability = point.monte_carlo->coverage_probability;
-        region.k_p.number = from.ellipsoid_factor;
-        region.k_q.number = from.parallelepiped_factor;
-        if (from.smallest_cells > 0) {
-            region.smallest_region = {.volume = from.smallest_volume,
-                                      .probability = from.smallest_probability,
-                                      .cells = static_cast<std::int64_t>(from.smallest_cells),
-                                      .cells_per_axis = {}};
-            for (const gum::BudgetOutputResult& output : point.outputs) {
-                region.smallest_region->volume = output.unit.difference_from_si(region.smallest_region->volume);
-            }
-            for (const int cells : from.cells_per_axis) {
-                region.smallest_region->cells_per_axis.push_back(cells);
-            }
+        region.smallest_region = {.volume = from.smallest_volume,
+                                  .probability = from.smallest_probability,
+                                  .cells = static_cast<std::int64_t>(from.smallest_cells),
+                                  .cells_per_axis = {}};
+        for (const gum::BudgetOutputResult& output : point.outputs) {
+            region.smallest_region->volume = output.unit.difference_from_si(region.smallest_region->volume);
         }
-    } else {
-        region.from = "law of propagation";
-        const auto m = static_cast<std::size_t>(point.propagation.value.size());
-        const double nu = gum::joint_effective_degrees_of_freedom(*point.model, point.propagation);
-        region.degrees_of_freedom = reports::finite_or_none(nu);
-        const Eigen::MatrixXd correlation = gum::correlation_matrix(point.propagation.covariance);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
-        const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
-                              !(point.propagation.standard_uncertainty.minCoeff() > 0.0);
-        if (!std::isnan(nu) && !singular && (std::isinf(nu) || nu > static_cast<double>(m) - 1.0)) {
-            region.k_p.number = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
-        }
-        // Each interval with probability 1 − (1 − p)/m, so that all hold together with p at least (Bonferroni).
-        if (!std::isnan(nu)) {
-            region.k_q.number =
-                gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
+        for (const int cells : from.cells_per_axis) {
+            region.smallest_region->cells_per_axis.push_back(cells);
         }
     }
     if (point.joint_validation) {
@@ -385,12 +382,6 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
                              .delta_k_p = from.factor_tolerance,
                              .d_k_p = from.factor_distance,
                              .validated = from.validated};
-    }
-    if (region.k_p.number) {
-        region.k_p.text = rounded(*region.k_p.number, 3);
-    }
-    if (region.k_q.number) {
-        region.k_q.text = rounded(*region.k_q.number, 3);
     }
     return region;
 }
@@ -613,11 +604,12 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
         }
     }
     // Trials without a variance have no region that is measured by it.
-    const bool any_without = std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
-                                         [](const gum::BudgetOutputResult& output) { return !output.has_u; });
+    const bool any_without =
+        std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
+                    [](const gum::BudgetOutputResult& output) { return output.by_monte_carlo && !output.has_u; });
     if (job.sections.empty() && result.points.front().outputs.size() > 1 && job.points.empty() && !job.model.empty() &&
         !any_without) {
-        record.region = region_of(job, result.points.front());
+        record.region = region_of(job, result.points.front(), covariance);
     }
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));
