@@ -122,6 +122,15 @@ std::vector<bool> EquationSystem::inputs_of(std::size_t output) const {
 }
 
 bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs) const {
+    for (std::size_t output = 0; output < output_count(); ++output) {
+        if (!is_affine_in(inputs, output)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs, std::size_t output) const {
     // Degrees are followed step by step without any value, so that what is found holds everywhere and not at the
     // estimates only. Where in doubt, a step counts as curved.
     enum Degree : std::uint8_t { independent, affine, curved };
@@ -171,7 +180,7 @@ bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs) const {
             run(curved);
         }
     }
-    return largest(tape.residual_count(), tape.roots().size()) != curved;
+    return degree[static_cast<std::size_t>(tape.roots().at(tape.residual_count() + output))] != curved;
 }
 
 void EquationSystem::Compiled::check_size(Eigen::Index values) const {

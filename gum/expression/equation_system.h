@@ -101,6 +101,8 @@ public:
     [[nodiscard]] std::vector<bool> inputs_of(std::size_t output) const;
     /// True when every output is an affine function of these inputs, the others held: no second derivative.
     [[nodiscard]] bool is_affine_in(std::span<const std::size_t> inputs) const;
+    /// The same of one output.
+    [[nodiscard]] bool is_affine_in(std::span<const std::size_t> inputs, std::size_t output) const;
 
     [[nodiscard]] std::size_t unknown_count() const;
 
