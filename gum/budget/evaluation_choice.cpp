@@ -367,7 +367,24 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                      .severity = Severity::warning});
             }
         }
-        const Places without = places_of(output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u; });
+        // Where the law is reported its U stands, and that the trials have none speaks of the trials alone.
+        const Places beside = places_of(
+            output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u && !o.by_monte_carlo; });
+        if (beside.any) {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0043",
+                 .where = where_of(output, beside),
+                 .what =
+                     "the trials of Monte Carlo beside the reported result give no standard uncertainty: their tails "
+                     "fall off so slowly that the distribution has no variance, or none that trials can find",
+                 .rule =
+                     "the law of propagation takes u as it is stated, and k from the degrees of freedom; a standard "
+                     "deviation of trials exists only where the distribution has one (JCGM 101:2008, 6.4.9.4)",
+                 .action = "Nothing; the result of the law of propagation is stated.",
+                 .severity = Severity::note});
+        }
+        const Places without = places_of(
+            output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u && o.by_monte_carlo; });
         if (without.any) {
             result.notes.push_back(
                 {.code = "GC-BUDGET-0027",

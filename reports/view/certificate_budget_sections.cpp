@@ -607,8 +607,10 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
                    {words("label", "shortest_low"), m.shortest.text[0], rounded(error.shortest[0])},
                    {words("label", "shortest_high"), m.shortest.text[1], rounded(error.shortest[1])}});
     if (!m.u.number) {
-        builder.paragraph(words("sentence", "no_moments"));
-    } else if (m.adaptive) {
+        const bool by_trials = reported_result(result).method == "monte_carlo";
+        builder.paragraph(words("sentence", by_trials ? "no_moments" : "no_moments_beside"));
+    }
+    if (m.adaptive) {
         builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
     }
     if (m.validation) {

@@ -155,6 +155,32 @@ TEST(EvaluationChoice, TellsOfEachResultThatHasNotSettled) {
     EXPECT_TRUE(result.points.front().outputs[2].stabilised);
 }
 
+// A mean of three readings: u and U of the law are stated, and that the trials beside them have no variance is a note, no
+// word of an interval alone.
+TEST(EvaluationChoice, TellsOfTrialsWithoutVarianceByWhatIsReported) {
+    Budget of = test::budget({"n = a*1", "m = a + b"},
+                             {input("a", state_observations({1, 1.1, 1.05})), input("b", state_uncertainty(0, 0.001))});
+    of.monte_carlo.emplace().trials = 200000;
+    for (const CoverageChoice choice : {CoverageChoice::as_validated, CoverageChoice::monte_carlo}) {
+        of.coverage = choice;
+        const BudgetResult result = evaluate_budget(of, 1);
+        for (const BudgetOutputResult& output : result.points.front().outputs) {
+            ASSERT_FALSE(output.has_u);
+            const std::string code = output.by_monte_carlo ? "GC-BUDGET-0027" : "GC-BUDGET-0043";
+            int told = 0;
+            for (const Diagnostic& note : result.notes) {
+                if (note.where == "result " + output.name &&
+                    (note.code == "GC-BUDGET-0027" || note.code == "GC-BUDGET-0043")) {
+                    EXPECT_EQ(note.code, code) << output.name;
+                    EXPECT_EQ(note.severity, output.by_monte_carlo ? Severity::warning : Severity::note);
+                    ++told;
+                }
+            }
+            EXPECT_EQ(told, 1) << output.name;
+        }
+    }
+}
+
 TEST(EvaluationChoice, TellsOnceForAllPoints) {
     Budget of = test::budget({"y = x^2"}, {input("x", state_uncertainty(0, 1))});
     of.points = {test::point(of, "low", {{"x", state_uncertainty(0, 1)}}),
