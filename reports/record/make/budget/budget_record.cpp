@@ -571,7 +571,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
             out.coverage = from.coverage;
             out.coverage_note = from.coverage_note;
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
-            out.reported = reported_of(from, out.value, unit, job.rounding);
+            out.reported = reported_of(from, out.value, unit, job);
             out.budget = budget_rows(job, result, point, index, unit);
             if (i < point.without_derivative.size() && point.without_derivative[i]) {
                 without_sensitivities(out.budget);

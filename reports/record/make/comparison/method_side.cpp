@@ -55,7 +55,7 @@ public:
         const gum::BudgetPointResult& at = point(i);
         const double y = at.propagation.value(0);
         const auto in = [&](const gum::Unit& of) {
-            return reported_of(at.outputs.front(), of.from_si(y), of, budget_.job.rounding);
+            return reported_of(at.outputs.front(), of.from_si(y), of, budget_.job);
         };
         reports::ReportedResult taken = in(unit);
         // Whether an interval prints as symmetric is decided in the unit that the budget reports in.
