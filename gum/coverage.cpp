@@ -60,13 +60,19 @@ double coverage_factor(double coverage_probability, double degrees_of_freedom) {
     return k;
 }
 
-double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs, double degrees_of_freedom) {
+double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs, double degrees_of_freedom,
+                                 EstimatedSpread estimated) {
     require_probability(coverage_probability, "coverage probability");
     require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
     const auto m = static_cast<double>(outputs);
     const double tail = 1.0 - coverage_probability;
     if (std::isinf(degrees_of_freedom)) {
         return std::sqrt(boost::math::quantile(boost::math::complement(ChiSquareDistribution(m), tail)));
+    }
+    if (estimated == EstimatedSpread::scale) {
+        // Of the multivariate t-distribution zᵀ z/m is F(m, ν), whatever the number of outputs.
+        return std::sqrt(
+            m * boost::math::quantile(boost::math::complement(FisherDistribution(m, degrees_of_freedom), tail)));
     }
     // Hotelling's T²: m ν/(ν + 1 − m) F(m, ν + 1 − m). With fewer degrees of freedom the estimated covariance matrix is
     // singular, and there is no ellipsoid.

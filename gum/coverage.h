@@ -20,17 +20,25 @@ namespace gumcert::gum {
 /// Example: examples/api/coverage_factor.cpp
 [[nodiscard]] double coverage_factor(double coverage_probability, double degrees_of_freedom);
 
+/// What a finite number of degrees of freedom of a covariance matrix V belongs to.
+enum class EstimatedSpread {
+    matrix,  ///< all of V was estimated, from readings of all quantities that were taken together (Wishart)
+    scale,   ///< V is known up to one factor, as that of the parameters of a fit, scaled by its residuals
+};
+
 /// Factor k_p of the hyper-ellipsoid (η − y)ᵀ V⁻¹ (η − y) = k_p² that has the coverage probability p for m outputs.
 ///
 /// k_p² = quantile of χ² with m degrees of freedom                               (JCGM 102:2011, 6.5.2.3)
-/// k_p² = m ν/(ν + 1 − m) F_p(m, ν + 1 − m) where V has ν degrees of freedom      (Willink and Hall 2002, Hotelling's
+/// k_p² = m ν/(ν + 1 − m) F_p(m, ν + 1 − m) of an estimated matrix                 (Willink and Hall 2002, Hotelling's
 /// T²)
+/// k_p² = m F_p(m, ν) of an estimated scale: that of the multivariate t-distribution
 /// \param outputs             m ≥ 1
 /// \param degrees_of_freedom  ν of the covariance matrix, infinite allowed
 /// \throws InputError     GC-GUM-0004 or -0005 for an argument out of range
-/// \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1
+/// \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1 of an estimated matrix
 [[nodiscard]] double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs,
-                                               double degrees_of_freedom);
+                                               double degrees_of_freedom,
+                                               EstimatedSpread estimated = EstimatedSpread::matrix);
 
 /// Uncertainty contribution |c_i| u(x_i) with its degrees of freedom ν_i.
 struct UncertaintyContribution {

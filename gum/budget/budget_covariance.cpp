@@ -48,12 +48,12 @@ Eigen::MatrixXd shared_root(const InputGroup& group) {
     return group.covariance.diagonal().cwiseSqrt().asDiagonal() * root;
 }
 
-PointFactor factor_of(const BudgetPointResult& point) {
+PointFactor factor_of(const BudgetPointResult& point, const Eigen::MatrixXd& jacobian) {
     PointFactor factor;
     Eigen::Index column = 0;
     for (std::size_t g = 0; g < point.streams.size(); ++g) {
         const InputGroup& group = point.model->inputs()[g];
-        const auto J = point.propagation.jacobian.middleCols(column, group.size());
+        const auto J = jacobian.middleCols(column, group.size());
         column += group.size();
         if (group.size() == 1 || group.is_diagonal()) {
             for (Eigen::Index i = 0; i < group.size(); ++i) {
@@ -70,9 +70,26 @@ PointFactor factor_of(const BudgetPointResult& point) {
     return factor;
 }
 
-}  // namespace
+/// J V Jᵀ of one point.
+Eigen::MatrixXd own_covariance(const BudgetPointResult& point, const Eigen::MatrixXd& jacobian) {
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.rows());
+    Eigen::Index column = 0;
+    for (const InputGroup& group : point.model->inputs()) {
+        const auto J = jacobian.middleCols(column, group.size());
+        column += group.size();
+        if (group.is_diagonal()) {
+            covariance += J * group.covariance.col(0).asDiagonal() * J.transpose();
+        } else {
+            covariance += J * group.covariance * J.transpose();
+        }
+    }
+    return 0.5 * (covariance + covariance.transpose());
+}
 
-Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
+/// \param jacobians  one a point
+/// \param own        covariance of the results of each point among themselves
+Eigen::MatrixXd covariance_of_points(const BudgetResult& result, const std::vector<Eigen::MatrixXd>& jacobians,
+                                     const std::vector<Eigen::MatrixXd>& own) {
     std::vector<Eigen::Index> first{0};  // result of each point
     for (const BudgetPointResult& point : result.points) {
         first.push_back(first.back() + static_cast<Eigen::Index>(point.outputs.size()));
@@ -81,8 +98,8 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
     if (result.points.size() > 1) {
         std::vector<PointFactor> factors;
         std::map<Deviate, std::size_t> uses;
-        for (const BudgetPointResult& point : result.points) {
-            factors.push_back(factor_of(point));
+        for (std::size_t p = 0; p < result.points.size(); ++p) {
+            factors.push_back(factor_of(result.points[p], jacobians[p]));
             for (const auto& [deviate, column] : factors.back()) {
                 ++uses[deviate];
             }
@@ -115,10 +132,29 @@ Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
     for (std::size_t p = 0; p < result.points.size(); ++p) {  // with what is of this point alone
         // The blocks on the diagonal are those of the law of propagation itself, so that their u is the one that is
         // printed.
-        const Eigen::MatrixXd& own = result.points[p].propagation.covariance;
-        covariance.block(first[p], first[p], own.rows(), own.cols()) = own;
+        covariance.block(first[p], first[p], own[p].rows(), own[p].cols()) = own[p];
     }
     return covariance;
+}
+
+}  // namespace
+
+Eigen::MatrixXd budget_covariance(const BudgetResult& result) {
+    std::vector<Eigen::MatrixXd> jacobians;
+    std::vector<Eigen::MatrixXd> own;
+    for (const BudgetPointResult& point : result.points) {
+        jacobians.push_back(point.propagation.jacobian);
+        own.push_back(point.propagation.covariance);
+    }
+    return covariance_of_points(result, jacobians, own);
+}
+
+Eigen::MatrixXd budget_covariance(const BudgetResult& result, const std::vector<Eigen::MatrixXd>& jacobians) {
+    std::vector<Eigen::MatrixXd> own;
+    for (std::size_t p = 0; p < result.points.size(); ++p) {
+        own.push_back(own_covariance(result.points[p], jacobians[p]));
+    }
+    return covariance_of_points(result, jacobians, own);
 }
 
 }  // namespace gumcert::gum

@@ -176,6 +176,7 @@ void set_degrees_of_freedom(const Budget& budget, const std::vector<std::size_t>
     // n sets of readings taken together: every linear combination of the means has n − 1 degrees of freedom.
     if (observed != nullptr) {
         group.degrees_of_freedom = static_cast<double>(observed->observations - 1);
+        group.is_estimated_matrix = true;
         return;
     }
     double least = k_infinity;
@@ -526,6 +527,20 @@ BudgetModel::BudgetModel(std::optional<EquationSystem> system, const std::vector
 bool BudgetModel::uses(std::size_t symbol) const {
     return system_ ? !unused_[symbol]
                    : std::find(results_.begin(), results_.end(), static_cast<Eigen::Index>(symbol)) != results_.end();
+}
+
+std::vector<bool> BudgetModel::quantities_of(Eigen::Index output) const {
+    std::vector<bool> of_symbols(static_cast<std::size_t>(symbol_count_));
+    if (system_) {
+        of_symbols = system_->inputs_of(static_cast<std::size_t>(output));
+    } else {
+        of_symbols[static_cast<std::size_t>(results_[static_cast<std::size_t>(output)])] = true;
+    }
+    std::vector<bool> used;
+    for (const BudgetQuantity& quantity : quantities_) {
+        used.push_back(of_symbols[quantity.symbol]);
+    }
+    return used;
 }
 
 Eigen::VectorXd BudgetModel::symbols(const Eigen::VectorXd& x) const {

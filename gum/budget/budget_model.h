@@ -39,6 +39,8 @@ public:
     [[nodiscard]] bool is_of_symbols() const { return !system_.has_value(); }
     /// Whether an output depends on a symbol.
     [[nodiscard]] bool uses(std::size_t symbol) const;
+    /// Whether an output depends on a quantity, for each of quantities().
+    [[nodiscard]] std::vector<bool> quantities_of(Eigen::Index output) const;
 
     [[nodiscard]] const std::vector<InputGroup>& inputs() const override { return groups_; }
     [[nodiscard]] const std::vector<OutputQuantity>& outputs() const override { return outputs_; }

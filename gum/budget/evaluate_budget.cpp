@@ -9,6 +9,7 @@
 #include "gum/budget/budget_coverage.h"
 #include "gum/budget/evaluation_choice.h"
 #include "gum/budget/fit_scatter.h"
+#include "gum/budget/joint_region.h"
 #include "gum/budget/zero_uncertainty.h"
 #include "gum/monte_carlo/validation_in_unit.h"
 #include "gum/quantity/progress.h"
@@ -150,8 +151,8 @@ bool changes(const BudgetPointResult& point, Eigen::Index output, double change,
 }
 
 /// Monte Carlo of one point for each coverage probability that its outputs ask for.
-void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsigned threads, const Progress& progress,
-                     BudgetPointResult& point) {
+void run_monte_carlo(const Budget& budget, const std::optional<EquationSystem>& system, const MonteCarloRequest& asked,
+                     unsigned threads, const Progress& progress, BudgetPointResult& point) {
     MonteCarloOptions options = monte_carlo_options(asked, threads, budget.points.empty() ? progress : Progress());
     if (!budget.monte_carlo && options.adaptive) {
         // Trials that decide whether the law holds need a numerical error that is small beside the tolerance they are
@@ -159,6 +160,9 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
         options.adaptive->tolerance_divisor = k_automatic_divisor;
     }
     options.streams = point.streams;
+    options.has_no_variance = [&](Eigen::Index output, std::uint64_t trials) {
+        return has_no_variance(system, point, output, asked.seed, trials, threads);
+    };
     // What is drawn of simultaneous observations is right for one result at a time, not for a region of several.
     options.regions = budget.points.empty() && budget.simultaneous.empty();
     options.histogram = budget.points.size() <= k_most_points_with_histogram;
@@ -176,17 +180,17 @@ void run_monte_carlo(const Budget& budget, const MonteCarloRequest& asked, unsig
         }
         output.monte_carlo = found->second.outputs[i];
         output.trials = found->second.trials;
-        output.stabilised = found->second.stabilised;
+        output.stabilised = output.monte_carlo->stabilised;
     }
 }
 
 /// Monte Carlo that the job did not ask for: where it fails, the message gives the reason why it was run.
-void run_monte_carlo_unasked(const Budget& budget, const std::vector<std::string>& evidence, const std::string& where,
-                             unsigned threads, const Progress& progress, BudgetPointResult& point,
-                             BudgetResult& result) {
+void run_monte_carlo_unasked(const Budget& budget, const std::optional<EquationSystem>& system,
+                             const std::vector<std::string>& evidence, const std::string& where, unsigned threads,
+                             const Progress& progress, BudgetPointResult& point, BudgetResult& result) {
     result.automatic_monte_carlo = automatic_monte_carlo();
     try {
-        run_monte_carlo(budget, *result.automatic_monte_carlo, threads, progress, point);
+        run_monte_carlo(budget, system, *result.automatic_monte_carlo, threads, progress, point);
     } catch (const NoResultError& error) {
         std::vector<Diagnostic> all = error.diagnostics();
         for (Diagnostic& problem : all) {
@@ -239,10 +243,21 @@ void validate_together(const Budget& budget, BudgetPointResult& point, BudgetRes
     for (Eigen::Index j = 0; j < m; ++j) {
         in_unit(j) = point.outputs[static_cast<std::size_t>(j)].unit.difference_from_si(1.0);
     }
-    point.joint_validation =
-        validate_jointly(point.propagation, joint_effective_degrees_of_freedom(*point.model, point.propagation),
-                         *point.monte_carlo, in_unit, budget.monte_carlo->digits);
+    point.joint_validation = validate_jointly(
+        point.propagation, law_ellipsoid(budget, point, point.monte_carlo->coverage_probability).ellipsoid_factor,
+        *point.monte_carlo, in_unit, budget.monte_carlo->digits);
     result.validation_failed = result.validation_failed || !point.joint_validation->validated;
+}
+
+Diagnostic not_stabilised_message(std::string where, std::uint64_t trials) {
+    return {.code = "GC-BUDGET-0022",
+            .where = std::move(where),
+            .what = std::to_string(trials) + " trials, and the results have not stabilised",
+            .rule =
+                "adaptive Monte Carlo ends when twice the standard deviation of each result "
+                "is within its tolerance (JCGM 101:2008, 7.9.4)",
+            .action = "Raise adaptive.max_trials, or ask for one digit.",
+            .severity = Severity::warning};
 }
 
 void warn(const Budget& budget, const BudgetPointResult& point, const std::string& where, BudgetResult& result) {
@@ -261,16 +276,15 @@ void warn(const Budget& budget, const BudgetPointResult& point, const std::strin
                                                   : "Add \"coverage\": \"monte_carlo\" to the job.",
                                     .severity = Severity::warning});
         }
-        if (!output.stabilised && output.has_u) {
-            result.notes.push_back(
-                {.code = "GC-BUDGET-0022",
-                 .where = place,
-                 .what = std::to_string(output.trials) + " trials, and the results have not stabilised",
-                 .rule = "adaptive Monte Carlo ends when twice the standard deviation of each result "
-                         "is within its tolerance (JCGM 101:2008, 7.9.4)",
-                 .action = "Raise adaptive.max_trials, or ask for one digit.",
-                 .severity = Severity::warning});
+        if (!output.stabilised) {
+            result.notes.push_back(not_stabilised_message(place, output.trials));
         }
+    }
+    const bool all_by_trials = std::all_of(point.outputs.begin(), point.outputs.end(), [](const BudgetOutputResult& o) {
+        return o.by_monte_carlo && o.stabilised;
+    });
+    if (all_by_trials && point.monte_carlo && !point.monte_carlo->stabilised) {
+        result.notes.push_back(not_stabilised_message("joint region" + where, point.monte_carlo->trials));
     }
 }
 
@@ -307,12 +321,12 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
         needed = needed || needs_monte_carlo(choices[i], evidence[i]);
     }
     if (budget.monte_carlo) {
-        run_monte_carlo(budget, *budget.monte_carlo, threads, progress, point);
+        run_monte_carlo(budget, system, *budget.monte_carlo, threads, progress, point);
         if (budget.monte_carlo->validate) {
             validate_outputs(budget, point, result);
         }
     } else if (needed) {
-        run_monte_carlo_unasked(budget, evidence, where, threads, progress, point, result);
+        run_monte_carlo_unasked(budget, system, evidence, where, threads, progress, point, result);
     }
     for (std::size_t i = 0; i < point.outputs.size(); ++i) {
         BudgetOutputResult& output = point.outputs[i];
@@ -321,6 +335,8 @@ void report(const Budget& budget, const std::optional<EquationSystem>& system, c
             const ExistingMoments exist = existing_moments(system, point, index, threads);
             output.has_mean = exist.mean;
             output.has_u = exist.u;
+            // Ended by the ends of its interval, because a look at fewer trials found no variance.
+            output.stabilised = output.stabilised && !(output.monte_carlo->without_variance && exist.u);
         }
         decide_reported(choices[i], evidence[i], output.unit, point.propagation.value(index),
                         budget.monte_carlo ? budget.monte_carlo->digits : 2, output);

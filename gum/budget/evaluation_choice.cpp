@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -23,8 +24,10 @@ constexpr double k_vanishing = 0.01;          // u of first order beside that of
 constexpr double k_vanished = 1e-6;           // u of first order beside the spread of the model itself
 constexpr double k_largest_asymmetry = 0.05;  // shift of the ends by the skewness, in terms of U
 constexpr std::uint64_t k_most_trials = 20'000'000;
-constexpr double k_suspicious_share = 0.005;  // of one deviation in the sum of all squares
-constexpr double k_suspicious_in_few = 30.0;  // divided by the trials: what a normal distribution shows
+constexpr double k_suspicious_share = 0.005;   // of one deviation in the sum of all squares
+constexpr double k_suspicious_in_few = 30.0;   // divided by the trials: what a normal distribution shows
+constexpr double k_least_with_variance = 2.0;  // exponent of tails that fall off like a power law
+constexpr double k_least_with_mean = 1.0;
 
 bool is_without(const std::vector<bool>& flags, std::size_t output) {
     return output < flags.size() && flags[output];
@@ -52,14 +55,43 @@ bool tells_missing_derivative(const NoResultError& error) {
 }
 
 /// Exponent with which the trials of an output thin out: P(|Y − median| > a) ~ a^−α.
-double tail_exponent(const BudgetPointResult& point, Eigen::Index output, unsigned threads) {
+TailIndex tail_of(const BudgetPointResult& point, Eigen::Index output, std::uint64_t seed, std::uint64_t trials,
+                  unsigned threads) {
     return tail_index({.model = point.model,
                        .output = output,
                        .unit = {},
-                       .seed = point.monte_carlo->seed,
+                       .seed = seed,
                        .streams = point.streams,
-                       .trials = point.outputs[static_cast<std::size_t>(output)].trials,
+                       .trials = trials,
                        .threads = threads});
+}
+
+/// Whether an output is an affine function of all inputs.
+bool is_affine(const std::optional<EquationSystem>& system, Eigen::Index output) {
+    if (!system) {
+        return true;
+    }
+    std::vector<std::size_t> all(system->input_count());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return system->is_affine_in(all, static_cast<std::size_t>(output));
+}
+
+/// What the distributions of the inputs say: an expectation or a standard deviation that one lacks and that enters
+/// linearly.
+ExistingMoments moments_by_inputs(const std::optional<EquationSystem>& system, const BudgetPointResult& point,
+                                  Eigen::Index output) {
+    ExistingMoments exist;
+    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
+    for (const InputWithoutVariance& input : inputs_without_variance(point, output)) {
+        const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(input.column)].symbol};
+        // Linear: the tails of the input are those of the result. Through another function, 1/x say, they may be cut
+        // off or become longer; then the trials themselves are asked.
+        if (!system || system->is_affine_in(symbol, static_cast<std::size_t>(output))) {
+            exist.u = false;
+            exist.mean = exist.mean && input.nu > 1.0;
+        }
+    }
+    return exist;
 }
 
 /// How far the ends of the interval lie aside, in parts of U: from the convolution of all distributions, correlated
@@ -211,26 +243,34 @@ std::vector<InputWithoutVariance> inputs_without_variance(const BudgetPointResul
 
 ExistingMoments existing_moments(const std::optional<EquationSystem>& system, const BudgetPointResult& point,
                                  Eigen::Index output, unsigned threads) {
-    ExistingMoments exist;
-    const std::vector<BudgetQuantity>& quantities = point.model->quantities();
-    for (const InputWithoutVariance& input : inputs_without_variance(point, output)) {
-        const std::array<std::size_t, 1> symbol{quantities[static_cast<std::size_t>(input.column)].symbol};
-        // Linear: the tails of the input are those of the result. Through another function, 1/x say, they may be cut
-        // off or become longer; then the trials themselves are asked.
-        if (!system || system->is_affine_in(symbol)) {
-            exist.u = false;
-            exist.mean = exist.mean && input.nu > 1.0;
-        }
+    ExistingMoments exist = moments_by_inputs(system, point, output);
+    // A sum has a variance exactly where its terms have: no trial is asked, however long their tails look.
+    if (!exist.u || is_affine(system, output)) {
+        return exist;
     }
     const BudgetOutputResult& of = point.outputs[static_cast<std::size_t>(output)];
     const double share = of.monte_carlo->largest_share;
     // Of a distribution with a variance no single trial makes a share of Σ d² that does not fall with their number.
-    if (exist.u && share > k_suspicious_share + k_suspicious_in_few / static_cast<double>(of.trials)) {
-        const double exponent = tail_exponent(point, output, threads);
-        exist.u = exponent > 2.0;
-        exist.mean = exponent > 1.0;
+    if (!of.monte_carlo->without_variance &&
+        share <= k_suspicious_share + k_suspicious_in_few / static_cast<double>(of.trials)) {
+        return exist;
     }
-    return exist;
+    TailIndex tail = tail_of(point, output, point.monte_carlo->seed, of.trials, threads);
+    // Open: tails that are longer than those of a power law with a variance, where trials reach, may still fall off
+    // faster farther out. More trials reach farther; in a table of points that would take too long.
+    if (!tail.is_above(k_least_with_variance) && !tail.is_below(k_least_with_variance) && !point.point &&
+        of.trials < k_most_counted_trials) {
+        tail = tail_of(point, output, point.monte_carlo->seed, k_most_counted_trials, threads);
+    }
+    return {.mean = tail.is_above(k_least_with_mean), .u = tail.is_above(k_least_with_variance)};
+}
+
+bool has_no_variance(const std::optional<EquationSystem>& system, const BudgetPointResult& point, Eigen::Index output,
+                     std::uint64_t seed, std::uint64_t trials, unsigned threads) {
+    if (!moments_by_inputs(system, point, output).u) {
+        return true;
+    }
+    return !is_affine(system, output) && tail_of(point, output, seed, trials, threads).is_below(k_least_with_variance);
 }
 
 void decide_reported(CoverageChoice choice, const std::string& evidence, const Unit& unit, double value, int digits,
@@ -327,7 +367,24 @@ void note_reported(const Budget& budget, BudgetResult& result) {
                      .severity = Severity::warning});
             }
         }
-        const Places without = places_of(output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u; });
+        // Where the law is reported its U stands, and that the trials have none speaks of the trials alone.
+        const Places beside = places_of(
+            output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u && !o.by_monte_carlo; });
+        if (beside.any) {
+            result.notes.push_back(
+                {.code = "GC-BUDGET-0043",
+                 .where = where_of(output, beside),
+                 .what =
+                     "the trials of Monte Carlo beside the reported result give no standard uncertainty: their tails "
+                     "fall off so slowly that the distribution has no variance, or none that trials can find",
+                 .rule =
+                     "the law of propagation takes u as it is stated, and k from the degrees of freedom; a standard "
+                     "deviation of trials exists only where the distribution has one (JCGM 101:2008, 6.4.9.4)",
+                 .action = "Nothing; the result of the law of propagation is stated.",
+                 .severity = Severity::note});
+        }
+        const Places without = places_of(
+            output, [](const BudgetOutputResult& o) { return o.monte_carlo && !o.has_u && o.by_monte_carlo; });
         if (without.any) {
             result.notes.push_back(
                 {.code = "GC-BUDGET-0027",

@@ -57,14 +57,20 @@ struct InputWithoutVariance {
 
 /// Whether a distribution that trials were drawn from has an expectation and a standard deviation.
 ///
-/// Not where an input with a t-distribution and ν ≤ 2 (≤ 1: no expectation either) enters linearly; nor where the
-/// largest deviations of the trials fall off like a power law with an exponent of 2 (1) or less, within its error (Hill
-/// 1975, Ann. Statist. 3, 1163-1174). Trials that leave it open whether there is one count as none.
+/// Not where an input with a t-distribution and ν ≤ 2 (≤ 1: no expectation either) enters linearly. An output that is
+/// affine in all inputs has them exactly where its inputs have. Any other has none where the largest deviations of the
+/// trials fall off like a power law with an exponent of 2 (1) or less, within its error (Hill 1975, Ann. Statist. 3,
+/// 1163-1174); where that leaves it open, more trials are looked at, and where these do as well it counts as none.
 struct ExistingMoments {
     bool mean = true, u = true;
 };
 [[nodiscard]] ExistingMoments existing_moments(const std::optional<EquationSystem>& system,
                                                const BudgetPointResult& point, Eigen::Index output, unsigned threads);
+
+/// Whether an output certainly has no standard deviation, by its inputs or by a number of its first trials: what adaptive
+/// trials need not wait for.
+[[nodiscard]] bool has_no_variance(const std::optional<EquationSystem>& system, const BudgetPointResult& point,
+                                   Eigen::Index output, std::uint64_t seed, std::uint64_t trials, unsigned threads);
 
 /// Decides what is reported of an output: `because`, `against` and `by_monte_carlo` of it.
 /// \param evidence  against the law of propagation, before any trial

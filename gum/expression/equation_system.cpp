@@ -92,7 +92,45 @@ const std::vector<std::size_t>& EquationSystem::unused_inputs() const {
     return compiled_->unused_inputs;
 }
 
+std::vector<bool> EquationSystem::inputs_of(std::size_t output) const {
+    // Backwards along the steps: from the output, and from all residuals where it needs an unknown, because implicit
+    // equations are solved together.
+    const Tape& tape = compiled_->tape;
+    const std::size_t base = tape.first_step_slot();
+    std::vector<bool> used(base + tape.step_count() + 1);
+    const auto follow = [&] {
+        for (std::size_t k = tape.step_count(); k-- > 0;) {
+            if (used[base + k]) {
+                const TapeStep& step = tape.steps()[k];
+                used[static_cast<std::size_t>(step.a)] = true;
+                used[static_cast<std::size_t>(step.b)] = true;
+            }
+        }
+    };
+    used.at(static_cast<std::size_t>(tape.roots().at(tape.residual_count() + output))) = true;
+    follow();
+    const auto inputs = static_cast<std::ptrdiff_t>(compiled_->inputs());
+    const auto unknowns = used.begin() + inputs;
+    if (std::find(unknowns, unknowns + static_cast<std::ptrdiff_t>(compiled_->unknowns()), true) !=
+        unknowns + static_cast<std::ptrdiff_t>(compiled_->unknowns())) {
+        for (std::size_t i = 0; i < tape.residual_count(); ++i) {
+            used[static_cast<std::size_t>(tape.roots()[i])] = true;
+        }
+        follow();
+    }
+    return {used.begin(), used.begin() + inputs};
+}
+
 bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs) const {
+    for (std::size_t output = 0; output < output_count(); ++output) {
+        if (!is_affine_in(inputs, output)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs, std::size_t output) const {
     // Degrees are followed step by step without any value, so that what is found holds everywhere and not at the
     // estimates only. Where in doubt, a step counts as curved.
     enum Degree : std::uint8_t { independent, affine, curved };
@@ -142,7 +180,7 @@ bool EquationSystem::is_affine_in(std::span<const std::size_t> inputs) const {
             run(curved);
         }
     }
-    return largest(tape.residual_count(), tape.roots().size()) != curved;
+    return degree[static_cast<std::size_t>(tape.roots().at(tape.residual_count() + output))] != curved;
 }
 
 void EquationSystem::Compiled::check_size(Eigen::Index values) const {

@@ -97,8 +97,12 @@ public:
     [[nodiscard]] const std::vector<Diagnostic>& warnings() const;
     /// Inputs that no output depends on (a warning on the draft).
     [[nodiscard]] const std::vector<std::size_t>& unused_inputs() const;
+    /// Whether the equations behind an output use an input, for each input: of implicit equations all that stands in them.
+    [[nodiscard]] std::vector<bool> inputs_of(std::size_t output) const;
     /// True when every output is an affine function of these inputs, the others held: no second derivative.
     [[nodiscard]] bool is_affine_in(std::span<const std::size_t> inputs) const;
+    /// The same of one output.
+    [[nodiscard]] bool is_affine_in(std::span<const std::size_t> inputs, std::size_t output) const;
 
     [[nodiscard]] std::size_t unknown_count() const;
 

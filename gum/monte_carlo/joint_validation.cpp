@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 
 namespace gumcert::gum {
@@ -16,7 +15,7 @@ double largest_eigenvalue(const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-JointValidation validate_jointly(const Propagation& propagation, double degrees_of_freedom,
+JointValidation validate_jointly(const Propagation& propagation, const std::optional<double>& ellipsoid_factor,
                                  const MonteCarloResult& monte_carlo, const Eigen::VectorXd& in_unit, int digits) {
     const Eigen::Index m = propagation.value.size();
     JointValidation result{.tolerance = Eigen::VectorXd::Zero(m),
@@ -38,14 +37,9 @@ JointValidation validate_jointly(const Propagation& propagation, double degrees_
     result.eigenvalue_tolerance = numerical_tolerance(eigenvalue, digits);
     result.eigenvalue_distance = std::abs(eigenvalue - largest_eigenvalue(monte_carlo.covariance));
     result.validated = result.validated && result.eigenvalue_distance <= result.eigenvalue_tolerance;
-    // With fewer degrees of freedom there is no ellipsoid (Hotelling's T²), and nothing to compare.
-    const bool has_factor = monte_carlo.regions && monte_carlo.regions->ellipsoid_factor &&
-                            degrees_of_freedom > static_cast<double>(m) - 1.0;
-    if (has_factor) {
-        const double k_p = ellipsoid_coverage_factor(monte_carlo.coverage_probability, static_cast<std::size_t>(m),
-                                                     degrees_of_freedom);
-        result.factor_tolerance = numerical_tolerance(k_p, digits);
-        result.factor_distance = std::abs(k_p - *monte_carlo.regions->ellipsoid_factor);
+    if (ellipsoid_factor && monte_carlo.regions && monte_carlo.regions->ellipsoid_factor) {
+        result.factor_tolerance = numerical_tolerance(*ellipsoid_factor, digits);
+        result.factor_distance = std::abs(*ellipsoid_factor - *monte_carlo.regions->ellipsoid_factor);
         result.validated = result.validated && *result.factor_distance <= *result.factor_tolerance;
     }
     return result;

@@ -21,10 +21,12 @@ struct JointValidation {
 };
 
 /// \param in_unit  m, factors that turn coherent SI into the units of the results, where decimal digits count
-/// \param degrees_of_freedom  of the covariance matrix (joint_effective_degrees_of_freedom); NaN: no k_p is compared
+/// \param ellipsoid_factor  k_p of the law of propagation, for the coverage probability of `monte_carlo`; none: it is not
+///                          compared
 /// \param digits   significant digits regarded as meaningful, 1 or 2
 /// \pre monte_carlo is of the same model and has two or more outputs
-[[nodiscard]] JointValidation validate_jointly(const Propagation& propagation, double degrees_of_freedom,
+[[nodiscard]] JointValidation validate_jointly(const Propagation& propagation,
+                                               const std::optional<double>& ellipsoid_factor,
                                                const MonteCarloResult& monte_carlo, const Eigen::VectorXd& in_unit,
                                                int digits);
 

@@ -842,6 +842,7 @@ public:
         : digits_(options.adaptive->digits),
           tolerance_divisor_(options.adaptive->tolerance_divisor),
           regions_(options.regions && outputs > 1),
+          without_variance_(static_cast<std::size_t>(outputs)),
           numbers_(static_cast<std::size_t>(4 * outputs + 3)) {}
 
     void add(const SequenceResult& sequence) {
@@ -862,26 +863,28 @@ public:
 
     [[nodiscard]] std::vector<double> tolerance() const {
         std::vector<double> result;
-        for (const Moments& moments : all_.moments) {
-            result.push_back(of(moments.standard_deviation()));
+        for (std::size_t j = 0; j < all_.moments.size(); ++j) {
+            result.push_back(of(without_variance_[j] ? quarter(j) : all_.moments[j].standard_deviation()));
         }
         return result;
     }
 
-    [[nodiscard]] bool is_stable() const {
+    /// Of this output alone: mean, u and both ends, or the ends where it has no variance.
+    [[nodiscard]] bool is_stable(std::size_t output) const {
         // A standard deviation of the sequences needs two of them.
-        if (numbers_.front().count < 2) {
-            return false;
-        }
-        const std::vector<double> tolerances = tolerance();
-        for (std::size_t j = 0; j < tolerances.size(); ++j) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                if (!settled(numbers_[4 * j + i], tolerances[j])) {
-                    return false;
-                }
+        return numbers_.front().count >= 2 && settled(4 * output + 2) && settled(4 * output + 3) &&
+               (without_variance_[output] || (settled(4 * output) && settled(4 * output + 1)));
+    }
+
+    [[nodiscard]] bool is_stable() const {
+        for (std::size_t j = 0; j < without_variance_.size(); ++j) {
+            if (!is_stable(j)) {
+                return false;
             }
         }
-        if (!regions_) {
+        // What outputs have together is measured by u of each of them.
+        if (!regions_ ||
+            std::find(without_variance_.begin(), without_variance_.end(), true) != without_variance_.end()) {
             return true;
         }
         // Eigenvalue and factors are numbers of their own, with digits of their own: their tolerance follows from their
@@ -890,8 +893,35 @@ public:
                            [&](const Moments& number) { return settled(number, of(number.mean)); });
     }
 
+    /// Outputs that wait for their mean or u alone.
+    [[nodiscard]] std::vector<std::size_t> waiting_for_moments() const {
+        std::vector<std::size_t> outputs;
+        for (std::size_t j = 0; j < without_variance_.size(); ++j) {
+            if (!without_variance_[j] && !is_stable(j) && settled_ends(j)) {
+                outputs.push_back(j);
+            }
+        }
+        return outputs;
+    }
+
+    void set_without_variance(std::size_t output) { without_variance_[output] = true; }
+    [[nodiscard]] bool is_without_variance(std::size_t output) const { return without_variance_[output]; }
+
 private:
     void take(std::size_t at, double value) { numbers_[at].merge(moments_of(&value, 1)); }
+    /// A quarter of the width of the interval: u of a normal output for a probability of 95 %.
+    [[nodiscard]] double quarter(std::size_t output) const {
+        return 0.25 * (numbers_[4 * output + 3].mean - numbers_[4 * output + 2].mean);
+    }
+    [[nodiscard]] bool settled(std::size_t at) const {
+        const std::size_t output = at / 4;
+        return settled(numbers_[at],
+                       of(without_variance_[output] ? quarter(output) : all_.moments[output].standard_deviation()));
+    }
+    [[nodiscard]] bool settled_ends(std::size_t output) const {
+        const double tolerance = of(quarter(output));
+        return settled(numbers_[4 * output + 2], tolerance) && settled(numbers_[4 * output + 3], tolerance);
+    }
     /// A number that is 0 does not vary either: nothing is asked of it.
     [[nodiscard]] double of(double u) const {
         return u > 0.0 ? numerical_tolerance(u, digits_) / tolerance_divisor_ : 0.0;
@@ -905,23 +935,20 @@ private:
     int digits_;
     double tolerance_divisor_;
     bool regions_;
+    std::vector<bool> without_variance_;
     Sums all_;
     std::vector<Moments> numbers_;
 };
 
-/// Whether the numerical errors of all numbers that a run states are below the tolerance that it was ended by. A few
-/// sequences may agree by chance where trials are rare at an end of the interval, as between two clusters.
-bool errors_are_within(const MonteCarloResult& result, const std::vector<double>& tolerances) {
-    for (std::size_t j = 0; j < result.outputs.size(); ++j) {
-        const NumericalError& error = result.outputs[j].numerical_error;
-        for (const double one : {error.mean, error.standard_uncertainty, error.symmetric.low, error.symmetric.high}) {
-            if (one > tolerances[j]) {
-                return false;
-            }
-        }
-    }
-    return true;
+/// Whether the numerical errors of the numbers that a run states of an output are below the tolerance that it was ended
+/// by. A few sequences may agree by chance where trials are rare at an end of the interval, as between two clusters.
+bool errors_are_within(const MonteCarloOutput& output, double tolerance) {
+    const NumericalError& error = output.numerical_error;
+    const bool ends = error.symmetric.low <= tolerance && error.symmetric.high <= tolerance;
+    return ends && (output.without_variance || (error.mean <= tolerance && error.standard_uncertainty <= tolerance));
 }
+
+constexpr std::uint64_t k_first_look_at_tails = 1'000'000;  // trials, then at each doubling of them
 
 MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& options) {
     const AdaptiveTrials& adaptive = *options.adaptive;
@@ -941,6 +968,7 @@ MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& opti
     Sums all;
     std::uint64_t sequences = 0;
     std::uint64_t least = 2;
+    std::uint64_t look = k_first_look_at_tails;
     bool stable = false;
     // A round has one sequence a thread. The test takes them in their order and ends in the middle of a round where it
     // has to, or the number of trials would depend on the threads.
@@ -962,13 +990,28 @@ MonteCarloResult run_adaptive(TrialSource& source, const MonteCarloOptions& opti
                 }
                 test.add(sequence);
                 stable = sequences >= least && test.is_stable();
+                if (!stable && options.has_no_variance && sequences * sequence_trials >= look) {
+                    look = 2 * sequences * sequence_trials;
+                    for (const std::size_t output : test.waiting_for_moments()) {
+                        if (options.has_no_variance(index(output), sequences * sequence_trials)) {
+                            test.set_without_variance(output);
+                        }
+                    }
+                    stable = sequences >= least && test.is_stable();
+                }
             }
             report_progress(options, 0.5 * static_cast<double>(sequences) / static_cast<double>(most));
         }
         FixedRun run(source, options, sequences * sequence_trials, 0.5);
         MonteCarloResult result = run.run();
         result.tolerance = test.tolerance();
-        result.stabilised = stable && errors_are_within(result, result.tolerance);
+        result.stabilised = stable;
+        for (std::size_t j = 0; j < result.outputs.size(); ++j) {
+            MonteCarloOutput& output = result.outputs[j];
+            output.without_variance = test.is_without_variance(j);
+            output.stabilised = test.is_stable(j) && errors_are_within(output, result.tolerance[j]);
+            result.stabilised = result.stabilised && output.stabilised;
+        }
         if (result.stabilised || sequences >= most) {
             return result;
         }

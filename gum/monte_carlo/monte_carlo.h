@@ -43,6 +43,9 @@ struct MonteCarloOptions {
     /// same values for inputs of the same stream and shape: so test points of a table share their common inputs.
     std::vector<std::uint64_t> streams;
     double coverage_probability = 0.9545;
+    /// Adaptive: whether an output certainly has no variance, from a number of its first trials. Asked where u or the mean
+    /// alone do not settle; empty: all have one. Of an output without, only the ends of its interval are tested.
+    std::function<bool(Eigen::Index output, std::uint64_t trials)> has_no_variance;
     unsigned threads = 0;                  ///< 0: as many as the machine has; results do not depend on it
     bool regions = true;                   ///< coverage regions, where there are two or more outputs
     bool histogram = true;                 ///< MonteCarloOutput::histogram
@@ -76,6 +79,10 @@ struct MonteCarloOutput {
     CoverageInterval symmetric;         ///< probabilistically symmetric, by order statistics (JCGM 101:2008, 7.7)
     CoverageInterval shortest;          ///< likewise the shortest; the lowest, where several are equally short
     NumericalError numerical_error;
+    /// Adaptive: its own numbers are within the tolerance (JCGM 101:2008, 7.9.4), whatever those of other outputs are.
+    bool stabilised = true;
+    bool without_variance =
+        false;  ///< MonteCarloOptions::has_no_variance said so, and `stabilised` is of the ends alone
     /// Share of the largest single deviation in the sum of all squared deviations from the mean. It falls with the
     /// number of trials unless the distribution has no variance.
     double largest_share = 0.0;
@@ -101,7 +108,8 @@ struct MonteCarloResult {
     std::uint64_t trials = 0;
     std::uint64_t seed = 0;
     double coverage_probability = 0.0;
-    bool stabilised = true;         ///< false: adaptive, and most_trials was reached first
+    /// False: adaptive, and most_trials was reached before all outputs, and what is asked of them together, were stable.
+    bool stabilised = true;
     std::vector<double> tolerance;  ///< adaptive: δ of each output (JCGM 101:2008, 7.9.2); else empty
     std::vector<MonteCarloOutput> outputs;
     Eigen::MatrixXd covariance;  ///< m×m, of the trials, divisor M - 1
@@ -125,7 +133,9 @@ struct MonteCarloResult {
 /// the numerical tolerance of u(y), for every output (JCGM 101:2008, 7.9.4), and the numerical error of none of them is
 /// above it: two sequences may agree by chance. With several outputs and `regions` also
 /// those of the largest eigenvalue of the correlation matrix and of the factors k_p and k_q, with the tolerances of
-/// these numbers (JCGM 102:2011, 7.8). The result is then the same as with that number of trials given.
+/// these numbers (JCGM 102:2011, 7.8). The result is then the same as with that number of trials given. An output without
+/// a variance (MonteCarloOptions::has_no_variance) has no u that could settle: the ends of its interval are tested, with
+/// the tolerance of a quarter of its width in place of u, and nothing that outputs have together.
 ///
 /// \throws InputError     GC-GUM-0121 trials outside 1 … 10^10, GC-GUM-0126 digits or most_trials, GC-GUM-0004
 ///                        coverage probability; groups as refused by gum/monte_carlo/random_draws.h

@@ -80,12 +80,12 @@ TrialDistribution count_trials(const TrialsOfOutput& of) {
             .counted = values->size()};
 }
 
-double tail_index(const TrialsOfOutput& of) {
+TailIndex tail_index(const TrialsOfOutput& of) {
     constexpr double k_infinite = std::numeric_limits<double>::infinity();
     std::vector<double> values = drawn_trials(of);
     const std::size_t tail = std::clamp<std::size_t>(values.size() / 1000, 50, 4000);
     if (values.size() < 4 * tail) {
-        return k_infinite;  // too few to tell
+        return {k_infinite, 0.0};  // too few to tell
     }
     // From the median, because a distribution whose tails are looked at may have no mean.
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -100,15 +100,18 @@ double tail_index(const TrialsOfOutput& of) {
     const double threshold = *first;
     // Nearly all trials are equal: there is no tail.
     if (!(threshold > 0.0)) {
-        return k_infinite;
+        return {k_infinite, 0.0};
     }
     double sum = 0.0;
     for (auto at = first + 1; at != values.end(); ++at) {
         sum += std::log(*at / threshold);
     }
-    const double exponent = sum > 0.0 ? static_cast<double>(tail) / sum : k_infinite;
+    if (!(sum > 0.0)) {
+        return {k_infinite, 0.0};
+    }
     // 1/√k is the relative standard error of the estimate from k deviations.
-    return exponent * (1.0 - 2.0 / std::sqrt(static_cast<double>(tail)));
+    const auto k = static_cast<double>(tail);
+    return {k / sum, k / sum / std::sqrt(k)};
 }
 
 }  // namespace gumcert::gum

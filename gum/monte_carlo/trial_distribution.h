@@ -35,8 +35,16 @@ constexpr std::uint64_t k_most_counted_trials = std::uint64_t{1} << 24;  // 128 
 /// trials and a conformance probability. Of more than k_most_counted_trials the first ones are taken.
 [[nodiscard]] TrialDistribution count_trials(const TrialsOfOutput& of);
 
-/// Exponent α of the tails P(|Y − median| > a) ~ a^−α from the largest deviations of the trials, a thousandth of them
-/// but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174), less two of its standard errors.
-[[nodiscard]] double tail_index(const TrialsOfOutput& of);
+/// Exponent α of the tails P(|Y − median| > a) ~ a^−α, with its standard error; infinite where there is no tail to be seen.
+struct TailIndex {
+    double exponent = 0.0, standard_error = 0.0;
+
+    /// Above, or below a value by more than two standard errors; neither where the trials leave it open.
+    [[nodiscard]] bool is_above(double value) const { return exponent - 2.0 * standard_error > value; }
+    [[nodiscard]] bool is_below(double value) const { return exponent + 2.0 * standard_error < value; }
+};
+
+/// From the largest deviations of the trials, a thousandth of them but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174).
+[[nodiscard]] TailIndex tail_index(const TrialsOfOutput& of);
 
 }  // namespace gumcert::gum

@@ -45,6 +45,9 @@ struct InputGroup {
     /// correlated quantities with different degrees of freedom (JCGM 100:2008, G.4.1); the reason is beside it.
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     std::string no_degrees_of_freedom_because = {};  ///< a sentence for people; empty where there are some
+    /// Finite degrees of freedom are those of the whole covariance matrix, estimated from readings of all quantities that
+    /// were taken together (Wishart); else they are those of one scale of it.
+    bool is_estimated_matrix = false;
 
     /// What Monte Carlo draws, one a quantity: empty means the normal distribution with `value` and `covariance`. Where
     /// the quantities are correlated, `dependence` says how they are tied together.

@@ -60,9 +60,11 @@ struct ResultCovariance {
 struct CoverageRegion {
     double coverage_probability = 0.9545;
     std::string from;                          ///< "law of propagation" or "Monte Carlo"
-    std::optional<double> degrees_of_freedom;  ///< of the covariance matrix; none = infinite
-    Shown<std::optional<double>> k_p = {};     ///< hyper-ellipsoid; none where the covariance is singular
-    Shown<std::optional<double>> k_q = {};     ///< hyper-rectangle
+    std::optional<double> degrees_of_freedom;  ///< of one scale or matrix that all share; none: infinite, or no such
+    Shown<std::optional<double>> k_p = {};     ///< hyper-ellipsoid
+    /// Why there is no k_p: "singular", "distribution"; "" where there is one, and in records before it was stated.
+    std::string no_k_p_because = {};
+    Shown<std::optional<double>> k_q = {};  ///< hyper-rectangle
     struct SmallestRegion {
         double volume = 0.0, probability = 0.0;
         std::int64_t cells = 0;

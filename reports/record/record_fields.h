@@ -197,6 +197,7 @@ void describe(Archive& a, Struct& r) {
     a.group("ellipsoid", [&](auto& b) {
         b("k_p", r.k_p.number, NumberRule::positive);
         b("printed_k_p", r.k_p.text);
+        b.added("none_because", r.no_k_p_because, {"", "singular", "distribution"});
     });
     a.group("parallelepiped", [&](auto& b) {
         b("k_q", r.k_q.number, NumberRule::positive);

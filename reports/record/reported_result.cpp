@@ -62,7 +62,7 @@ void print_reported(ReportedResult& result, const std::string& unit, const Repor
     result.printed = {.value = {}, .U = {}, .unit = gum::unit_for_people(unit)};
     result.printed_low.clear();
     result.printed_high.clear();
-    result.printed_u = result.u && *result.u > 0.0 ? gum::round_significant(*result.u, 2) : "";
+    result.printed_u = result.u && *result.u > 0.0 ? gum::round_significant(*result.u, rounding.digits_of_u) : "";
     if (result.U && *result.U > 0.0) {
         const gum::RoundedPair pair =
             gum::round_to_uncertainty(result.value, *result.U, rounding.digits, rounding.rounding);
@@ -79,9 +79,30 @@ void print_reported(ReportedResult& result, const std::string& unit, const Repor
         result.printed_high = gum::round_to_quantum((*result.interval)[1], decimals);
         return;
     }
-    result.printed.value = result.u && *result.u > 0.0 ? gum::round_to_uncertainty(result.value, *result.u, 2).value
-                                                       : text::shortest(result.value);
+    result.printed.value = result.u && *result.u > 0.0
+                               ? gum::round_to_uncertainty(result.value, *result.u, rounding.digits_of_u).value
+                               : text::shortest(result.value);
     result.printed.U = result.U ? "0" : "";
+}
+
+int printed_digits(const ReportedResult& result) {
+    // From the texts: they are two digits where they are what two digits give, in either mode of rounding.
+    constexpr int k_two = 2;
+    if (result.method != "monte_carlo" || !result.interval || !(half_width_of(*result.interval) > 0.0)) {
+        return k_two;
+    }
+    const double half_width = result.U.value_or(half_width_of(*result.interval));
+    for (const gum::RoundingMode mode : {gum::RoundingMode::half_even, gum::RoundingMode::up}) {
+        const gum::RoundedPair pair = gum::round_to_uncertainty(result.value, half_width, k_two, mode);
+        const int decimals = certificate::decimals_of(pair.U);
+        const bool same = result.U ? result.printed.U == pair.U && result.printed.value == pair.value
+                                   : result.printed_low == gum::round_to_quantum((*result.interval)[0], decimals) &&
+                                         result.printed_high == gum::round_to_quantum((*result.interval)[1], decimals);
+        if (same) {
+            return k_two;
+        }
+    }
+    return 1;
 }
 
 std::string negated(const std::string& printed) {

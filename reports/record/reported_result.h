@@ -15,6 +15,7 @@ namespace gumcert::reports {
 struct ReportedRounding {
     int digits = 2;  ///< significant digits of U, or of half the width of the interval
     gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U
+    int digits_of_u = 2;
 };
 
 /// Whether value ± half the width says the same as the interval: its middle differs from the value by half a unit of
@@ -38,6 +39,9 @@ struct ReportedRounding {
 /// leaves it.
 /// \param unit  of the result, as UDUNITS-2 writes it
 void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding = {});
+
+/// The significant digits, 1 or 2, that a result of Monte Carlo is printed with; 2 of any other. Certificates have no more.
+[[nodiscard]] int printed_digits(const ReportedResult& result);
 
 /// A printed number with the other sign: the same quantity seen from the other side. Zero stays without one.
 [[nodiscard]] std::string negated(const std::string& printed);

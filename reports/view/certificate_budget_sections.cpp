@@ -607,8 +607,10 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
                    {words("label", "shortest_low"), m.shortest.text[0], rounded(error.shortest[0])},
                    {words("label", "shortest_high"), m.shortest.text[1], rounded(error.shortest[1])}});
     if (!m.u.number) {
-        builder.paragraph(words("sentence", "no_moments"));
-    } else if (m.adaptive) {
+        const bool by_trials = reported_result(result).method == "monte_carlo";
+        builder.paragraph(words("sentence", by_trials ? "no_moments" : "no_moments_beside"));
+    }
+    if (m.adaptive) {
         builder.paragraph(words("sentence", m.stabilised ? "stabilised" : "not_stabilised"));
     }
     if (m.validation) {
@@ -678,12 +680,13 @@ void monte_carlo(CertificateBuilder& builder, const Wording& words, const Evalua
 void region(CertificateBuilder& builder, const Wording& words, const CoverageRegion& r) {
     builder.paragraph(words.fill("region", {{"p", words.number(percent_text(r.coverage_probability))},
                                             {"from", words("value", "region_from", r.from)}}));
-    Facts rows = {
-        {words("label", "ellipsoid"), r.k_p.number ? words.fill("ellipsoid", {{"k_p", words.number(r.k_p.text)}})
-                                                   : words("sentence", "no_ellipsoid")},
-        {words("label", "parallelepiped"), r.k_q.number
-                                               ? words.fill("parallelepiped", {{"k_q", words.number(r.k_q.text)}})
-                                               : words("sentence", "no_parallelepiped")}};
+    Facts rows = {{words("label", "ellipsoid"),
+                   r.k_p.number ? words.fill("ellipsoid", {{"k_p", words.number(r.k_p.text)}})
+                                : words("sentence", r.no_k_p_because == "distribution" ? "no_ellipsoid_distribution"
+                                                                                       : "no_ellipsoid")},
+                  {words("label", "parallelepiped"),
+                   r.k_q.number ? words.fill("parallelepiped", {{"k_q", words.number(r.k_q.text)}})
+                                : words("sentence", "no_parallelepiped")}};
     if (r.degrees_of_freedom) {
         rows.emplace_back(words("label", "region_nu"), degrees_of_freedom(r.degrees_of_freedom, words));
     }

@@ -289,5 +289,17 @@ TEST(EllipsoidCoverageFactor, FiniteDegreesOfFreedom) {
     EXPECT_EQ(code_of<InputError>([] { (void)ellipsoid_coverage_factor(1.0, 2, 5.0); }), "GC-GUM-0004");
 }
 
+// F(2, ν) has a closed form, P(F > f) = (1 + 2 f/ν)^(−ν/2): k_p = √(ν (α^(−2/ν) − 1)), for every ν.
+TEST(EllipsoidCoverageFactor, OfOneScale) {
+    for (const double nu : {0.5, 1.0, 2.0, 6.0, 8.5, 100.0}) {
+        EXPECT_TRUE(agrees(ellipsoid_coverage_factor(0.95, 2, nu, EstimatedSpread::scale),
+                           std::sqrt(nu * (std::pow(0.05, -2.0 / nu) - 1.0)), 1e-10))
+            << nu;
+        EXPECT_TRUE(
+            agrees(ellipsoid_coverage_factor(0.95, 1, nu, EstimatedSpread::scale), coverage_factor(0.95, nu), 1e-10))
+            << nu;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::gum

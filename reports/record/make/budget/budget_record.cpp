@@ -9,11 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "gum/budget/joint_region.h"
 #include "gum/budget/reported_covariance.h"
 #include "gum/budget/zero_uncertainty.h"
-#include "gum/coverage.h"
 #include "gum/quantity/decimal_rounding.h"
-#include "gum/quantity/dense_factors.h"
 #include "gum/quantity/special_values.h"
 #include "gum/rounding.h"
 #include "jobs/budget/budget_results.h"
@@ -273,12 +272,19 @@ std::vector<Unit> result_units(const BudgetJob& job, const gum::BudgetResult& re
 struct NamedCovariance {
     std::vector<std::string> names;
     std::vector<Unit> units;
+    std::vector<bool> of_trials;  ///< whether the result is reported by Monte Carlo
     Eigen::MatrixXd matrix;
 };
 
 NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, const Eigen::MatrixXd& covariance) {
     const std::vector<std::string> names = gum::budget_result_names(job, result);
     const std::vector<Unit> units = result_units(job, result);
+    std::vector<bool> of_trials;
+    for (const gum::BudgetPointResult& point : result.points) {
+        for (const gum::BudgetOutputResult& output : point.outputs) {
+            of_trials.push_back(output.by_monte_carlo);
+        }
+    }
     NamedCovariance all;
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
@@ -286,6 +292,7 @@ NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, con
             rows.push_back(i);
             all.names.push_back(names[static_cast<std::size_t>(i)]);
             all.units.push_back(units[static_cast<std::size_t>(i)]);
+            all.of_trials.push_back(of_trials[static_cast<std::size_t>(i)]);
         }
     }
     all.matrix = covariance(rows, rows);
@@ -294,7 +301,11 @@ NamedCovariance named(const BudgetJob& job, const gum::BudgetResult& result, con
 
 reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetResult& result,
                                         const Eigen::MatrixXd& all, const std::string& file) {
-    const auto [names, units, covariance] = named(job, result, all);
+    // With a result of Monte Carlo a coefficient is known to 1/√M of trials, 0.004 at most: two decimals. Where there is
+    // nothing in common it is exactly 0.
+    constexpr int k_decimals = 3;
+    constexpr int k_decimals_of_trials = 2;
+    const auto [names, units, of_trials, covariance] = named(job, result, all);
     reports::ResultCovariance out;
     out.names = names;
     for (const Unit& unit : units) {
@@ -311,51 +322,51 @@ reports::ResultCovariance covariance_of(const BudgetJob& job, const gum::BudgetR
     for (Eigen::Index i = 0; i < correlation.rows(); ++i) {
         std::vector<std::string> row;
         for (Eigen::Index j = 0; j < correlation.cols(); ++j) {
-            row.push_back(gum::round_to_quantum(correlation(i, j), 3));
+            const bool drawn = i != j && correlation(i, j) != 0.0 &&
+                               (of_trials[static_cast<std::size_t>(i)] || of_trials[static_cast<std::size_t>(j)]);
+            row.push_back(gum::round_to_quantum(correlation(i, j), drawn ? k_decimals_of_trials : k_decimals));
         }
         out.correlation.text.push_back(std::move(row));
     }
     return out;
 }
 
-/// Joint region of the outputs of the only point. The covariance must not be singular for an ellipsoid.
-reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointResult& point) {
+/// Digits of a factor that draws hold: three, or two where its standard uncertainty is above half of the third.
+std::string printed_factor(double factor, double error) {
+    constexpr double k_half_of_third_digit = 0.005;  // of 1 to 10
+    return rounded(factor, error > k_half_of_third_digit * std::max(1.0, factor / 10.0) ? 2 : 3);
+}
+
+/// Joint region of the outputs of the only point.
+std::optional<reports::CoverageRegion> region_of(const BudgetJob& job, const gum::BudgetPointResult& point,
+                                                 const Eigen::MatrixXd& covariance) {
+    const std::optional<gum::JointRegion> found = gum::joint_region(job, point, covariance);
+    if (!found) {
+        return std::nullopt;
+    }
     reports::CoverageRegion region;
     region.coverage_probability = job.coverage_probability;
-    if (point.monte_carlo && point.monte_carlo->regions) {
+    region.from = found->of_trials ? "Monte Carlo" : "law of propagation";
+    region.degrees_of_freedom = found->degrees_of_freedom;
+    region.no_k_p_because = found->no_ellipsoid_because;
+    if (found->ellipsoid_factor) {
+        region.k_p = {found->ellipsoid_factor, printed_factor(*found->ellipsoid_factor, found->ellipsoid_error)};
+    }
+    if (found->rectangle_factor) {
+        region.k_q = {found->rectangle_factor, printed_factor(*found->rectangle_factor, found->rectangle_error)};
+    }
+    if (found->of_trials && point.monte_carlo->regions && point.monte_carlo->regions->smallest_cells > 0 &&
+        point.monte_carlo->coverage_probability == job.coverage_probability) {
         const gum::MonteCarloRegions& from = *point.monte_carlo->regions;
-        region.from = "Monte Carlo";
-        region.coverage_probability = point.monte_carlo->coverage_probability;
-        region.k_p.number = from.ellipsoid_factor;
-        region.k_q.number = from.parallelepiped_factor;
-        if (from.smallest_cells > 0) {
-            region.smallest_region = {.volume = from.smallest_volume,
-                                      .probability = from.smallest_probability,
-                                      .cells = static_cast<std::int64_t>(from.smallest_cells),
-                                      .cells_per_axis = {}};
-            for (const gum::BudgetOutputResult& output : point.outputs) {
-                region.smallest_region->volume = output.unit.difference_from_si(region.smallest_region->volume);
-            }
-            for (const int cells : from.cells_per_axis) {
-                region.smallest_region->cells_per_axis.push_back(cells);
-            }
+        region.smallest_region = {.volume = from.smallest_volume,
+                                  .probability = from.smallest_probability,
+                                  .cells = static_cast<std::int64_t>(from.smallest_cells),
+                                  .cells_per_axis = {}};
+        for (const gum::BudgetOutputResult& output : point.outputs) {
+            region.smallest_region->volume = output.unit.difference_from_si(region.smallest_region->volume);
         }
-    } else {
-        region.from = "law of propagation";
-        const auto m = static_cast<std::size_t>(point.propagation.value.size());
-        const double nu = gum::joint_effective_degrees_of_freedom(*point.model, point.propagation);
-        region.degrees_of_freedom = reports::finite_or_none(nu);
-        const Eigen::MatrixXd correlation = gum::correlation_matrix(point.propagation.covariance);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation, Eigen::EigenvaluesOnly);
-        const bool singular = !(eigen.eigenvalues()(0) > 1e-12 * static_cast<double>(m)) ||
-                              !(point.propagation.standard_uncertainty.minCoeff() > 0.0);
-        if (!std::isnan(nu) && !singular && (std::isinf(nu) || nu > static_cast<double>(m) - 1.0)) {
-            region.k_p.number = gum::ellipsoid_coverage_factor(job.coverage_probability, m, nu);
-        }
-        // Each interval with probability 1 − (1 − p)/m, so that all hold together with p at least (Bonferroni).
-        if (!std::isnan(nu)) {
-            region.k_q.number =
-                gum::coverage_factor(1.0 - (1.0 - job.coverage_probability) / static_cast<double>(m), nu);
+        for (const int cells : from.cells_per_axis) {
+            region.smallest_region->cells_per_axis.push_back(cells);
         }
     }
     if (point.joint_validation) {
@@ -371,12 +382,6 @@ reports::CoverageRegion region_of(const BudgetJob& job, const gum::BudgetPointRe
                              .delta_k_p = from.factor_tolerance,
                              .d_k_p = from.factor_distance,
                              .validated = from.validated};
-    }
-    if (region.k_p.number) {
-        region.k_p.text = rounded(*region.k_p.number, 3);
-    }
-    if (region.k_q.number) {
-        region.k_q.text = rounded(*region.k_q.number, 3);
     }
     return region;
 }
@@ -566,7 +571,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
             out.coverage = from.coverage;
             out.coverage_note = from.coverage_note;
             out.printed = printed_result(out.value, out.U, out.u, out.unit, job.rounding);
-            out.reported = reported_of(from, out.value, unit, job.rounding);
+            out.reported = reported_of(from, out.value, unit, job);
             out.budget = budget_rows(job, result, point, index, unit);
             if (i < point.without_derivative.size() && point.without_derivative[i]) {
                 without_sensitivities(out.budget);
@@ -599,11 +604,12 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
         }
     }
     // Trials without a variance have no region that is measured by it.
-    const bool any_without = std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
-                                         [](const gum::BudgetOutputResult& output) { return !output.has_u; });
+    const bool any_without =
+        std::any_of(result.points.front().outputs.begin(), result.points.front().outputs.end(),
+                    [](const gum::BudgetOutputResult& output) { return output.by_monte_carlo && !output.has_u; });
     if (job.sections.empty() && result.points.front().outputs.size() > 1 && job.points.empty() && !job.model.empty() &&
         !any_without) {
-        record.region = region_of(job, result.points.front());
+        record.region = region_of(job, result.points.front(), covariance);
     }
     for (std::size_t f = 0; f < job.fits.size(); ++f) {
         record.fits.push_back(fit_summary(job.fits[f], result.fits[f]));
@@ -617,7 +623,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
 
 std::string budget_covariance_csv(const BudgetJob& job, const gum::BudgetResult& result,
                                   const Eigen::MatrixXd& covariance) {
-    const auto [names, units, matrix] = named(job, result, covariance);
+    const auto [names, units, of_trials, matrix] = named(job, result, covariance);
     const Eigen::MatrixXd scaled = in_units(matrix, units);
     std::string csv = "result";
     for (const std::string& name : names) {

@@ -1,18 +1,47 @@
 #include "reports/record/make/budget/budget_reported_result.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
+#include "gum/monte_carlo/monte_carlo.h"
 #include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
 
+namespace {
+
+/// As many digits as were asked for, or as the error leaves; two of a number that begins with 1 or 2, of which one digit
+/// would leave too little: 14 is not 10.
+int held_digits_of(double number, double error, int asked) {
+    constexpr double k_least_of_one_digit = 2.95;
+    if (!(number > 0.0)) {
+        return asked;
+    }
+    const double unit = 2.0 * gum::numerical_tolerance(number, 1);
+    const bool one = asked == 1 || gum::numerical_tolerance(number, 2) < error;
+    return one && number >= k_least_of_one_digit * unit ? 1 : 2;
+}
+
+}  // namespace
+
 reports::ReportedResult reported_of(const gum::BudgetOutputResult& output, double y, const gum::Unit& unit,
-                                    gum::RoundingMode rounding) {
+                                    const gum::Budget& budget) {
     reports::ReportedResult reported;
+    reports::ReportedRounding printed{.digits = 2, .rounding = budget.rounding};
     if (output.by_monte_carlo) {
         const gum::MonteCarloOutput& trials = *output.monte_carlo;
         const std::array<double, 2> interval{unit.from_si(trials.symmetric.low), unit.from_si(trials.symmetric.high)};
+        const int asked = budget.monte_carlo ? budget.monte_carlo->digits : printed.digits;
+        const gum::NumericalError& error = trials.numerical_error;
+        printed.digits =
+            held_digits_of(0.5 * (interval[1] - interval[0]),
+                           unit.difference_from_si(std::max(error.symmetric.low, error.symmetric.high)), asked);
+        if (printed.digits == 1) {
+            printed.rounding = gum::RoundingMode::up;  // half a unit is up to a sixth of U: never less than it is
+        }
+        printed.digits_of_u = held_digits_of(unit.difference_from_si(trials.standard_uncertainty),
+                                             unit.difference_from_si(error.standard_uncertainty), asked);
         reported = reports::monte_carlo_result(
             output.has_u ? unit.from_si(trials.mean) : y,
             output.has_u ? std::optional<double>(unit.difference_from_si(trials.standard_uncertainty)) : std::nullopt,
@@ -26,7 +55,7 @@ reports::ReportedResult reported_of(const gum::BudgetOutputResult& output, doubl
                                                       output.coverage_probability);
         reported.against = output.against;
     }
-    reports::print_reported(reported, unit.text(), {.digits = 2, .rounding = rounding});
+    reports::print_reported(reported, unit.text(), printed);
     return reported;
 }
 

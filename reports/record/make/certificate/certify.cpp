@@ -142,7 +142,14 @@ private:
                         .point = point_of(table, row),
                         .coverage_probability = p},
                        value);
-        print(value);
+        PrintRule rule = rule_;
+        if (result != nullptr) {
+            rule.digits = std::min(rule.digits, reports::printed_digits(reports::reported_result(*result)));
+        }
+        if (rule.digits < rule_.digits) {
+            rule.rounding = gum::RoundingMode::up;  // as the evaluation prints it
+        }
+        print(value, rule);
         note_coverage(column, p);
         decide(column, value, result, point_of(table, row));
     }
@@ -171,7 +178,7 @@ private:
         value.outside_because = because;
     }
 
-    void print(CertifiedValue& value) {
+    void print(CertifiedValue& value, const PrintRule& rule) {
         if (value.k && value.U) {
             value.printed_k = certificate::printed_coverage_factor(*value.k);
         }
@@ -181,16 +188,16 @@ private:
             value.printed_capability = certificate::printed_capability(*value.capability);
         }
         if (value.U && (*value.U > 0.0 || value.capability)) {
-            print_with_uncertainty(value);
+            print_with_uncertainty(value, rule);
         } else if (value.interval) {
-            print_interval(value);
+            print_interval(value, rule);
         }
     }
 
-    void print_with_uncertainty(CertifiedValue& value) {
+    void print_with_uncertainty(CertifiedValue& value, const PrintRule& rule) {
         const std::string& policy = record_.certificate->profile.below_capability;
         const certificate::StatedPair stated =
-            certificate::state_uncertainty(value.value, *value.U, value.capability, rule_, policy == "raise");
+            certificate::state_uncertainty(value.value, *value.U, value.capability, rule, policy == "raise");
         value.printed_value = stated.value;
         value.printed_U = stated.U;
         value.raised = stated.raised;
@@ -207,14 +214,14 @@ private:
         }
     }
 
-    void print_interval(CertifiedValue& value) {
+    void print_interval(CertifiedValue& value, const PrintRule& rule) {
         const double half_width = 0.5 * (value.interval->second - value.interval->first);
         if (!(half_width > 0.0)) {
             return;
         }
-        const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule_.digits, rule_.rounding);
+        const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule.digits, rule.rounding);
         value.printed_value = pair.value;
-        value.printed_u = value.u > 0.0 ? gum::round_significant(value.u, 2) : "";
+        value.printed_u = value.u > 0.0 ? gum::round_significant(value.u, rule.digits) : "";
         print_ends(value, certificate::decimals_of(pair.U));
         if (value.capability && half_width < *value.capability) {
             leave_accreditation(value, "its coverage interval is narrower than the capability of the scope entry \"" +

@@ -7,11 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "gum/budget/budget_covariance.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/expanded_about_value.h"
 #include "gum/budget/reported_covariance.h"
-#include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
 #include "jobs/budget/budget_results.h"
@@ -57,7 +55,7 @@ public:
         const gum::BudgetPointResult& at = point(i);
         const double y = at.propagation.value(0);
         const auto in = [&](const gum::Unit& of) {
-            return reported_of(at.outputs.front(), of.from_si(y), of, budget_.job.rounding);
+            return reported_of(at.outputs.front(), of.from_si(y), of, budget_.job);
         };
         reports::ReportedResult taken = in(unit);
         // Whether an interval prints as symmetric is decided in the unit that the budget reports in.
@@ -102,7 +100,10 @@ public:
         if (gum::budget_result_count(result_) == 1) {
             return Eigen::MatrixXd::Constant(m, m, std::pow(reported_u(0), 2));
         }
-        if (covariance_.size() == 0) {
+        const bool is_known = std::none_of(budget_.point.begin(), budget_.point.end(), [&](std::size_t at) {
+            return std::isnan(covariance_(static_cast<Eigen::Index>(at), static_cast<Eigen::Index>(at)));
+        });
+        if (!is_known) {
             throw gum::NoResultError(gum::Diagnostic{
                 .code = "GC-COMPARE-0209",
                 .where = budget_.file,
@@ -112,20 +113,11 @@ public:
                 .action = "Split the budget and the comparison: the covariance is drawn for up to " +
                           std::to_string(gum::k_most_drawn_together) + " points."});
         }
-        // A result of the law without a variance has none of trials; its u and its correlations are those of the law.
-        Eigen::MatrixXd of_law;
         Eigen::MatrixXd taken(m, m);
         for (Eigen::Index a = 0; a < m; ++a) {
             for (Eigen::Index b = 0; b < m; ++b) {
-                const auto i = static_cast<std::size_t>(a);
-                const auto j = static_cast<std::size_t>(b);
-                const auto row = static_cast<Eigen::Index>(budget_.point[i]);
-                const auto column = static_cast<Eigen::Index>(budget_.point[j]);
-                taken(a, b) = covariance_(row, column);
-                if (std::isnan(taken(a, b))) {
-                    of_law = of_law.size() > 0 ? of_law : gum::correlation_matrix(gum::budget_covariance(result_));
-                    taken(a, b) = (row == column ? 1.0 : of_law(row, column)) * reported_u(i) * reported_u(j);
-                }
+                taken(a, b) = covariance_(static_cast<Eigen::Index>(budget_.point[static_cast<std::size_t>(a)]),
+                                          static_cast<Eigen::Index>(budget_.point[static_cast<std::size_t>(b)]));
             }
         }
         return taken;

@@ -100,5 +100,21 @@ TEST(Structure, AffineInWhat) {
     EXPECT_FALSE(affine(implicit, {0}));
 }
 
+// Of one output each: of what all use together nothing follows for two of them. Dependence is of the equations, not of
+// a derivative that may vanish.
+TEST(Structure, InputsOfAnOutput) {
+    const EquationSystem system =
+        system_of({"s = a + b", "y = s^2", "z = c*0 + b", "w = 3"}, numbers({"a", "b", "c", "d"}), {},
+                  {output("y", "1"), output("z", "1"), output("w", "1")});
+    EXPECT_THAT(system.inputs_of(0), ElementsAre(true, true, false, false));
+    EXPECT_THAT(system.inputs_of(1), ElementsAre(false, true, true, false));
+    EXPECT_THAT(system.inputs_of(2), ElementsAre(false, false, false, false));
+    const EquationSystem implicit =
+        system_of({"0 = a*t - b", "0 = s - c", "y = 2*t", "x = d"}, numbers({"a", "b", "c", "d"}),
+                  {unknown("t", 1), unknown("s", 1)}, {output("y", "1"), output("x", "1")});
+    EXPECT_THAT(implicit.inputs_of(0), ElementsAre(true, true, true, false));
+    EXPECT_THAT(implicit.inputs_of(1), ElementsAre(false, false, false, true));
+}
+
 }  // namespace
 }  // namespace gumcert::gum

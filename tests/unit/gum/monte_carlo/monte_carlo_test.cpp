@@ -588,6 +588,37 @@ TEST(MonteCarlo, AdaptiveThatDoesNotSettle) {
     EXPECT_TRUE(run_monte_carlo(two, o).stabilised);
 }
 
+// One output stands still, the other has no variance (t, ν = 1.5): each has its own verdict, and with what is known of the
+// second one the run ends when its ends do.
+TEST(MonteCarlo, AdaptiveStabilisesEachOutput) {
+    const TrialModel two = model({Distribution::normal(0.0, 1.0), Distribution::student_t(0.0, 1.0, 1.5)}, 2,
+                                 [](const Columns& x, Eigen::Ref<Eigen::MatrixXd> y) { y = x; });
+    MonteCarloOptions o = options(1);
+    o.adaptive = AdaptiveTrials{.digits = 2, .most_trials = 3'000'000};
+    const MonteCarloResult waits = run_monte_carlo(two, o);
+    EXPECT_FALSE(waits.stabilised);
+    EXPECT_TRUE(waits.outputs[0].stabilised);
+    EXPECT_FALSE(waits.outputs[1].stabilised);
+    EXPECT_FALSE(waits.outputs[1].without_variance);
+
+    std::vector<std::pair<Eigen::Index, std::uint64_t>> asked;
+    o.has_no_variance = [&](Eigen::Index output, std::uint64_t trials) {
+        asked.emplace_back(output, trials);
+        return output == 1;
+    };
+    const MonteCarloResult ends = run_monte_carlo(two, o);
+    EXPECT_TRUE(ends.stabilised);
+    EXPECT_TRUE(ends.outputs[1].stabilised && ends.outputs[1].without_variance);
+    EXPECT_LT(ends.trials, waits.trials);
+    ASSERT_FALSE(asked.empty());
+    EXPECT_EQ(asked.back(), std::make_pair(Eigen::Index{1}, std::uint64_t{1'000'000}));
+    // A quarter of the width stands for u in the tolerance of the ends.
+    const MonteCarloOutput& heavy = ends.outputs[1];
+    const double quarter = 0.25 * (heavy.symmetric.high - heavy.symmetric.low);
+    EXPECT_EQ(ends.tolerance[1], numerical_tolerance(quarter, 2));
+    EXPECT_LE(heavy.numerical_error.symmetric.high, ends.tolerance[1]);
+}
+
 // Sequences are max(J, 10^4) trials long, J the smallest integer not below 100/(1 - p) (JCGM 101:2008, 7.9.4).
 TEST(MonteCarlo, LengthOfTheSequences) {
     const TrialModel sum = sum_model({Distribution::uniform(0.0, 1.0)});

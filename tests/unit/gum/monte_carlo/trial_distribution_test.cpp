@@ -82,12 +82,16 @@ TEST(CountTrials, TellsAtFromBelow) {
 
 // P(|T| > a) of a t-distribution falls off like a^−ν; a bounded distribution has no tail.
 TEST(TailIndex, IsTheExponentOfTheTails) {
-    EXPECT_LT(tail_index(trials_of(Distribution::student_t(0.0, 1.0, 1.0), 1'000'000)), 1.1);
-    const double of_three = tail_index(trials_of(Distribution::student_t(0.0, 1.0, 3.0), 1'000'000));
-    EXPECT_GT(of_three, 2.0);
-    EXPECT_LT(of_three, 3.2);
-    EXPECT_GT(tail_index(trials_of(Distribution::uniform(0.0, 1.0), 1'000'000)), 20.0);
-    EXPECT_TRUE(std::isinf(tail_index(trials_of(Distribution::normal(0.0, 1.0), 100))));
+    const TailIndex of_one = tail_index(trials_of(Distribution::student_t(0.0, 1.0, 1.0), 1'000'000));
+    EXPECT_TRUE(of_one.is_below(1.1));
+    EXPECT_NEAR(of_one.standard_error, of_one.exponent / std::sqrt(1000.0), 1e-12);
+    const TailIndex of_three = tail_index(trials_of(Distribution::student_t(0.0, 1.0, 3.0), 1'000'000));
+    EXPECT_TRUE(of_three.is_above(2.0));
+    EXPECT_LT(of_three.exponent, 3.4);
+    EXPECT_FALSE(of_three.is_above(of_three.exponent));
+    EXPECT_FALSE(of_three.is_below(of_three.exponent));
+    EXPECT_TRUE(tail_index(trials_of(Distribution::uniform(0.0, 1.0), 1'000'000)).is_above(20.0));
+    EXPECT_TRUE(std::isinf(tail_index(trials_of(Distribution::normal(0.0, 1.0), 100)).exponent));
 }
 
 }  // namespace

@@ -225,6 +225,19 @@ TEST(BudgetCertificate, SaysWhatMonteCarloFound) {
     r.results[0].monte_carlo->adaptive = true;
     r.results[0].monte_carlo->stabilised = false;
     EXPECT_THAT(text_of(r), HasSubstr("had not become stable"));
+    // Without a variance: what is stated goes by what is reported, and stability is told of the ends.
+    r.results[0].monte_carlo->u = {};
+    for (const char* method : {"law_of_propagation", "monte_carlo"}) {
+        const bool by_trials = std::string(method) == "monte_carlo";
+        if (by_trials) {
+            r.results[0].reported = monte_carlo_result(50000838.0, {}, {50000744.0, 50000932.0}, 0.99, "contradicted");
+            print_reported(r.results[0].reported, r.results[0].unit);
+        }
+        EXPECT_EQ(text_of(r).find("Only the coverage interval is stated") != std::string::npos, by_trials) << method;
+        EXPECT_EQ(text_of(r).find("The result is that of the law of propagation, which") != std::string::npos,
+                  !by_trials);
+        EXPECT_THAT(text_of(r), HasSubstr("had not become stable"));
+    }
 }
 
 /// What every form of the documents of the samples must show, as texts that stand side by side.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -14,10 +15,12 @@
 #include <string>
 #include <vector>
 
+#include "gum/monte_carlo/monte_carlo.h"
 #include "reports/record/certified_tables.h"
 #include "reports/record/make/budget/budget_record.h"
 #include "reports/record/make/budget/capability_inputs.h"
 #include "reports/record/make/certificate/certified_conformity.h"
+#include "reports/record/reported_result.h"
 #include "tests/support/budget_campaign.h"
 #include "tests/support/sample_certificate.h"
 #include "tests/support/sample_laboratory.h"
@@ -480,6 +483,34 @@ TEST(BudgetRecordTest, SaysWhatTheComponentsOfAStandardAre) {
     }
     EXPECT_EQ(rows[1].certificate, "C-2");
     EXPECT_EQ(rows[1].part, "");
+}
+
+// The law of printed digits, over numbers of trials, digits and seeds: of a result of Monte Carlo half a unit of the last digit
+// is no smaller than the numerical error, and there are no more digits than were asked for; only what begins with 1 or 2
+// keeps a second one. U is never printed smaller than it is where it has one.
+TEST(ReportedDigits, AreThoseThatTheTrialsHold) {
+    for (const std::string model : {"e^2", "3*e^2", "exp(e)", "e^2 + 20*f"}) {
+        for (const std::string more : {"\"digits\": 1", "\"digits\": 2", "\"trials\": 10000", "\"trials\": 400000"}) {
+            for (int seed = 1; seed <= 2; ++seed) {
+                const Evaluated out = evaluated(budget(
+                    "y = " + model, R"("e": {"value": 0, "u": 1}, "f": {"value": 0, "u": 1})",
+                    R"(, "coverage": "monte_carlo", "monte_carlo": {)" + more + R"(, "seed": )" + number(seed) + "}"));
+                const reports::ReportedResult& r = out.reported();
+                const std::string where = model + ", " + more + ": " + r.printed.U + r.printed_high;
+                ASSERT_EQ(r.method, "monte_carlo");
+                const auto& error = out.y().monte_carlo->numerical_error;
+                const int digits = reports::printed_digits(r);
+                const double half_width = 0.5 * ((*r.interval)[1] - (*r.interval)[0]);
+                const bool from_three = half_width >= 5.9 * gum::numerical_tolerance(half_width, 1);
+                const bool held =
+                    gum::numerical_tolerance(half_width, 2) >= std::max(error.symmetric[0], error.symmetric[1]);
+                EXPECT_EQ(digits, from_three && (more == "\"digits\": 1" || !held) ? 1 : 2) << where;
+                if (r.U && digits == 1) {
+                    EXPECT_GE(std::stod(r.printed.U), *r.U * (1.0 - 1e-12)) << where;
+                }
+            }
+        }
+    }
 }
 
 }  // namespace
