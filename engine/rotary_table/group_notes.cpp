@@ -22,10 +22,24 @@ std::string chi_square_of(double value) {
     return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
 }
 
+/// "105°": a place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the file.
+std::string angle_of(const RotaryTableMeasurement& measurement, std::size_t angle) {
+    return text::significant(measurement.angles_deg[angle], 8) + "°";
+}
+
 /// "station P1, pass P1-1+, 105°"
 std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     if (test.kind == GroupKind::reflector) {
         return "fixture, reflector " + measurement.reflectors[test.reflector];
+    }
+    if (test.kind == GroupKind::reflector_at_angles) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector] + ", " +
+               angle_of(measurement, test.angle) + "–" + angle_of(measurement, test.last_angle);
+    }
+    if (test.kind == GroupKind::reflector_from_visit) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector] + ", station " +
+               measurement.stations[test.station] + ", pass " + measurement.passes[test.pass] + ", " +
+               angle_of(measurement, test.angle);
     }
     if (test.kind == GroupKind::fixture_scale) {
         return "fixture";
@@ -41,10 +55,7 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
         return place + ", pass " + measurement.passes[test.pass];
     }
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
-        // A place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the
-        // file.
-        place += ", pass " + measurement.passes[test.pass] + ", " +
-                 text::significant(measurement.angles_deg[test.angle], 8) + "°";
+        place += ", pass " + measurement.passes[test.pass] + ", " + angle_of(measurement, test.angle);
     }
     return place;
 }
@@ -98,6 +109,12 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
                    "others";
         case GroupKind::reflector:
             return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
+        case GroupKind::reflector_at_angles:
+            return "at these angles the reflector stands " + size_of(test.estimate) +
+                   " away from where it stands in the fixture at all others";
+        case GroupKind::reflector_from_visit:
+            return "from this visit on the reflector stood " + size_of(test.estimate) +
+                   " away from where it was in the fixture before";
         case GroupKind::fixture_scale:
             return scale_of(test, measurement);
     }
@@ -123,6 +140,8 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
                         measurement.reflectors[test.reflector] + "\"";
             break;
         case GroupKind::reflector:
+        case GroupKind::reflector_at_angles:
+        case GroupKind::reflector_from_visit:
             selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
             break;
         // Not one visit is wrong there, but all from some visit on, or all in their order: leaving distances out is no
@@ -166,6 +185,13 @@ std::string action_of(const GroupTest& test) {
             return "Look at this station: its support, its line of sight, its angles.";
         case GroupKind::reflector:
             return "Measure the reflector again with the CMM, and check that it has not moved in its holder.";
+        case GroupKind::reflector_at_angles:
+            return "Look at the holder of this reflector: it gives way, or something pulls at it, at these angles; "
+                   "fasten "
+                   "it and measure again.";
+        case GroupKind::reflector_from_visit:
+            return "Look at the holder of this reflector: it was moved there, and its coordinates hold before or after "
+                   "only; fasten it, measure its place with the CMM and the distances again.";
         case GroupKind::fixture_scale:
             return "Look at the temperature of the fixture, at its expansion coefficient and at the reference "
                    "temperature of its coordinates; then at the scale of the distances, as of the refractive index of "
