@@ -1,6 +1,8 @@
 #include "engine/rotary_table/group_notes.h"
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "gum/quantity/units.h"
@@ -156,7 +158,23 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
 }
 
-std::string action_of(const GroupTest& test) {
+/// Whether a visit is the first one of a pass of its station: before it, hands were at the set-up.
+bool begins_a_pass(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    const bool has_times = measurement.times.size() == measurement.lengths.size();
+    std::optional<std::size_t> first;
+    bool follows = false;
+    for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
+        const LengthObservation& length = measurement.lengths[i];
+        follows = follows || (length.station == test.station && length.pass != test.pass);
+        if (length.station == test.station && length.pass == test.pass &&
+            (!first || (has_times && measurement.times[i] < measurement.times[*first]))) {
+            first = i;
+        }
+    }
+    return first && follows && measurement.lengths[*first].angle == test.angle;
+}
+
+std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     switch (test.kind) {
         case GroupKind::visit_length:
             return "Look for a disturbed beam at this visit, and measure it again; without it the result rests on the "
@@ -165,6 +183,13 @@ std::string action_of(const GroupTest& test) {
             return "See whether the table had come to its angle, and which angle the file states; measure the visit "
                    "again.";
         case GroupKind::dead_path_change:
+            if (begins_a_pass(test, measurement)) {
+                return "A new pass of the station begins there: a station that was moved looks alike. Look at its "
+                       "support; "
+                       "if it was moved, give the lengths from this pass on a station name of their own. If the beam "
+                       "was "
+                       "interrupted there, give the distances from there on a dead path of their own.";
+            }
             return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
         case GroupKind::station_place:
             return "Look at the support of the station; if it was moved, give the lengths from this pass on a station "
@@ -213,7 +238,7 @@ std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryT
                              .rule =
                                  "of a hundred sound measurements one exceeds any such limit at most; what exceeds it "
                                  "belongs to the measurement and not to the repeatability of the table",
-                             .action = action_of(test) + exclusion_of(test, measurement),
+                             .action = action_of(test, measurement) + exclusion_of(test, measurement),
                              .severity = gum::Severity::warning});
         }
     }

@@ -72,6 +72,36 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     EXPECT_THAT(moved[0].what, HasSubstr("stood 5.04 µm away from where it was before"));
 }
 
+/// Only where the change begins with a pass that is not the first of its station, in the order of time.
+TEST(GroupNotes, SayThatAMovedStationLooksLikeAnInterruptedBeam) {
+    RotaryTableMeasurement m = two_stations();
+    m.passes = {"up", "down"};
+    const auto add = [&](std::size_t station, std::size_t pass, std::size_t angle) {
+        m.lengths.push_back({.station = station, .reflector = 0, .pass = pass, .angle = angle});
+    };
+    const auto names_the_support = [&](std::size_t pass, std::size_t angle) {
+        GroupTest test = suspicious(GroupKind::dead_path_change);
+        test.pass = pass;
+        test.angle = angle;
+        const std::string action = group_notes({.tests = {test}, .visits = {}}, m)[0].action;
+        EXPECT_THAT(action, HasSubstr("a dead path of their own"));
+        const bool names =
+            action.find("a station that was moved looks alike. Look at its support") != std::string::npos;
+        EXPECT_EQ(names, action.find("a station name of their own") != std::string::npos) << action;
+        return names;
+    };
+    add(1, 0, 0);
+    add(1, 0, 1);
+    EXPECT_FALSE(names_the_support(0, 0)) << "the only pass";
+    add(1, 1, 1);
+    add(1, 1, 0);
+    EXPECT_TRUE(names_the_support(1, 1));
+    EXPECT_FALSE(names_the_support(1, 0)) << "within a pass";
+    m.times = {0.0, 10.0, 30.0, 20.0};
+    EXPECT_TRUE(names_the_support(1, 0)) << "the earlier one of the pass";
+    EXPECT_FALSE(names_the_support(1, 1));
+}
+
 TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {
     RotaryTableMeasurement measurement = two_stations();
     GroupTest scaled = suspicious(GroupKind::fixture_scale);
