@@ -1,6 +1,8 @@
 #include "engine/rotary_table/group_notes.h"
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "gum/quantity/units.h"
@@ -22,10 +24,24 @@ std::string chi_square_of(double value) {
     return value < 1000.0 ? text::significant(value, 3) : text::significant(std::round(value), 12);
 }
 
+/// "105°": a place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the file.
+std::string angle_of(const RotaryTableMeasurement& measurement, std::size_t angle) {
+    return text::significant(measurement.angles_deg[angle], 8) + "°";
+}
+
 /// "station P1, pass P1-1+, 105°"
 std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     if (test.kind == GroupKind::reflector) {
         return "fixture, reflector " + measurement.reflectors[test.reflector];
+    }
+    if (test.kind == GroupKind::reflector_at_angles) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector] + ", " +
+               angle_of(measurement, test.angle) + "–" + angle_of(measurement, test.last_angle);
+    }
+    if (test.kind == GroupKind::reflector_from_visit) {
+        return "fixture, reflector " + measurement.reflectors[test.reflector] + ", station " +
+               measurement.stations[test.station] + ", pass " + measurement.passes[test.pass] + ", " +
+               angle_of(measurement, test.angle);
     }
     if (test.kind == GroupKind::fixture_scale) {
         return "fixture";
@@ -41,10 +57,7 @@ std::string place_of(const GroupTest& test, const RotaryTableMeasurement& measur
         return place + ", pass " + measurement.passes[test.pass];
     }
     if (test.pass != GroupTest::k_none && test.kind != GroupKind::drift) {
-        // A place is for people. The selector of exclusion_of() has 12 digits, since it must find the angle of the
-        // file.
-        place += ", pass " + measurement.passes[test.pass] + ", " +
-                 text::significant(measurement.angles_deg[test.angle], 8) + "°";
+        place += ", pass " + measurement.passes[test.pass] + ", " + angle_of(measurement, test.angle);
     }
     return place;
 }
@@ -98,6 +111,12 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
                    "others";
         case GroupKind::reflector:
             return "the distances put it " + size_of(test.estimate) + " away from its stated coordinates";
+        case GroupKind::reflector_at_angles:
+            return "at these angles the reflector stands " + size_of(test.estimate) +
+                   " away from where it stands in the fixture at all others";
+        case GroupKind::reflector_from_visit:
+            return "from this visit on the reflector stood " + size_of(test.estimate) +
+                   " away from where it was in the fixture before";
         case GroupKind::fixture_scale:
             return scale_of(test, measurement);
     }
@@ -123,6 +142,8 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
                         measurement.reflectors[test.reflector] + "\"";
             break;
         case GroupKind::reflector:
+        case GroupKind::reflector_at_angles:
+        case GroupKind::reflector_from_visit:
             selectors = "\"reflector\": \"" + measurement.reflectors[test.reflector] + "\"";
             break;
         // Not one visit is wrong there, but all from some visit on, or all in their order: leaving distances out is no
@@ -137,7 +158,23 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
 }
 
-std::string action_of(const GroupTest& test) {
+/// Whether a visit is the first one of a pass of its station: before it, hands were at the set-up.
+bool begins_a_pass(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    const bool has_times = measurement.times.size() == measurement.lengths.size();
+    std::optional<std::size_t> first;
+    bool follows = false;
+    for (std::size_t i = 0; i < measurement.lengths.size(); ++i) {
+        const LengthObservation& length = measurement.lengths[i];
+        follows = follows || (length.station == test.station && length.pass != test.pass);
+        if (length.station == test.station && length.pass == test.pass &&
+            (!first || (has_times && measurement.times[i] < measurement.times[*first]))) {
+            first = i;
+        }
+    }
+    return first && follows && measurement.lengths[*first].angle == test.angle;
+}
+
+std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     switch (test.kind) {
         case GroupKind::visit_length:
             return "Look for a disturbed beam at this visit, and measure it again; without it the result rests on the "
@@ -146,6 +183,13 @@ std::string action_of(const GroupTest& test) {
             return "See whether the table had come to its angle, and which angle the file states; measure the visit "
                    "again.";
         case GroupKind::dead_path_change:
+            if (begins_a_pass(test, measurement)) {
+                return "A new pass of the station begins there: a station that was moved looks alike. Look at its "
+                       "support; "
+                       "if it was moved, give the lengths from this pass on a station name of their own. If the beam "
+                       "was "
+                       "interrupted there, give the distances from there on a dead path of their own.";
+            }
             return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
         case GroupKind::station_place:
             return "Look at the support of the station; if it was moved, give the lengths from this pass on a station "
@@ -166,6 +210,13 @@ std::string action_of(const GroupTest& test) {
             return "Look at this station: its support, its line of sight, its angles.";
         case GroupKind::reflector:
             return "Measure the reflector again with the CMM, and check that it has not moved in its holder.";
+        case GroupKind::reflector_at_angles:
+            return "Look at the holder of this reflector: it gives way, or something pulls at it, at these angles; "
+                   "fasten "
+                   "it and measure again.";
+        case GroupKind::reflector_from_visit:
+            return "Look at the holder of this reflector: it was moved there, and its coordinates hold before or after "
+                   "only; fasten it, measure its place with the CMM and the distances again.";
         case GroupKind::fixture_scale:
             return "Look at the temperature of the fixture, at its expansion coefficient and at the reference "
                    "temperature of its coordinates; then at the scale of the distances, as of the refractive index of "
@@ -187,7 +238,7 @@ std::vector<gum::Diagnostic> group_notes(const GroupTests& groups, const RotaryT
                              .rule =
                                  "of a hundred sound measurements one exceeds any such limit at most; what exceeds it "
                                  "belongs to the measurement and not to the repeatability of the table",
-                             .action = action_of(test) + exclusion_of(test, measurement),
+                             .action = action_of(test, measurement) + exclusion_of(test, measurement),
                              .severity = gum::Severity::warning});
         }
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -29,6 +30,8 @@ constexpr std::size_t k_most_suspects = 40;      // groups that are taken away o
 constexpr int k_most_steps = 18;                 // by which the angles of a station are looked at to be off
 constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its own, one station
+constexpr std::size_t k_most_angle_bounds = 36;  // between which a reflector is looked at to stand elsewhere
+constexpr std::size_t k_fewest_of_place = 4;     // distances: three always agree with some place of a reflector
 
 /// Value of chi-square that is exceeded with a probability.
 double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
@@ -178,6 +181,114 @@ public:
         return taken;
     }
     [[nodiscard]] std::size_t left_out_count() const { return left_out_.size(); }
+
+    /// Rows of the distances of a reflector at one visit.
+    struct Seen {
+        std::size_t visit = 0;
+        std::vector<Index> rows;
+    };
+    using Triple = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+    /// Cᵀ V⁻¹ v and Cᵀ M C of three columns C that are not zero at the visits that were added only: of all beginnings of a
+    /// sequence of visits they cost no more than of the single ones.
+    struct Sum {
+        Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+        Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();    ///< Cᵀ V⁻¹ C
+        Eigen::Matrix3d of_poses = Eigen::Matrix3d::Zero();  ///< what the poses alone take from it
+        Triple carried;                                      ///< Z: what border and left out take from it is Zᵀ Z
+        std::size_t distances = 0;
+
+        [[nodiscard]] Sum operator-(const Sum& other) const {
+            return {weighted - other.weighted, weight - other.weight, of_poses - other.of_poses,
+                    carried - other.carried, distances - other.distances};
+        }
+        /// Chi-square of the three, with less than rounding added where nothing controls one of them.
+        [[nodiscard]] double chi_square() const {
+            Eigen::Matrix3d spread = weight - of_poses - carried.transpose().lazyProduct(carried);
+            spread.diagonal().array() += k_controlled * weight.diagonal().maxCoeff();
+            return weighted.dot(spread.inverse() * weighted);
+        }
+    };
+    /// A sum that grows. Poses of one angle are shared by its visits: their part does not add up by visits, but by angles.
+    class GrowingSum {
+    public:
+        GrowingSum(const Visits& visits, std::size_t angles)
+            : visits_(visits), pulls_(angles), parts_(angles, Eigen::Matrix3d::Zero()) {
+            sum_.carried = Triple::Zero(visits.carried_.front().cols(), 3);
+        }
+        /// \param columns  C at the visit
+        void add(const Seen& seen, std::size_t angle, const Triple& columns) {
+            const std::size_t g = seen.visit;
+            const MatrixXd& whitening = visits_.whitening_[g];
+            const LinearisedGroup& group = *visits_.groups_[g];
+            const Index border = visits_.covariance_.border();
+            Triple whitened = Triple::Zero(whitening.rows(), 3);
+            for (const Index i : seen.rows) {
+                sum_.weighted += visits_.weighted_[g][i] * columns.row(i).transpose();
+                sum_.carried.noalias() += visits_.carried_[g].row(i).transpose() * columns.row(i);
+                whitened.noalias() += whitening.col(i) * columns.row(i);
+            }
+            sum_.weight.noalias() += whitened.transpose().lazyProduct(whitened);
+            sum_.distances += seen.rows.size();
+            Index first = -1;
+            for (std::size_t c = 0; c < group.columns.size(); ++c) {
+                const Index parameter = group.columns[c];
+                if (parameter < border) {
+                    continue;
+                }
+                if (first < 0) {
+                    first = visits_.covariance_.first_of(parameter);
+                    if (pulls_[angle].size() == 0) {
+                        pulls_[angle] = Triple::Zero(visits_.covariance_.own(first).rows(), 3);
+                    }
+                }
+                pulls_[angle].row(parameter - first) +=
+                    group.jacobian.col(static_cast<Index>(c)).transpose() * whitened;
+            }
+            if (first >= 0) {
+                const Eigen::Matrix3d part =
+                    pulls_[angle].transpose() * (visits_.covariance_.own(first) * pulls_[angle]);
+                sum_.of_poses += part - parts_[angle];
+                parts_[angle] = part;
+            }
+        }
+        [[nodiscard]] const Sum& sum() const { return sum_; }
+
+    private:
+        const Visits& visits_;
+        std::vector<Triple> pulls_;           ///< Jᵀ V⁻¹ C of the pose of an angle
+        std::vector<Eigen::Matrix3d> parts_;  ///< of an angle, of what the poses take
+        Sum sum_;
+    };
+    /// Before sums are made: what a distance pulls at the border, and at what was left out, A with Z = Aᵀ C. With the root
+    /// R of the covariance of the border, and H from the border to all parameters, it is V⁻¹ J H R.
+    void prepare_sums(const Workers& workers) {
+        if (carried_.empty()) {
+            carried_.resize(size_);
+            const MatrixXd& root = covariance_.border_root();
+            const MatrixXd of_poses = covariance_.elimination() * root;
+            FixedParts(size_, 16).run(workers, [&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t g = begin; g < end; ++g) {
+                    const std::vector<Index>& parameters = groups_[g]->columns;
+                    MatrixXd rows(parameters.size(), root.cols());
+                    for (std::size_t c = 0; c < parameters.size(); ++c) {
+                        const Index at = parameters[c] - covariance_.border();
+                        rows.row(static_cast<Index>(c)) = at < 0 ? root.row(parameters[c]) : of_poses.row(at);
+                    }
+                    carried_[g].noalias() = whitening_[g].transpose() * (groups_[g]->jacobian * rows);
+                }
+            });
+        }
+        for (; carried_left_out_ < left_out_.size(); ++carried_left_out_) {
+            const LeftOut& left = left_out_[carried_left_out_];
+            const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(left.inverse);
+            const MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+            for (std::size_t g = 0; g < size_; ++g) {
+                const Index before = carried_[g].cols();
+                carried_[g].conservativeResize(Eigen::NoChange, before + root.cols());
+                carried_[g].rightCols(root.cols()).noalias() = left.columns[g] * root;
+            }
+        }
+    }
     /// Cᵀ V⁻¹ v of one column.
     [[nodiscard]] double weighted(const Effect& effect) const {
         double sum = 0.0;
@@ -263,6 +374,8 @@ private:
     std::vector<MatrixXd> whitening_;  ///< L⁻¹
     std::vector<double> least_;
     std::vector<LeftOut> left_out_;
+    std::vector<MatrixXd> carried_;     ///< A of every visit; empty: not asked for yet
+    std::size_t carried_left_out_ = 0;  ///< of what was left out, how many are in
 };
 
 /// Both tests of one visit.
@@ -293,7 +406,8 @@ public:
         // that its effects elsewhere are not reported as causes of their own.
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
-            last = {best_visit(), best_change(), best_place(), best_pair(), best_drift(), best_index()};
+            last = {best_visit(), best_change(), best_place(),           best_pair(),
+                    best_drift(), best_index(),  best_place_at_angles(), best_place_from_visit()};
             const std::optional<Candidate> worst = least_probable(last);
             if (!worst || !worst->test.suspicious) {
                 break;
@@ -688,7 +802,7 @@ private:
                         effect[g] = -poses_[g].leftCols(3);
                     }
                 }
-                if (const std::optional<GroupTest> test = place_test(effect, count)) {
+                if (const std::optional<GroupTest> test = place_test(GroupKind::station_place, effect, count)) {
                     GroupTest placed = *test;
                     place(placed, passes[j][from].front());
                     placed.angle = GroupTest::k_none;  // the whole pass, not its first angle
@@ -698,7 +812,8 @@ private:
         }
         return best;
     }
-    [[nodiscard]] std::optional<GroupTest> place_test(const Visits::Effect& effect, std::size_t count) const {
+    [[nodiscard]] std::optional<GroupTest> place_test(GroupKind kind, const Visits::Effect& effect,
+                                                      std::size_t count) const {
         const Visits::Projection projection = visits_.projection(effect, 3);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         if (inverted.rank == 0) {
@@ -707,12 +822,170 @@ private:
         // By the larger of both scales, as the angles of a station: neither a common error nor a free pose.
         const double scale = std::max(used_scale_, pose_scale_);
         const VectorXd error = inverted.inverse * projection.weighted;
-        GroupTest test =
-            judged(GroupKind::station_place, projection.weighted.dot(error) / (scale * scale), inverted.rank, count);
+        GroupTest test = judged(kind, projection.weighted.dot(error) / (scale * scale), inverted.rank, count);
         test.estimate = error.norm();
         test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) * scale *
                                   std::sqrt(inverted.inverse.trace() / inverted.rank);
         return test;
+    }
+
+    /// What the distances of a visit change by with the place of their reflector in the fixture, distances×3.
+    [[nodiscard]] Visits::Triple reflector_columns(std::size_t g) const {
+        // Small error motions turn the displacement by less than it is known.
+        const Eigen::Matrix3d table_from_fixture =
+            nominal_rotation(adjustment_.measurement(), adjustment_.visits()[g].angle) * adjustment_.set_up().rotation;
+        return poses_[g].leftCols<3>() * table_from_fixture;
+    }
+
+    /// Visits that are in at which each reflector is seen, in the order of time.
+    [[nodiscard]] std::vector<std::vector<Visits::Seen>> seen_reflectors() const {
+        std::vector<std::size_t> order;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g)) {
+                order.push_back(g);
+            }
+        }
+        std::ranges::stable_sort(order, {}, [this](std::size_t g) { return time_of(g); });
+        const RotaryTableMeasurement& measurement = adjustment_.measurement();
+        std::vector<std::vector<Visits::Seen>> seen(measurement.reflectors.size());
+        for (const std::size_t g : order) {
+            const std::vector<std::size_t>& observations = adjustment_.visits()[g].observations;
+            for (std::size_t i = 0; i < observations.size(); ++i) {
+                std::vector<Visits::Seen>& of = seen[measurement.lengths[observations[i]].reflector];
+                if (of.empty() || of.back().visit != g) {
+                    of.push_back({g, {}});
+                }
+                of.back().rows.push_back(static_cast<Index>(i));
+            }
+        }
+        return seen;
+    }
+
+    /// The part of the visits of a reflector at which it most probably stood elsewhere.
+    struct Elsewhere {
+        double chi_square = -1.0;  ///< less than 0: none
+        std::size_t begin = 0, end = 0;
+
+        void consider(const Visits::Sum& part, std::size_t all, std::size_t from, std::size_t to) {
+            if (part.distances < k_fewest_of_place || all - part.distances < k_fewest_of_place) {
+                return;
+            }
+            if (const double value = part.chi_square(); value > chi_square) {
+                *this = {value, from, to};
+            }
+        }
+    };
+
+    /// \param find  Elsewhere of the visits of a reflector, which it may bring into another order
+    /// \param describe  adds to a test which visits they are, begin to end of that order
+    template <typename Find, typename Describe>
+    [[nodiscard]] std::optional<Candidate> best_elsewhere(GroupKind kind, std::size_t count,
+                                                          std::vector<std::vector<Visits::Seen>> seen, const Find& find,
+                                                          const Describe& describe) {
+        std::vector<Elsewhere> found(seen.size());
+        // What the reflectors share is only read here: limits are found afterwards, by one thread.
+        FixedParts(seen.size(), 1)
+            .run(adjustment_.adjustment().workers(),
+                 [&](std::size_t m, std::size_t, std::size_t) { found[m] = find(seen[m]); });
+        const double misfit_of_fixture = largest_fixture_misfit();
+        std::optional<Candidate> best;
+        for (std::size_t m = 0; m < seen.size(); ++m) {
+            // A reflector that stands elsewhere all the time, and a fixture of another size, leave something in a part of
+            // the visits as well: where they explain more, at the same weights, it is they.
+            if (found[m].chi_square < std::max(0.0, misfit_of_fixture)) {
+                continue;
+            }
+            Visits::Effect effect(visits_.size());
+            for (std::size_t k = found[m].begin; k < found[m].end; ++k) {
+                const std::size_t g = seen[m][k].visit;
+                const Visits::Triple columns = reflector_columns(g);
+                effect[g] = MatrixXd::Zero(columns.rows(), 3);
+                for (const Index i : seen[m][k].rows) {
+                    effect[g].row(i) = columns.row(i);
+                }
+            }
+            if (std::optional<GroupTest> test = place_test(kind, effect, count)) {
+                describe(*test, seen[m], found[m]);
+                test->reflector = m;
+                take(best, {*test, [this, effect] { visits_.take_away(effect, 3); }});
+            }
+        }
+        return best;
+    }
+
+    /// A reflector that stands elsewhere in a part of the turn: its holder gives way, or something pulls at it.
+    [[nodiscard]] std::optional<Candidate> best_place_at_angles() {
+        visits_.prepare_sums(adjustment_.adjustment().workers());
+        const std::vector<Visit>& visits = adjustment_.visits();
+        const std::size_t angles = adjustment_.measurement().angles.size();
+        std::vector<std::size_t> by_angle(angles);  // places of the angles in the turn
+        std::iota(by_angle.begin(), by_angle.end(), std::size_t{0});
+        std::ranges::stable_sort(by_angle, {},
+                                 [this](std::size_t a) { return adjustment_.measurement().angles_deg[a]; });
+        std::vector<std::size_t> place_of(angles);
+        for (std::size_t k = 0; k < angles; ++k) {
+            place_of[by_angle[k]] = k;
+        }
+        // Of many angles not every one is a bound of parts: what is between two of them is found by its neighbours.
+        const std::size_t parts = std::min(angles, k_most_angle_bounds);
+        std::vector<std::vector<Visits::Seen>> seen = seen_reflectors();
+        const std::size_t count = seen.size() * (parts * (parts + 1) / 2 - 1);
+        const auto place = [&](const Visits::Seen& at) { return place_of[visits[at.visit].angle]; };
+        const auto find = [&](std::vector<Visits::Seen>& of) {
+            std::ranges::stable_sort(of, {}, place);
+            Visits::GrowingSum growing(visits_, angles);
+            std::vector<Visits::Sum> until{growing.sum()};
+            std::vector<std::size_t> ends{0};
+            std::size_t k = 0;
+            for (std::size_t part = 1; part <= parts; ++part) {
+                for (; k < of.size() && place(of[k]) < part * angles / parts; ++k) {
+                    growing.add(of[k], visits[of[k].visit].angle, reflector_columns(of[k].visit));
+                }
+                until.push_back(growing.sum());
+                ends.push_back(k);
+            }
+            Elsewhere best;
+            for (std::size_t from = 0; from < parts; ++from) {
+                for (std::size_t to = from + 1; to <= parts; ++to) {
+                    best.consider(until[to] - until[from], until[parts].distances, ends[from], ends[to]);
+                }
+            }
+            return best;
+        };
+        return best_elsewhere(GroupKind::reflector_at_angles, count, std::move(seen), find,
+                              [&](GroupTest& test, const std::vector<Visits::Seen>& of, const Elsewhere& part) {
+                                  test.angle = visits[of[part.begin].visit].angle;
+                                  test.last_angle = visits[of[part.end - 1].visit].angle;
+                              });
+    }
+
+    /// A reflector that was moved, for good.
+    [[nodiscard]] std::optional<Candidate> best_place_from_visit() {
+        visits_.prepare_sums(adjustment_.adjustment().workers());
+        const std::vector<Visit>& visits = adjustment_.visits();
+        const std::size_t angles = adjustment_.measurement().angles.size();
+        std::vector<std::vector<Visits::Seen>> seen = seen_reflectors();
+        std::size_t count = 0;
+        for (const std::vector<Visits::Seen>& of : seen) {
+            count += of.empty() ? 0 : of.size() - 1;
+        }
+        const auto find = [&](const std::vector<Visits::Seen>& of) {
+            std::size_t all = 0;
+            for (const Visits::Seen& at : of) {
+                all += at.rows.size();
+            }
+            Visits::GrowingSum growing(visits_, angles);
+            Elsewhere best;
+            for (std::size_t k = of.size(); k-- > 1;) {
+                growing.add(of[k], visits[of[k].visit].angle, reflector_columns(of[k].visit));
+                best.consider(growing.sum(), all, k, of.size());
+            }
+            return best;
+        };
+        return best_elsewhere(GroupKind::reflector_from_visit, count, std::move(seen), find,
+                              [this](GroupTest& test, const std::vector<Visits::Seen>& of, const Elsewhere& part) {
+                                  place(test, of[part.begin].visit);
+                              });
     }
 
     /// One error of all distances between a station and a reflector: a beam that grazes something, a reflector that is
@@ -1173,7 +1446,7 @@ double share_of_level(GroupKind kind) {
     // They add up to 0.9. The tenth that is left is that of the check of the fixture (ADR 0031).
     switch (kind) {
         case GroupKind::drift:
-            return 0.385;
+            return 0.375;
         case GroupKind::visit_length:
             return 0.30;
         case GroupKind::dead_path_change:
@@ -1188,6 +1461,8 @@ double share_of_level(GroupKind kind) {
         case GroupKind::pair_length:
             return 0.01;
         case GroupKind::station_place:
+        case GroupKind::reflector_at_angles:
+        case GroupKind::reflector_from_visit:
         case GroupKind::angle_index:
         case GroupKind::fixture_scale:
             return 0.005;

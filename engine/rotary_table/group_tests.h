@@ -14,17 +14,19 @@ namespace gumcert::engine {
 
 /// What the distances of a group would have in common if something were wrong with it.
 enum class GroupKind {
-    visit_length,      ///< one error of all distances of a visit: beam, dead path
-    visit_pose,        ///< a visit in which the table stood elsewhere
-    dead_path_change,  ///< one error of all distances of a station from some visit on: an interrupted beam
-    station_place,     ///< a station that stood elsewhere from one of its passes on
-    pair_length,       ///< one error of all distances between a station and a reflector
-    drift,             ///< an error of the distances of a station, or of all, that grows from visit to visit
-    angle_index,       ///< the angles of a station are some steps off
-    succession,        ///< successive visits deviate alike
-    station,           ///< the visits of one station scatter more than those of all others
-    reflector,         ///< a point of the fixture that is not where its coordinates say
-    fixture_scale,     ///< the whole fixture larger or smaller than its coordinates at its temperature say
+    visit_length,          ///< one error of all distances of a visit: beam, dead path
+    visit_pose,            ///< a visit in which the table stood elsewhere
+    dead_path_change,      ///< one error of all distances of a station from some visit on: an interrupted beam
+    station_place,         ///< a station that stood elsewhere from one of its passes on
+    pair_length,           ///< one error of all distances between a station and a reflector
+    drift,                 ///< an error of the distances of a station, or of all, that grows from visit to visit
+    angle_index,           ///< the angles of a station are some steps off
+    succession,            ///< successive visits deviate alike
+    station,               ///< the visits of one station scatter more than those of all others
+    reflector,             ///< a point of the fixture that is not where its coordinates say
+    reflector_at_angles,   ///< a reflector that stands elsewhere in a part of the turn
+    reflector_from_visit,  ///< a reflector that stands elsewhere from some visit on
+    fixture_scale,         ///< the whole fixture larger or smaller than its coordinates at its temperature say
 };
 
 /// Share of the level of all tests of groups that a kind has. The rest, a tenth, is for the check of the stated
@@ -39,7 +41,8 @@ struct GroupTest {
     // Of the measurement; k_none where the kind has none.
     std::size_t station = k_none, reflector = k_none;
     std::size_t pass = k_none, angle = k_none;  ///< of the visit, of the first one after a change or of a drift
-    std::size_t visit = k_none;                 ///< the same, of the adjustment
+    std::size_t last_angle = k_none;            ///< of a part of the turn, which begins at `angle`
+    std::size_t visit = k_none;                 ///< of the visit, of the adjustment
     /// Chi-square of `degrees_of_freedom` where nothing is wrong; of succession and station the square of a normal
     /// deviate.
     double chi_square = 0.0;
@@ -48,8 +51,8 @@ struct GroupTest {
     double p_value = 1.0;         ///< probability of a chi-square as large as this where nothing is wrong
     double critical_value = 0.0;  ///< of chi-square: the family of its kind exceeds it with its share of alpha
     /// Visit and change: error of the distances; pose: rms of what it does to the distances; drift: error at the last
-    /// visit less that at the first, rms where every station has its own; reflector and place of a station:
-    /// displacement, [m]; fixture scale: relative, [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
+    /// visit less that at the first, rms where every station has its own; reflector, constant or not, and place of
+    /// a station: displacement, [m]; fixture scale: relative, [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
     /// standard deviations of its visits and of the others.
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
@@ -96,7 +99,8 @@ struct GroupTestOptions {
 /// freedom as C has columns (W. Baarda, A testing procedure for use in geodetic networks, 1968; P. Teunissen, Testing
 /// theory, 2000).
 ///
-/// The least probable visit, change, place, pair, drift or step of the angles is taken away before the others are tested again. Test
+/// The least probable visit, change, place, pair, drift or step of the angles is taken away before the others are tested
+/// again. A reflector that stands elsewhere in a part of the turn is looked for between 36 bounds at most. Test
 /// values are divided by the robust scale of all visits where it differs from 1 by more than two of its standard
 /// deviations, at the limit towards 1. The scatter of stations and the succession of visits, which name no cause, are
 /// tested where nothing else is suspicious. Of the

@@ -613,6 +613,7 @@ void describe(Archive& a, Struct& r) {
     a("reflector", r.reflector);
     a("pass", r.pass);
     a.shown("angle_deg", "angle", r.angle_deg);
+    a.stated("to_angle_deg", r.to_angle_deg);
     a("estimate", r.estimate);
     a("unit", r.unit, {"um", "ppm", "1"});
     a("minimal_detectable", r.minimal_detectable, NumberRule::not_negative);

@@ -149,6 +149,17 @@ void verdicts(CertificateBuilder& builder, const Wording& words, const Evaluatio
 
 /// Where the largest test value of a kind was found: "station P1, pass P1-1, 20°", "reflector R3".
 Text subject_of(const GroupTestRow& row, const Wording& words) {
+    if (!row.reflector.empty() && row.to_angle_deg) {
+        return words.fill("reflector_at_angles", {{"reflector", row.reflector},
+                                                  {"from", words.number(row.angle_deg.text)},
+                                                  {"to", words.number(plain(*row.to_angle_deg))}});
+    }
+    if (!row.reflector.empty() && !row.pass.empty()) {
+        return words.fill("reflector_from_visit", {{"reflector", row.reflector},
+                                                   {"station", row.station},
+                                                   {"pass", row.pass},
+                                                   {"angle", words.number(row.angle_deg.text)}});
+    }
     if (!row.reflector.empty()) {
         return row.station.empty() ? words("label", "reflector") + " " + row.reflector
                                    : words.fill("one_pair", {{"station", row.station}, {"reflector", row.reflector}});

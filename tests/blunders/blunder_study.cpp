@@ -59,6 +59,10 @@ std::optional<GroupKind> kind_of(Blunder blunder) {
             return GroupKind::station_place;
         case Blunder::pair:
             return GroupKind::pair_length;
+        case Blunder::leaning_reflector:
+            return GroupKind::reflector_at_angles;
+        case Blunder::moved_reflector:
+            return GroupKind::reflector_from_visit;
         case Blunder::angle_index:
             return GroupKind::angle_index;
         case Blunder::displaced_reflector:

@@ -50,6 +50,53 @@ TEST_F(CircleClosureProgram, WritesAllDocuments) {
     EXPECT_EQ(dcc.code, 0) << dcc.out << dcc.err;
 }
 
+/// Closing differences are held against the scatter and what the job states of a drift, in either sense of the readings: GC-CLOSURE-0024
+/// advises to state a drift so, and the results have its uncertainty.
+TEST_F(CircleClosureProgram, ADriftThatIsStatedIsNoMisclosure) {
+    constexpr int k_steps = 6;
+    constexpr double k_drift = 1.0;
+    const auto record_of = [&](double sense, const std::string& effects) {
+        std::string readings = "position,step,reading\n";
+        for (int k = 0; k < k_steps; ++k) {
+            for (int j = 0; j <= k_steps; ++j) {
+                const double noise = 0.1 * std::sin(37.0 * k + 11.0 * j * j + 5.0 * k * j);
+                readings += std::to_string(k) + "," + std::to_string(j) + "," +
+                            std::to_string(sense * noise + k_drift * j / k_steps) + "\n";
+            }
+        }
+        write_bytes(folder() / "turn" / "readings.csv", readings);
+        write_bytes(folder() / "turn" / "job.json",
+                    R"({"schema": "gumcert/job/1", "kind": "circle_closure", "title": "t", "axis": "A", "steps": 6,
+                        "readings": "readings.csv", "numbering": "against", "drift": "none", "sense": ")" +
+                        std::string(sense > 0.0 ? "positive" : "negative") + R"(", "effects": [)" + effects + "]}");
+        const fs::path record = folder() / "turn" / "record.json";
+        const Ended ended = gumcert({"evaluate", (folder() / "turn" / "job.json").string(), "-o", record.string()});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        const json read = json::parse(bytes_of(record));
+        for (const json& test : read["circle_closure"]["tests"]) {
+            if (test["name"] == "misclosure") {
+                EXPECT_EQ(test["accepted"] == false, ended.err.find("GC-CLOSURE-0023") != std::string::npos)
+                    << ended.err;
+                return test;
+            }
+        }
+        return json();
+    };
+    const auto effect = [](double value, double u) {
+        return R"({"name": "drift", "acts_on": "turn", "value": )" + std::to_string(value) + R"(, "u": )" +
+               std::to_string(u) + R"(, "source": "log"})";
+    };
+    for (const double sense : {1.0, -1.0}) {
+        EXPECT_FALSE(record_of(sense, "")["accepted"].get<bool>()) << sense;
+        EXPECT_FALSE(record_of(sense, effect(0.0, 0.1))["accepted"].get<bool>()) << "smaller than what is seen";
+        const json within = record_of(sense, effect(0.0, 0.6));
+        EXPECT_TRUE(within["accepted"].get<bool>()) << sense;
+        EXPECT_NEAR(within["statistic"].get<double>(), std::pow(k_drift / 0.6, 2), 0.5) << sense;
+        EXPECT_TRUE(record_of(sense, effect(k_drift, 0.05))["accepted"].get<bool>()) << "known, and corrected for";
+        EXPECT_FALSE(record_of(sense, effect(-k_drift, 0.05))["accepted"].get<bool>()) << "of the other sign";
+    }
+}
+
 TEST_F(CircleClosureProgram, PrintsInEveryLanguage) {
     const fs::path record = folder() / "record.json";
     ASSERT_EQ(gumcert({"evaluate", copied("job.json").string(), "-o", record.string()}).code, 0);

@@ -33,6 +33,8 @@ enum class Blunder {
     closed_drift_of_all,  ///< the same of all stations
     moved_station,        ///< between its runs in both senses, 5 µm to 500 µm
     pair,                 ///< all distances between a station and a reflector, 5 µm to 50 µm
+    leaning_reflector,    ///< elsewhere in a part of the turn, in every run, 2 µm to 50 µm
+    moved_reflector,      ///< elsewhere from some visit on, 2 µm to 50 µm
 };
 
 /// Whether the first angle is measured again at the end of each run.
@@ -40,7 +42,7 @@ inline bool is_closed(Blunder blunder) {
     return blunder == Blunder::closed_drift || blunder == Blunder::closed_drift_of_all;
 }
 
-inline constexpr std::array<std::pair<Blunder, const char*>, 17> k_blunders{
+inline constexpr std::array<std::pair<Blunder, const char*>, 19> k_blunders{
     {{Blunder::none, "none"},
      {Blunder::outliers, "outliers"},
      {Blunder::visit, "visit"},
@@ -52,6 +54,8 @@ inline constexpr std::array<std::pair<Blunder, const char*>, 17> k_blunders{
      {Blunder::closed_drift_of_all, "drift of all stations, runs closed"},
      {Blunder::moved_station, "station moved between its runs"},
      {Blunder::pair, "one station and one reflector"},
+     {Blunder::leaning_reflector, "reflector elsewhere in a part of the turn"},
+     {Blunder::moved_reflector, "reflector moved for good"},
      {Blunder::angle_index, "angle index"},
      {Blunder::displaced_reflector, "displaced reflector"},
      {Blunder::swapped_reflectors, "swapped reflectors"},
@@ -64,6 +68,7 @@ struct Planted {
     RotaryTableMeasurement measurement;
     std::size_t station = 0, reflector = 0, other = 0, angle = 0;  ///< where it is, if anywhere
     double size = 0.0;                                             ///< [m], steps or [K]
+    std::size_t last_angle = 0;                                    ///< of a part of the turn, which begins at `angle`
     std::size_t outliers = 0;                                      ///< distances that are wrong
 };
 
@@ -163,6 +168,15 @@ inline void move_station(Planted& planted, const Campaign& sound, const Eigen::V
     }
 }
 
+/// What a distance to a reflector changes by when it is moved in the fixture, exactly.
+inline void move_reflector(RotaryTableMeasurement& m, LengthObservation& length, const Campaign& sound,
+                           const Eigen::Vector3d& step) {
+    const Eigen::Vector3d point = sound.truth.fixture.row(static_cast<Eigen::Index>(length.reflector)).transpose();
+    const Eigen::Vector3d& station = sound.truth.stations[length.station];
+    const Eigen::Matrix3d rotation = nominal_rotation(m, length.angle);
+    length.length += (rotation * (point + step) - station).norm() - (rotation * point - station).norm();
+}
+
 }  // namespace planting
 
 /// The same seed means the same campaign with the same blunder.
@@ -227,6 +241,34 @@ inline Planted plant(Blunder blunder, std::uint64_t seed, int angles = 24) {
                 }
             }
             break;
+        case Blunder::leaning_reflector: {
+            planted.size = log_uniform(draw, 2e-6, 50e-6);
+            const Eigen::Vector3d direction(draw.normal(), draw.normal(), draw.normal());
+            // A quarter to half of the turn, not over its beginning, where the coordinates were measured.
+            const std::size_t width = m.angles.size() / 4 + one_of(draw, m.angles.size() / 4 + 1);
+            planted.angle = 1 + one_of(draw, m.angles.size() - width);
+            planted.last_angle = planted.angle + width - 1;
+            for (LengthObservation& length : m.lengths) {
+                if (length.reflector == planted.reflector && length.angle >= planted.angle &&
+                    length.angle <= planted.last_angle) {
+                    move_reflector(m, length, sound, planted.size * direction.normalized());
+                }
+            }
+            break;
+        }
+        case Blunder::moved_reflector: {
+            planted.size = log_uniform(draw, 2e-6, 50e-6);
+            const Eigen::Vector3d direction(draw.normal(), draw.normal(), draw.normal());
+            planted.station = 1 + one_of(draw, m.stations.size() - 2);
+            for (LengthObservation& length : m.lengths) {
+                if (length.reflector == planted.reflector &&
+                    (length.station > planted.station ||
+                     (length.station == planted.station && length.angle >= planted.angle))) {
+                    move_reflector(m, length, sound, planted.size * direction.normalized());
+                }
+            }
+            break;
+        }
         case Blunder::angle_index: {
             const std::size_t steps = 1 + one_of(draw, m.angles.size() - 1);
             planted.size = static_cast<double>(steps);

@@ -63,6 +63,9 @@ inline constexpr SentenceOfValue k_sentences_of_values[] = {
     {"positioning_target/runs_up", "deviations of the single runs, in the unit of iso230_2"},
     {"iso230_2/U", "expanded uncertainties, by the same names"},
     {"group_test/tests", "of the kind, among which its level is divided"},
+    {"group_test/to_angle_deg",
+     "of a reflector that stands elsewhere in a part of the turn: the last angle of the part that begins "
+     "at angle_deg"},
     {"group_test/minimal_detectable", "found with a probability of 80 %"},
     {"group_tests/alpha",
      "probability that a sound measurement makes any group of any kind suspicious, or is warned of its fixture"},

@@ -76,15 +76,18 @@ gum::Diagnostic outlier(const CircleClosure& closure, const ClosureTestRow& test
 }
 
 gum::Diagnostic not_closed(const ClosureTestRow& test) {
-    return {.code = "GC-CLOSURE-0023",
-            .where = "readings",
-            .what =
-                "the series do not close: the mean of the closing readings differs from that of the first "
-                "readings: " +
-                figures_of(test),
-            .rule = "a full turn brings the table back: what differs by more than the scatter is a drift",
-            .action = "Set \"drift\": \"linear\", or wait until the set-up has settled and measure again.",
-            .severity = gum::Severity::warning};
+    return {
+        .code = "GC-CLOSURE-0023",
+        .where = "readings",
+        .what =
+            "the series do not close: the mean of the closing readings differs from that of the first "
+            "readings: " +
+            figures_of(test),
+        .rule =
+            "a full turn brings the table back: what differs by more than the scatter and the stated effects on the "
+            "turn is a drift",
+        .action = "Set \"drift\": \"linear\", or wait until the set-up has settled and measure again.",
+        .severity = gum::Severity::warning};
 }
 
 gum::Diagnostic unknown_drift() {

@@ -200,7 +200,8 @@ std::vector<std::optional<double>> misclosures(const CircleClosureMeasurement& m
     return all;
 }
 
-/// Whether the mean closing difference is 0, against the scatter of the readings.
+/// Whether the mean closing difference is 0, against the scatter of the readings and what the job states of a drift: an effect
+/// on the turn is in all series alike, and the results have its uncertainty.
 std::optional<reports::ClosureTestRow> test_of_closing(const CircleClosureMeasurement& m,
                                                        const engine::CircleClosureSolution& solution) {
     double sum = 0.0;
@@ -212,9 +213,20 @@ std::optional<reports::ClosureTestRow> test_of_closing(const CircleClosureMeasur
     if (count == 0.0 || m.removes_drift) {
         return std::nullopt;
     }
-    const double variance = 2.0 * solution.u_reading * solution.u_reading / count;
-    const engine::ClosureTest test{
-        .statistic = std::pow(sum / count, 2) / variance, .nu = 1.0, .nu_reference = solution.nu_reading};
+    const double scatter = 2.0 * solution.u_reading * solution.u_reading / count;
+    std::vector<gum::UncertaintyContribution> contributions{{std::sqrt(scatter), solution.nu_reading}};
+    double variance = scatter;
+    double stated = 0.0;
+    for (const engine::ClosureEffect& effect : m.effects) {
+        if (effect.pattern == ClosurePattern::turn) {
+            stated += m.sense * effect.value;
+            variance += effect.u * effect.u;
+            contributions.push_back({effect.u, effect.degrees_of_freedom});
+        }
+    }
+    const engine::ClosureTest test{.statistic = std::pow(sum / count - stated, 2) / variance,
+                                   .nu = 1.0,
+                                   .nu_reference = gum::effective_degrees_of_freedom(contributions)};
     return test_row("misclosure", test, p_value_of(test));
 }
 

@@ -70,6 +70,9 @@ reports::GroupTestRow group_row(const GroupTest& test, const RotaryTableMeasurem
             const double angle = measurement.angles_deg[test.angle];
             row.angle_deg = {angle, text::shortest(angle)};
         }
+        if (test.last_angle != GroupTest::k_none) {
+            row.to_angle_deg = measurement.angles_deg[test.last_angle];
+        }
     }
     const auto [name_of_unit, unit] = unit_of_kind(test.kind);
     row.unit = name_of_unit;
@@ -387,6 +390,10 @@ const char* group_kind_name(GroupKind kind) {
             return "station";
         case GroupKind::reflector:
             return "reflector";
+        case GroupKind::reflector_at_angles:
+            return "reflector_at_angles";
+        case GroupKind::reflector_from_visit:
+            return "reflector_from_visit";
         case GroupKind::fixture_scale:
             return "fixture_scale";
     }

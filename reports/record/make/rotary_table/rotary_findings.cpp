@@ -22,6 +22,7 @@ using reports::RotaryTable;
 
 constexpr const char* k_implausible_angle = "GC-ANGLE-0001";
 constexpr const char* k_fixture_component = "fixture CMM";  // as a record names it
+constexpr const char* k_length_noise = "length noise";
 constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
 
 std::string chi_square_of(const AdjustmentSummary& a) {
@@ -107,9 +108,12 @@ std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
 }
 
 /// Components that the weights take from the distances, where these are far from what the job states: the result is right
-/// then, and the laboratory's own budget is not.
+/// then, and the laboratory's own budget is not. A length noise that is larger than stated may be no noise at all, but a
+/// reflector or a station that moved: then the result is not right, and every refutation is told. Where it is more than
+/// twice what is stated, an accredited certificate waits for the cause; below, the first page of the certificate says so.
 std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
-    constexpr double k_far = 2.0;  // a factor of two is what nobody takes for a choice of rounding
+    constexpr double k_far = 2.0;      // a factor of two is what nobody takes for a choice of rounding
+    constexpr double k_digits = 1.05;  // what is stated with two digits stands for as much (JCGM 100:2008, 7.2.6)
     std::vector<Remark> remarks;
     for (const reports::VarianceComponent& c : rotary.variance_components) {
         if (!c.used || !c.estimated || !c.stated.number || !c.degrees_of_freedom || *c.stated.number <= 0.0 ||
@@ -119,7 +123,8 @@ std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
         const double nu = *c.degrees_of_freedom;
         const double ratio = c.value / *c.stated.number;
         const double above = gum::chi_square_upper_tail(nu * ratio * ratio, nu);
-        const bool is_far = (ratio > k_far && above < k_refuting_probability) ||
+        const bool is_noise = c.name == k_length_noise;
+        const bool is_far = (ratio > (is_noise ? k_digits : k_far) && above < k_refuting_probability) ||
                             (ratio < 1.0 / k_far && 1.0 - above < k_refuting_probability);
         if (!is_far) {
             continue;
@@ -130,14 +135,20 @@ std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
                          .where = "variance components, " + c.name,
                          .what = "the distances give " + c.printed.value + unit + ", and " + c.stated.text + unit +
                                  " is stated: the result rests on what they give",
-                         .rule = "an estimate agrees with what is stated within a factor of two, or passes a "
-                                 "one-sided chi-square test at 0.1 %",
-                         .action = "Correct what the job states, or find out why this measurement was other "
-                                   "than the laboratory's budget says.",
+                         .rule = is_noise && ratio > 1.0
+                                     ? "a length noise that is estimated passes a one-sided chi-square test at 0.1 % "
+                                       "against what is stated"
+                                     : "an estimate agrees with what is stated within a factor of two, or passes a "
+                                       "one-sided chi-square test at 0.1 %",
+                         .action = is_noise && ratio > 1.0
+                                       ? "Look for what is no noise: a reflector, a station or a support that moved, a "
+                                         "drift; else correct what the job states."
+                                       : "Correct what the job states, or find out why this measurement was other "
+                                         "than the laboratory's budget says.",
                          .severity = gum::Severity::warning},
              .id = "G06",
              .clause = "ISO/IEC 17025:2017, 7.7.1",
-             .accredited = FindingSeverity::major});
+             .accredited = is_noise && ratio > k_far ? FindingSeverity::critical : FindingSeverity::major});
     }
     return remarks;
 }

@@ -103,6 +103,17 @@ reports::PositioningAccuracy positioning_of(const engine::TableParameterModel& m
             " % of the variance of the runs: the table is not worse than they say. Monte Carlo would add that scatter "
             "a second time; it is not stated for them.");
     }
+    if (scope.stated && positioning[engine::PositioningParameter::reversal]) {
+        const std::string percent = gum::percent(std::min(scope.reversal_share, 1.0));
+        accuracy.remarks.push_back(
+            scope.reversal_stated
+                ? "B holds the scatter of the measurement, " + percent +
+                      " % of the variance of the reversals about their mean: the table is not worse than it says."
+                : "B is not stated: " + percent +
+                      " % of the variance of the reversals about their mean comes from the measurement and not from "
+                      "the "
+                      "table, and the largest of them grows with it. B_mean states the reversal.");
+    }
     const bool one_sense = most_up == 0 || most_down == 0;
     if (one_sense) {
         accuracy.remarks.push_back("The angles were approached in one sense only: there are no bidirectional values.");

@@ -23,6 +23,7 @@ GroupTest suspicious(GroupKind kind) {
     test.station = 1;
     test.pass = 0;
     test.angle = 1;
+    test.last_angle = 1;
     test.reflector = 2;
     test.chi_square = 123.4;
     test.critical_value = 20.2;
@@ -35,7 +36,8 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     for (const GroupKind kind :
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
-          GroupKind::reflector, GroupKind::fixture_scale}) {
+          GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
+          GroupKind::fixture_scale}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);
@@ -59,7 +61,45 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     EXPECT_THAT(pair[0].action, HasSubstr(R"("exclude": [{ "station": "P2", "reflector": "R3", "reason": "why" }].)"));
     const auto moved = group_notes({.tests = {suspicious(GroupKind::station_place)}, .visits = {}}, two_stations());
     EXPECT_EQ(moved[0].where, "station P2, pass up");
+    const auto leaning =
+        group_notes({.tests = {suspicious(GroupKind::reflector_at_angles)}, .visits = {}}, two_stations());
+    EXPECT_EQ(leaning[0].where, "fixture, reflector R3, 15°–15°");
+    EXPECT_THAT(leaning[0].what, HasSubstr("at these angles the reflector stands 5.04 µm away from"));
+    EXPECT_THAT(leaning[0].action, HasSubstr(R"("exclude": [{ "reflector": "R3", "reason": "why" }].)"));
+    const auto touched =
+        group_notes({.tests = {suspicious(GroupKind::reflector_from_visit)}, .visits = {}}, two_stations());
+    EXPECT_EQ(touched[0].where, "fixture, reflector R3, station P2, pass up, 15°");
     EXPECT_THAT(moved[0].what, HasSubstr("stood 5.04 µm away from where it was before"));
+}
+
+/// Only where the change begins with a pass that is not the first of its station, in the order of time.
+TEST(GroupNotes, SayThatAMovedStationLooksLikeAnInterruptedBeam) {
+    RotaryTableMeasurement m = two_stations();
+    m.passes = {"up", "down"};
+    const auto add = [&](std::size_t station, std::size_t pass, std::size_t angle) {
+        m.lengths.push_back({.station = station, .reflector = 0, .pass = pass, .angle = angle});
+    };
+    const auto names_the_support = [&](std::size_t pass, std::size_t angle) {
+        GroupTest test = suspicious(GroupKind::dead_path_change);
+        test.pass = pass;
+        test.angle = angle;
+        const std::string action = group_notes({.tests = {test}, .visits = {}}, m)[0].action;
+        EXPECT_THAT(action, HasSubstr("a dead path of their own"));
+        const bool names =
+            action.find("a station that was moved looks alike. Look at its support") != std::string::npos;
+        EXPECT_EQ(names, action.find("a station name of their own") != std::string::npos) << action;
+        return names;
+    };
+    add(1, 0, 0);
+    add(1, 0, 1);
+    EXPECT_FALSE(names_the_support(0, 0)) << "the only pass";
+    add(1, 1, 1);
+    add(1, 1, 0);
+    EXPECT_TRUE(names_the_support(1, 1));
+    EXPECT_FALSE(names_the_support(1, 0)) << "within a pass";
+    m.times = {0.0, 10.0, 30.0, 20.0};
+    EXPECT_TRUE(names_the_support(1, 0)) << "the earlier one of the pass";
+    EXPECT_FALSE(names_the_support(1, 1));
 }
 
 TEST(GroupNotes, SayTheTemperatureThatAScaledFixtureMeans) {

@@ -200,7 +200,8 @@ TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
     for (const GroupKind kind :
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
-          GroupKind::reflector, GroupKind::fixture_scale}) {
+          GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
+          GroupKind::fixture_scale}) {
         shares += share_of_level(kind);
     }
     EXPECT_NEAR(shares, 0.9, 1e-12);

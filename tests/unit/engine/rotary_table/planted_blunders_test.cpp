@@ -245,6 +245,40 @@ TEST(PlantedBlunders, AStationAndAReflectorThatDisagreeAreNamed) {
     }
 }
 
+/// A reflector whose holder gives way was length noise, three times what it is, and the results were wrong by up to seven
+/// times their uncertainty.
+TEST(PlantedBlunders, AReflectorThatStandsElsewhereInAPartOfTheTurnIsNamed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Planted planted = plant(Blunder::leaning_reflector, seed, 12);
+        const RotaryTableSolution solution = evaluated(planted.measurement);
+        const GroupTest& first = first_group(solution);
+        EXPECT_TRUE(first.suspicious) << seed << ", " << planted.size;
+        EXPECT_EQ(first.kind, GroupKind::reflector_at_angles) << "seed " << seed << ", " << planted.size;
+        EXPECT_EQ(first.reflector, planted.reflector) << seed;
+        EXPECT_EQ(first.angle, planted.angle) << seed << ", " << planted.size;
+        EXPECT_EQ(first.last_angle, planted.last_angle) << seed << ", " << planted.size;
+        EXPECT_NEAR(first.estimate / planted.size, 1.0, 0.3) << "seed " << seed << ", " << planted.size;
+    }
+}
+
+/// Nor are pairs, dead paths or the fixture accused of a reflector that was touched once.
+TEST(PlantedBlunders, AReflectorThatIsMovedForGoodIsNamed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const Planted planted = plant(Blunder::moved_reflector, seed, 12);
+        const RotaryTableSolution solution = evaluated(planted.measurement);
+        const GroupTest& first = first_group(solution);
+        EXPECT_TRUE(first.suspicious) << seed << ", " << planted.size;
+        EXPECT_EQ(first.kind, GroupKind::reflector_from_visit) << "seed " << seed << ", " << planted.size;
+        EXPECT_EQ(first.reflector, planted.reflector) << seed;
+        EXPECT_EQ(first.station, planted.station) << seed << ", " << planted.size;
+        EXPECT_NEAR(static_cast<double>(first.angle), static_cast<double>(planted.angle), 1.0) << seed;
+        EXPECT_NEAR(first.estimate / planted.size, 1.0, 0.3) << "seed " << seed << ", " << planted.size;
+        for (const GroupTest& test : solution.groups->tests) {
+            EXPECT_TRUE(!test.suspicious || test.reflector == planted.reflector) << seed << ", " << planted.size;
+        }
+    }
+}
+
 /// Single blunders, one in fifty, are left out: no visit, station or pair is accused in their place.
 TEST(PlantedBlunders, SingleOutliersAccuseNoGroup) {
     int accused = 0;

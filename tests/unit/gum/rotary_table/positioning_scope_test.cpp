@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,12 @@ namespace gumcert::gum {
 namespace {
 
 /// Repeated runs of a table that scatters by `u_axial` about its axis and errs by `error_factor` times its motions.
-engine::TableParameterModel repeated_runs(std::size_t runs, double u_axial, double error_factor) {
+engine::TableParameterModel repeated_runs(std::size_t runs, double u_axial, double error_factor,
+                                          bool both_senses = false, int angles = 6, std::uint64_t seed = 1) {
     engine::synthetic::CampaignPlan plan;
-    plan.angles_deg = engine::synthetic::full_turn(6);
+    plan.angles_deg = engine::synthetic::full_turn(angles);
+    plan.both_senses = both_senses;
+    plan.seed = seed;
     plan.start_values = true;
     plan.runs = runs;
     plan.table_axial = u_axial;
@@ -65,9 +69,15 @@ TEST(PositioningScope, StatesScatterOnlyWhereItStatesAnything) {
     scope.stated = true;
     EXPECT_TRUE(scope.states("E"));
     EXPECT_TRUE(scope.states("R_up"));
+    EXPECT_FALSE(scope.states("B"));
     scope.scatter_stated = false;
+    scope.reversal_stated = true;
     EXPECT_TRUE(scope.states("B"));
     EXPECT_FALSE(scope.states("A_down"));
+    scope.reversal_stated = false;
+    EXPECT_FALSE(scope.states("B"));
+    EXPECT_TRUE(scope.states("B_mean"));
+    EXPECT_TRUE(scope.states("E"));
 }
 
 TEST(PositioningScope, ATableThatScattersMoreThanItsMeasurementHasAllParameters) {
@@ -89,6 +99,46 @@ TEST(PositioningScope, RunsThatScatterByTheirMeasurementHaveNoRepeatability) {
     EXPECT_FALSE(scope.scatter_stated);
     EXPECT_TRUE(scope.states("E_up"));
     EXPECT_FALSE(scope.states("R_up"));
+}
+
+/// The largest of many uncertain reversals is too large by more than its uncertainty; their mean is not.
+TEST(PositioningScope, ReversalsThatDifferByTheirMeasurementHaveNoLargest) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const PositioningScope noise = positioning_scope(repeated_runs(1, 1e-9, 5.0, true, 12, seed));
+        EXPECT_TRUE(noise.stated);
+        EXPECT_GT(noise.reversal_share, 0.4) << seed;
+        EXPECT_FALSE(noise.states("B")) << seed;
+        EXPECT_TRUE(noise.states("B_mean")) << seed;
+        const PositioningScope table = positioning_scope(repeated_runs(1, 10e-6, 5.0, true, 12, seed));
+        EXPECT_LT(table.reversal_share, 0.3) << seed;
+        EXPECT_TRUE(table.states("B")) << seed;
+        for (const double u_axial : {0.3e-6, 1e-6, 3e-6}) {
+            const PositioningScope scope = positioning_scope(repeated_runs(1, u_axial, 5.0, true, 12, seed));
+            EXPECT_EQ(scope.states("B"),
+                      scope.states("R") || (scope.stated && scope.reversal_share <= k_largest_reversal_share))
+                << seed << ", " << u_axial;
+        }
+    }
+}
+
+/// The share is that of the differences of means of runs, by a second path.
+TEST(PositioningScope, TheShareOfReversalsIsThatOfTheirMeans) {
+    const engine::TableParameterModel model = repeated_runs(2, 2e-6, 5.0, true);
+    const PositioningScope scope = positioning_scope(model);
+    const engine::PositioningRuns& runs = model.parameters()->runs();
+    Eigen::VectorXd reversals(static_cast<Eigen::Index>(runs.up.size()));
+    double noise = 0.0;
+    for (std::size_t i = 0; i < runs.up.size(); ++i) {
+        const Eigen::VectorXd up = model.nominal_positions()(runs.up[i]);
+        const Eigen::VectorXd down = model.nominal_positions()(runs.down[i]);
+        reversals[static_cast<Eigen::Index>(i)] = up.mean() - down.mean();
+        noise += std::pow(scope.u_deviation, 2) *
+                 (1.0 / static_cast<double>(up.size()) + 1.0 / static_cast<double>(down.size()));
+    }
+    const double variance =
+        (reversals.array() - reversals.mean()).square().sum() / static_cast<double>(reversals.size() - 1);
+    EXPECT_NEAR(scope.reversal_share, noise / static_cast<double>(runs.up.size()) / variance,
+                1e-9 * scope.reversal_share);
 }
 
 TEST(PositioningScope, AnIdealTableHasNoParameters) {

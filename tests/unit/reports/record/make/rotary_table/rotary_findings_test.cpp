@@ -53,10 +53,10 @@ TEST(RotaryFindings, ResidualsThatRefuteTheUncertaintiesBlockTheCertificate) {
 }
 
 TEST(RotaryFindings, ANoiseThatIsFarFromWhatIsStatedIsTold) {
-    const auto with_noise = [](double value, double stated, bool used) {
+    const auto record_of = [](double value, double stated, bool used, const char* name = "length noise") {
         EvaluationRecord record = record_with(100.0, 0.48);
         reports::VarianceComponent noise;
-        noise.name = "length noise";
+        noise.name = name;
         noise.unit = "um";
         noise.value = value;
         noise.estimated = true;
@@ -65,9 +65,19 @@ TEST(RotaryFindings, ANoiseThatIsFarFromWhatIsStatedIsTold) {
         noise.stated.text = "x";
         noise.degrees_of_freedom = 200.0;
         record.rotary->variance_components = {noise};
-        return ids(record);
+        return record;
     };
-    EXPECT_EQ(with_noise(0.15, 0.1, true), Ids());
+    const auto with_noise = [&](double value, double stated, bool used) { return ids(record_of(value, stated, used)); };
+    EXPECT_EQ(with_noise(0.104, 0.1, true), Ids()) << "no more than the digits of what is stated";
+    EXPECT_EQ(with_noise(0.11, 0.1, true), Ids()) << "what chance explains at 200 degrees of freedom";
+    EXPECT_EQ(with_noise(0.07, 0.1, true), Ids());
+    EXPECT_EQ(ids(record_of(0.15, 0.1, true, "table linear")), Ids());
+    // A noise that is larger may be a reflector that moves: told at any factor, and from two on it blocks.
+    EXPECT_EQ(with_noise(0.15, 0.1, true), Ids{"G06"});
+    EXPECT_EQ(rotary_findings(record_of(0.15, 0.1, true)).front().severity, FindingSeverity::major);
+    EXPECT_EQ(rotary_findings(record_of(0.25, 0.1, true)).front().severity, FindingSeverity::critical);
+    EXPECT_EQ(rotary_remarks(record_of(0.15, 0.1, true)).front().severity, gum::Severity::warning)
+        << "so the first page of a certificate has it";
     EXPECT_EQ(with_noise(1.04, 0.1, true), Ids{"G06"});
     EXPECT_EQ(with_noise(0.1, 100.0, true), Ids{"G06"});
     EXPECT_EQ(with_noise(1.04, 0.1, false), Ids()) << "a check of the fixture has its own finding";
