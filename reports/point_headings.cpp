@@ -20,6 +20,14 @@ const certificate::PointColumn* column_of_points(const CertifiedTable& table, co
     return found == columns.end() ? nullptr : &*found;
 }
 
+/// Of a result; empty where it has its name alone.
+Text description_of(const CertifiedTable& table, const std::string& result, const Wording& words) {
+    const auto found =
+        std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& c) { return c.result == result; });
+    const bool described = found != table.columns.end() && !found->name.empty() && found->name.in("en") != result;
+    return described ? words.localised(found->name) : Text();
+}
+
 /// By what it shows alone.
 Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
     if (!shown.heading.empty()) {
@@ -29,17 +37,19 @@ Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const 
         const certificate::PointColumn* const column = column_of_points(table, shown.of);
         return column == nullptr ? Text(shown.of) : heading_of(*column, words);
     }
+    // "Deviation" says less than "hysteresis" or "slope of the curve"; an error and a correction say what they are.
+    if (shown.show == "value" && shown.role == "deviation") {
+        if (const Text description = description_of(table, shown.of, words); !description.empty()) {
+            return description;
+        }
+    }
     return shown.role.empty() ? Text(shown.of) : words("point_table", shown.role);
 }
 
 /// By what it is called; of points, and of a result that has its name alone: role and name.
 Text described_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
-    const auto of_result = std::find_if(table.columns.begin(), table.columns.end(),
-                                        [&](const auto& c) { return shown.show == "value" && c.result == shown.of; });
-    if (of_result != table.columns.end() && !of_result->name.empty() && of_result->name.in("en") != shown.of) {
-        return words.localised(of_result->name);
-    }
-    return plain_heading(table, shown, words) + " " + shown.of;
+    const Text description = shown.show == "value" ? description_of(table, shown.of, words) : Text();
+    return description.empty() ? plain_heading(table, shown, words) + " " + shown.of : description;
 }
 
 }  // namespace
