@@ -118,7 +118,8 @@ int decimals_of_width(double w) {
     constexpr int k_most = 18;
     const std::string two = gum::round_significant(w, 2);
     const std::string one = gum::round_significant(w, 1);
-    const bool one_says_it = certificate::number_of(two) == certificate::number_of(one);
+    constexpr double k_noise = 1e-9;  // relative
+    const bool one_says_it = std::abs(certificate::number_of(one).value_or(0.0) - w) <= k_noise * std::abs(w);
     return std::min(certificate::decimals_of(one_says_it ? one : two), k_most);
 }
 

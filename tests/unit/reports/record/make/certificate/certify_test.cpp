@@ -511,6 +511,10 @@ TEST(Certify, PrintsAGuardBandToTwoDigits) {
     EXPECT_EQ(v.printed.acceptance_upper, "2.45");
     data.specifications[0].rule.guard_factor = 1.0;
     EXPECT_EQ(certified(one_result(1.0, 1.1, "m"), data).verdict->printed.guard_band, "1.1");
+    data = data_with_rule("DR-07", -3.0, 3.0, "m");
+    data.specifications[0].rule.probability = 0.05;
+    data.accreditation.reset();
+    EXPECT_EQ(certified(one_result(1.0, 1.1, "m"), data).verdict->printed.guard_band, "0.91");  // 1.645·0.55 = 0.9047
 }
 
 TEST(Certify, SaysNothingOfProbabilitiesThatItDoesNotPrint) {
