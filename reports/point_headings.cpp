@@ -1,7 +1,10 @@
 #include "reports/point_headings.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+
+#include "text/small_letters.h"
 
 namespace gumcert::reports {
 
@@ -28,6 +31,19 @@ Text description_of(const CertifiedTable& table, const std::string& result, cons
     return described ? words.localised(found->name) : Text();
 }
 
+/// Whether a description has the word of the role: "deviation of the set torque", also where nobody translated it.
+bool says(const Text& description, const Text& role, const Wording& words) {
+    for (std::size_t i = 0; i < words.languages().size(); ++i) {
+        const std::string text = text::in_small_letters(description.in(i));
+        for (const std::string& word : {text::in_small_letters(role.in(i)), std::string("deviation")}) {
+            if (text.find(word) != std::string::npos) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// By what it shows alone.
 Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
     if (!shown.heading.empty()) {
@@ -37,13 +53,18 @@ Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const 
         const certificate::PointColumn* const column = column_of_points(table, shown.of);
         return column == nullptr ? Text(shown.of) : heading_of(*column, words);
     }
+    if (shown.role.empty()) {
+        return shown.of;
+    }
+    const Text role = words("point_table", shown.role);
     // "Deviation" says less than "hysteresis" or "slope of the curve"; an error and a correction say what they are.
     if (shown.show == "value" && shown.role == "deviation") {
-        if (const Text description = description_of(table, shown.of, words); !description.empty()) {
+        if (const Text description = description_of(table, shown.of, words);
+            !description.empty() && !says(description, role, words)) {
             return description;
         }
     }
-    return shown.role.empty() ? Text(shown.of) : words("point_table", shown.role);
+    return role;
 }
 
 /// By what it is called; of points, and of a result that has its name alone: role and name.

@@ -85,6 +85,8 @@ TEST(PointHeadings, ADeviationIsCalledByItsDescription) {
     table.columns[0].name = "hysteresis";
     table.layout->shown[2].role = "deviation";
     EXPECT_EQ(heading(table, 2), "hysteresis");
+    table.columns[0].name = "Deviation of the set torque from the torque measured";
+    EXPECT_EQ(heading(table, 2), "Deviation") << "it says no more";
     table.columns[0].name = "e_up";
     EXPECT_EQ(heading(table, 2), "Deviation");
 }
