@@ -67,15 +67,6 @@ double held_digits(double value, double lost) {
     return held;
 }
 
-/// How far a result may be off in its unit because numbers are rounded to double precision. BudgetModel::rounding() counts
-/// one rounding of every input and step; the inputs themselves are means and converted numbers, and the result is
-/// converted once more.
-double rounding_of_result(double si, double model_rounding, const Unit& unit) {
-    constexpr double k_roundings = 8.0;
-    return unit.difference_from_si(k_roundings * model_rounding +
-                                   std::numeric_limits<double>::epsilon() * std::abs(si));
-}
-
 /// \param si           of the input or of one of its components
 /// \param sensitivity  coherent SI
 BudgetRow budget_row(const std::string& name, const Unit& unit, const gum::InputTotal& si, double sensitivity,
@@ -558,9 +549,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
                     out.description_by_language = described->second;
                 }
             }
-            out.value =
-                gum::settled_decimal(unit.from_si(point.propagation.value(index)),
-                                     rounding_of_result(point.propagation.value(index), roundings(index), unit));
+            out.value = recorded_value(point.propagation.value(index), roundings(index), unit);
             if (from.coverage_note == gum::k_exact_by_definition) {
                 out.value = held_digits(out.value, unit.difference_from_si(roundings(index)));
             }

@@ -1,11 +1,21 @@
 #include "reports/record/make/budget/budget_reported_result.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "reports/record/reported_result.h"
 
 namespace gumcert::reports {
+
+double recorded_value(double si, double rounding, const gum::Unit& unit) {
+    // BudgetModel::rounding() counts one rounding of every input and step; the inputs themselves are means and converted
+    // numbers, and the result is converted once more.
+    constexpr double k_roundings = 8.0;
+    const double lost = k_roundings * rounding + std::numeric_limits<double>::epsilon() * std::abs(si);
+    return gum::settled_decimal(unit.from_si(si), unit.difference_from_si(lost));
+}
 
 reports::ReportedResult reported_of(const gum::BudgetOutputResult& output, double y, const gum::Unit& unit,
                                     gum::RoundingMode rounding) {
