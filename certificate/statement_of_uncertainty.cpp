@@ -176,6 +176,27 @@ int significant_digits(const std::string& printed) {
                                           [](char c) { return c >= '0' && c <= '9'; }));
 }
 
+std::string printed_coverage_probability(double p) {
+    constexpr int k_digits = 4;
+    std::string text = gum::round_significant(100.0 * p, k_digits);
+    const double outside = 100.0 * (1.0 - p);
+    if (!(outside > 0.0)) {
+        return text;
+    }
+    const int enough = 1 - static_cast<int>(std::floor(std::log10(outside)));
+    const auto least = text.size();
+    const auto whole = text.find('.');
+    if (whole == std::string::npos || enough <= static_cast<int>(least - whole - 1)) {
+        return text;
+    }
+    text = gum::round_to_quantum(100.0 * p, enough);
+    // 99.9990: the last zero says nothing, and "99.00" stays as it is.
+    while (text.ends_with('0')) {
+        text.pop_back();
+    }
+    return text;
+}
+
 std::string printed_limit(double limit, int decimals) {
     return gum::round_to_quantum(limit, std::max({own_decimals(limit), decimals, 0}));
 }

@@ -71,6 +71,10 @@ struct StatedPair {
 /// Significant digits of a text of gum/rounding: "0.10" has 2.
 [[nodiscard]] int significant_digits(const std::string& printed);
 /// Shortest text of a limit as it was stated, noise of a unit conversion left out, and not fewer decimals than asked.
+/// A coverage probability in percent, without the sign: four digits, and as many more as two digits of 1 − p need, so that
+/// none is printed as 100: 0.9545 gives "95.45", 0.99 "99.00", 0.99999 "99.999".
+[[nodiscard]] std::string printed_coverage_probability(double p);
+
 [[nodiscard]] std::string printed_limit(double limit, int decimals);
 
 /// Acceptance limits, guard bands and ratios, to a decimal place and always to the safe side: a value that ends at this

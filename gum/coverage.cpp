@@ -5,7 +5,12 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "gum/argument_check.h"
@@ -24,6 +29,42 @@ using StudentDistribution = boost::math::students_t_distribution<double, Policy>
 using ChiSquareDistribution = boost::math::chi_squared_distribution<double, Policy>;
 using FisherDistribution = boost::math::fisher_f_distribution<double, Policy>;
 
+/// t with P(|T| ≤ t) = p for a small p. By the tails this is the difference of two numbers near one half, and loses the digits
+/// that p is small by. The probability about 0 is concave in t, so that Newton's steps from the tangent at 0, which lies
+/// below the quantile, rise to it.
+/// \return  none: the steps did not end (ν far below 1)
+std::optional<double> quantile_near_zero(double p, double degrees_of_freedom) {
+    constexpr int k_most_steps = 50;
+    if (std::isinf(degrees_of_freedom)) {
+        return std::sqrt(2.0) * boost::math::erf_inv(p, Policy());
+    }
+    const StudentDistribution distribution(degrees_of_freedom);
+    double t = p / (2.0 * boost::math::pdf(distribution, 0.0));
+    for (int step = 0; step < k_most_steps; ++step) {
+        const double square = t * t / degrees_of_freedom;
+        if (!(square > std::numeric_limits<double>::epsilon())) {
+            return t;  // the density is that at 0 to all digits
+        }
+        const double inside = boost::math::ibeta(0.5, 0.5 * degrees_of_freedom, square / (1.0 + square), Policy());
+        const double change = (p - inside) / (2.0 * boost::math::pdf(distribution, t));
+        t += change;
+        if (std::abs(change) <= 4.0 * std::numeric_limits<double>::epsilon() * t) {
+            return t;
+        }
+    }
+    return std::nullopt;
+}
+
+NoResultError no_finite_factor(double coverage_probability, double degrees_of_freedom) {
+    return NoResultError(Diagnostic{.code = "GC-GUM-0010",
+                                    .where = "coverage factor",
+                                    .what = "no finite value for coverage probability " +
+                                            text::shortest(coverage_probability) + " and " +
+                                            text::shortest(degrees_of_freedom) + " degrees of freedom",
+                                    .rule = "an expanded uncertainty needs a finite coverage factor",
+                                    .action = "State the contribution with few degrees of freedom better."});
+}
+
 void require_chi_square_arguments(double chi_square, double degrees_of_freedom) {
     require_not_negative(chi_square, "chi-square");
     require_positive(degrees_of_freedom, "degrees of freedom of chi-square");
@@ -34,6 +75,12 @@ void require_chi_square_arguments(double chi_square, double degrees_of_freedom) 
 double coverage_factor(double coverage_probability, double degrees_of_freedom) {
     require_probability(coverage_probability, "coverage probability");
     require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
+    constexpr double k_small = 1e-3;  // above, the tails keep 13 digits
+    if (coverage_probability < k_small) {
+        if (const std::optional<double> near_zero = quantile_near_zero(coverage_probability, degrees_of_freedom)) {
+            return *near_zero;
+        }
+    }
     // The probability outside one end of the interval; the upper tail keeps its digits when p is close to 1.
     const double tail = (1.0 - coverage_probability) / 2.0;
     if (std::isinf(degrees_of_freedom)) {
@@ -49,13 +96,7 @@ double coverage_factor(double coverage_probability, double degrees_of_freedom) {
         // Half of the smallest double is 0, and the library takes no 0 for degrees of freedom.
     }
     if (!std::isfinite(k)) {
-        throw NoResultError(Diagnostic{.code = "GC-GUM-0010",
-                                       .where = "coverage factor",
-                                       .what = "no finite value for coverage probability " +
-                                               text::shortest(coverage_probability) + " and " +
-                                               text::shortest(degrees_of_freedom) + " degrees of freedom",
-                                       .rule = "an expanded uncertainty needs a finite coverage factor",
-                                       .action = "State the contribution with few degrees of freedom better."});
+        throw no_finite_factor(coverage_probability, degrees_of_freedom);
     }
     return k;
 }
@@ -65,6 +106,7 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
     require_probability(coverage_probability, "coverage probability");
     require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
     const auto m = static_cast<double>(outputs);
+    require_positive(m, "number of outputs");
     const double tail = 1.0 - coverage_probability;
     if (std::isinf(degrees_of_freedom)) {
         return std::sqrt(boost::math::quantile(boost::math::complement(ChiSquareDistribution(m), tail)));
@@ -85,8 +127,18 @@ double ellipsoid_coverage_factor(double coverage_probability, std::size_t output
                                        .rule = "a joint region needs more degrees of freedom than outputs less one",
                                        .action = "Take more observations, or report intervals of single outputs."});
     }
-    const double F = boost::math::quantile(boost::math::complement(FisherDistribution(m, denominator), tail));
-    return std::sqrt(m * degrees_of_freedom / denominator * F);
+    double k = std::numeric_limits<double>::infinity();
+    try {
+        const double F = boost::math::quantile(boost::math::complement(FisherDistribution(m, denominator), tail));
+        k = std::sqrt(m * degrees_of_freedom / denominator * F);
+    } catch (const std::runtime_error&) {
+        // As in coverage_factor().
+    } catch (const std::domain_error&) {
+    }
+    if (!std::isfinite(k)) {
+        throw no_finite_factor(coverage_probability, degrees_of_freedom);
+    }
+    return k;
 }
 
 double effective_degrees_of_freedom(std::span<const UncertaintyContribution> contributions) {

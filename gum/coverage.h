@@ -34,8 +34,9 @@ enum class EstimatedSpread {
 /// k_p² = m F_p(m, ν) of an estimated scale: that of the multivariate t-distribution
 /// \param outputs             m ≥ 1
 /// \param degrees_of_freedom  ν of the covariance matrix, infinite allowed
-/// \throws InputError     GC-GUM-0004 or -0005 for an argument out of range
-/// \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1 of an estimated matrix
+/// \throws InputError     GC-GUM-0003, -0004 or -0005 for an argument out of range
+/// \throws NoResultError  GC-GUM-0011 where ν ≤ m − 1 of an estimated matrix, -0010 where the factor is too large to be
+///                        represented
 [[nodiscard]] double ellipsoid_coverage_factor(double coverage_probability, std::size_t outputs,
                                                double degrees_of_freedom,
                                                EstimatedSpread estimated = EstimatedSpread::matrix);

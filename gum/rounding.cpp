@@ -211,6 +211,24 @@ std::string round_as_written(double value, int decimals) {
     return document_text(number);
 }
 
+double settled_decimal(double value, double lost) {
+    // By chance a number lies so near to a decimal one once in 50 times, and nothing is lost then either.
+    constexpr double k_far_above = 100.0;
+    if (!std::isfinite(value) || value == 0.0 || !std::isfinite(lost) || !(lost > 0.0)) {
+        return value;
+    }
+    const int quantum = static_cast<int>(std::ceil(std::log10(k_far_above * lost)));
+    const Decimal number = shortest_decimal(value);
+    if (number.exponent >= quantum) {
+        return value;  // has no digit below
+    }
+    const Decimal nearest = rounded(number, quantum, RoundingMode::half_even);
+    const std::string text = power_of_ten_text(nearest);
+    double settled = value;
+    std::from_chars(text.data(), text.data() + text.size(), settled);
+    return std::abs(settled - value) <= lost ? settled : value;
+}
+
 std::string round_significant(double value, int digits) {
     require_finite(value, "value to print");
     require_digits(digits);

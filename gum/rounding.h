@@ -55,6 +55,13 @@ struct RoundedPair {
 /// \throws InputError  GC-GUM-0001 or -0041
 [[nodiscard]] std::string round_as_written(double value, int decimals);
 
+/// The decimal number that a computed one stands for. A difference of decimal numbers is a decimal number, and in binary
+/// it carries what the rounding of its terms leaves: 4.00295 − 4.00000 gives 0.0029500000000002302. Such a number is on the
+/// wrong side of every tie and every limit in half of the cases. Where exactly one decimal number whose last place is far
+/// above that rounding lies within it, it is the number that was meant; else `value` comes back as it is.
+/// \param lost  how far `value` may be off by rounding, in its unit; 0 or not finite: nothing is settled
+[[nodiscard]] double settled_decimal(double value, double lost);
+
 /// Rounds half-even to significant digits, for numbers that stand alone: u, χ², condition number, p-value.
 ///
 /// Plain decimal from 1e-4 up to below 1e6 while the last digit stands at or below the unit digit, else a power of ten:

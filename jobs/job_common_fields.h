@@ -14,6 +14,10 @@ inline constexpr NumberRange k_coverage_probability{.low = 0.0,
                                                     .high_open = true,
                                                     .hint = "state a probability, not a percentage, such as 0.9545"};
 
+/// Of results. Below, k would be printed as 0.1 and less; above, one trial of 10⁹ decides, and no document has the digits.
+inline constexpr NumberRange k_probability_of_results{
+    .low = 0.1, .high = 0.999999999, .hint = "state a probability, not a percentage, such as 0.9545"};
+
 template <class Archive>
 void describe_head(Archive& a, std::string_view kind, std::string_view sentence = {}) {
     a.definition(kind, sentence);
@@ -25,7 +29,7 @@ void describe_head(Archive& a, std::string_view kind, std::string_view sentence 
 
 template <class Archive, class Job>
 void describe_coverage(Archive& a, Job& job) {
-    a("coverage_probability", job.coverage_probability, In{k_coverage_probability},
+    a("coverage_probability", job.coverage_probability, In{k_probability_of_results},
       "Of all results; 0.9545 when left out.");
     a("coverage", job.coverage, gum::k_coverage_choices,
       "Which evaluation is reported; as_validated when left out: the law of propagation where it is adequate, Monte "

@@ -1,7 +1,10 @@
 #include "reports/point_headings.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+
+#include "text/small_letters.h"
 
 namespace gumcert::reports {
 
@@ -20,6 +23,27 @@ const certificate::PointColumn* column_of_points(const CertifiedTable& table, co
     return found == columns.end() ? nullptr : &*found;
 }
 
+/// Of a result; empty where it has its name alone.
+Text description_of(const CertifiedTable& table, const std::string& result, const Wording& words) {
+    const auto found =
+        std::find_if(table.columns.begin(), table.columns.end(), [&](const auto& c) { return c.result == result; });
+    const bool described = found != table.columns.end() && !found->name.empty() && found->name.in("en") != result;
+    return described ? words.localised(found->name) : Text();
+}
+
+/// Whether a description has the word of the role: "deviation of the set torque", also where nobody translated it.
+bool says(const Text& description, const Text& role, const Wording& words) {
+    for (std::size_t i = 0; i < words.languages().size(); ++i) {
+        const std::string text = text::in_small_letters(description.in(i));
+        for (const std::string& word : {text::in_small_letters(role.in(i)), std::string("deviation")}) {
+            if (text.find(word) != std::string::npos) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// By what it shows alone.
 Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
     if (!shown.heading.empty()) {
@@ -29,17 +53,24 @@ Text plain_heading(const CertifiedTable& table, const ShownColumn& shown, const 
         const certificate::PointColumn* const column = column_of_points(table, shown.of);
         return column == nullptr ? Text(shown.of) : heading_of(*column, words);
     }
-    return shown.role.empty() ? Text(shown.of) : words("point_table", shown.role);
+    if (shown.role.empty()) {
+        return shown.of;
+    }
+    const Text role = words("point_table", shown.role);
+    // "Deviation" says less than "hysteresis" or "slope of the curve"; an error and a correction say what they are.
+    if (shown.show == "value" && shown.role == "deviation") {
+        if (const Text description = description_of(table, shown.of, words);
+            !description.empty() && !says(description, role, words)) {
+            return description;
+        }
+    }
+    return role;
 }
 
 /// By what it is called; of points, and of a result that has its name alone: role and name.
 Text described_heading(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {
-    const auto of_result = std::find_if(table.columns.begin(), table.columns.end(),
-                                        [&](const auto& c) { return shown.show == "value" && c.result == shown.of; });
-    if (of_result != table.columns.end() && !of_result->name.empty() && of_result->name.in("en") != shown.of) {
-        return words.localised(of_result->name);
-    }
-    return plain_heading(table, shown, words) + " " + shown.of;
+    const Text description = shown.show == "value" ? description_of(table, shown.of, words) : Text();
+    return description.empty() ? plain_heading(table, shown, words) + " " + shown.of : description;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "reports/printed_texts.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "text/numbers.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ Text with_unit(const Text& number, const std::string& unit) {
 }
 
 std::string percent_text(double probability) {
-    return text::without_trailing_zeros(text::fixed(100.0 * probability, 6)) + " %";
+    return text::without_trailing_zeros(certificate::printed_coverage_probability(probability)) + " %";
 }
 
 }  // namespace gumcert::reports

@@ -32,7 +32,9 @@ Text names_of(const std::vector<Text>& names, const Wording& words) {
                : words.fill("and_more", {{"names", text}, {"count", std::to_string(names.size() - k_most_names)}});
 }
 
-std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, const Wording& words) {
+/// \param law_is_shown  the document has the budgets, and beside them what the law of propagation gives
+std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, bool law_is_shown,
+                               const Wording& words) {
     std::vector<Text> sentences;
     const auto add = [&](const char* sentence, const char* reason, const std::string ReportedResult::*of) {
         std::vector<Text> names;
@@ -47,7 +49,7 @@ std::vector<Text> sentences_of(const std::vector<ReportedQuantity>& quantities, 
         }
     };
     for (const char* reason : k_reasons) {
-        add("reported_monte_carlo", reason, &ReportedResult::because);
+        add(law_is_shown ? "reported_monte_carlo" : "reported_monte_carlo_alone", reason, &ReportedResult::because);
         add("reported_against", reason, &ReportedResult::against);
     }
     return sentences;
@@ -95,7 +97,7 @@ Text interval_or(const std::string& U, const ReportedResult& reported, const Wor
 }  // namespace
 
 std::vector<Text> reasons_for_monte_carlo(const std::vector<Result>& results, const Wording& words) {
-    return sentences_of(quantities_of(results), words);
+    return sentences_of(quantities_of(results), true, words);
 }
 
 std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const Wording& words) {
@@ -104,7 +106,8 @@ std::vector<Text> reasons_for_monte_carlo(const EvaluationRecord& record, const 
         const std::vector<ReportedQuantity> of_table = quantities_of(*record.rotary, words);
         all.insert(all.end(), of_table.begin(), of_table.end());
     }
-    return sentences_of(all, words);
+    const bool law_is_shown = !record.certificate || record.certificate->data.annexes != "none";
+    return sentences_of(all, law_is_shown, words);
 }
 
 Text stated_uncertainty(const ReportedResult& reported, const Wording& words) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gum/quantity/unit.h"
+#include "reports/printed_texts.h"
 #include "reports/record/comparison_scores.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/record_kinds.h"
@@ -23,7 +24,7 @@ namespace {
 /// "k = 2.92, p = 99 %": how the expanded uncertainty was found.
 std::string coverage_text(const reports::ReportedResult& result) {
     std::string text = result.k ? fmt::format("k = {:.2f}, ", *result.k) : "";
-    text += fmt::format("p = {:.4g} %", 100.0 * result.coverage_probability);
+    text += "p = " + reports::percent_text(result.coverage_probability);
     return result.method == "monte_carlo" ? text + ", Monte Carlo" : text;
 }
 

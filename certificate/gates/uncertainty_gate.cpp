@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "certificate/gates/cited_documents.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
 #include "certificate/statement_of_uncertainty.h"
+#include "gum/quantity/decimal_rounding.h"
 
 namespace gumcert::certificate {
 
@@ -48,9 +50,12 @@ void digits(FindingList& found, const std::string& where, const CertifiedValue& 
 }
 
 /// Whether a value lies outside of the limits, and the rule does not publish that it may accept such ones (DR-10 of
-/// ASME B89.7.3.1 and DR-11 do).
+/// ASME B89.7.3.1 and DR-11 do). A value on a limit is judged as gum::decide_conformity() judges it.
 bool is_outside(const CertifiedValue& value, const Verdict& v) {
-    const bool outside = (v.lower && value.value < *v.lower) || (v.upper && value.value > *v.upper);
+    const double scale =
+        std::max({std::abs(value.value), std::abs(v.lower.value_or(0.0)), std::abs(v.upper.value_or(0.0))});
+    const bool outside = (v.lower && !gum::is_at_most(*v.lower, value.value, scale)) ||
+                         (v.upper && !gum::is_at_most(value.value, *v.upper, scale));
     return outside && v.rule != "DR-10" && v.rule != "DR-11";
 }
 

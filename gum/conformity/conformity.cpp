@@ -10,6 +10,7 @@
 #include "gum/argument_check.h"
 #include "gum/conformity/posterior_risk.h"
 #include "gum/distribution_quantile.h"
+#include "gum/quantity/decimal_rounding.h"
 #include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 
@@ -110,7 +111,7 @@ bool Application::at_most(double a, double b) const {
     // A value that stands on a limit in decimal numbers passes: in binary it may lie a rounding beyond.
     const double scale = std::max({std::abs(y_.value), std::abs(limits_.lower.value_or(0.0)),
                                    std::abs(limits_.upper.value_or(0.0)), std::abs(decision_.guard_band)});
-    return a <= b + k_rounding * scale;
+    return is_at_most(a, b, scale);
 }
 
 bool Application::inside(const ToleranceLimits& zone) const {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace gumcert::gum {
 
@@ -18,6 +19,12 @@ double decimal_rounding(double value) {
     const double mantissa = std::frexp(std::fabs(value), &exponent);
     const auto bits = static_cast<std::uint64_t>(std::ldexp(mantissa, k_digits));
     return (bits & k_short) == 0 ? 0.0 : std::ldexp(0.5, exponent - k_digits);
+}
+
+bool is_at_most(double a, double b, double scale) {
+    // A limit and a value have each passed a conversion of unit or two, and a limit with a guard band one operation more.
+    constexpr double k_roundings = 16.0;
+    return a <= b + k_roundings * std::numeric_limits<double>::epsilon() * std::abs(scale);
 }
 
 }  // namespace gumcert::gum

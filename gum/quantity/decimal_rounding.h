@@ -8,6 +8,10 @@ namespace gumcert::gum {
 /// \param value  finite
 [[nodiscard]] double decimal_rounding(double value);
 
+/// Whether a ≤ b in decimal numbers: in binary a may lie a few roundings of numbers as large as `scale` beyond. Every
+/// comparison of a value with a limit that somebody wrote down is made by this, or two of them contradict each other.
+[[nodiscard]] bool is_at_most(double a, double b, double scale);
+
 /// The part of a standard uncertainty that the rounding of numbers may reach unnoticed: U is printed with two digits.
 inline constexpr double k_accepted_rounding = 0.05;
 

@@ -63,7 +63,7 @@ void describe(Archive& a, UnknownStatement& r) {
 template <class Archive>
 void describe(Archive& a, OutputStatement& r) {
     describe_unit(a);
-    a("coverage_probability", r.coverage_probability, In{k_coverage_probability}, "Of this result.");
+    a("coverage_probability", r.coverage_probability, In{k_probability_of_results}, "Of this result.");
     a("coverage", r.coverage, gum::k_coverage_choices, "Which evaluation of this result is reported.");
     a.by_hand("description", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
               "What the quantity is.");
@@ -137,7 +137,7 @@ template <class Archive>
 void describe(Archive& a, BudgetStatement& r) {
     describe_head(a, k_budget_kind);
     a("title", r.job.title, Line{1000}, "Free text.");
-    a("coverage_probability", r.job.coverage_probability, In{k_coverage_probability},
+    a("coverage_probability", r.job.coverage_probability, In{k_probability_of_results},
       "Of all results that do not state their own; 0.9545 when left out.");
     describe_certificate(a);
     a.part("monte_carlo", r.monte_carlo,

@@ -340,7 +340,7 @@ void describe(Archive& a, ComparisonStatement& r) {
                   "Between laboratories (participants), or of a method with a reference method (lab and reference).");
     a("title", r.job.title, k_sentence, "Free text.");
     describe_notes(a);
-    a("coverage_probability", r.job.coverage_probability, In{k_coverage_probability}, "0.9545 when left out.");
+    a("coverage_probability", r.job.coverage_probability, In{k_probability_of_results}, "0.9545 when left out.");
     a("organiser", r.job.organiser, k_sentence, "Of the comparison, for the report.");
     a.by_code("independent_sources", Several{Label{}},
               "Sources that several budgets name, and that are not shared all the same.");

@@ -118,6 +118,10 @@ bool is_not_a_number(const std::string& text) {
     return text == "NaN" || text == "nan" || text == "INF" || text == "-INF" || text == "inf" || text == "-inf";
 }
 
+bool holds_number(const std::string& text) {
+    return !text.empty() && !is_not_a_number(text);
+}
+
 std::optional<double> number_of(const std::string& text) {
     const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
     double value = 0.0;
@@ -308,8 +312,11 @@ void Reader::uncertainty_from(const XmlElement& stated, std::span<ImportedNumber
             }
         }
         for (const std::string* text : {&number.u, &number.U, &number.low, &number.high}) {
-            // A row of a list may have none; a number that it would be printed beside has one or the other.
-            if (is_not_a_number(*text) && number.objection.empty()) {
+            // A row of a list may have no value, and no uncertainty then; beside a value NaN is no statement.
+            // An interval of a distribution without variance has no standard uncertainty.
+            const bool without_variance = text == &number.u && holds_number(number.low) && holds_number(number.high);
+            if (is_not_a_number(*text) && !is_not_a_number(number.value) && !without_variance &&
+                number.objection.empty()) {
                 number.objection = "its uncertainty is stated as " + *text;
             }
         }
@@ -363,6 +370,9 @@ void Reader::uncertainty_in(const XmlElement& holder, std::span<ImportedNumber> 
             uncertainty_in(child, numbers);
         } else if (std::find(k_statements.begin(), k_statements.end(), child.name) != k_statements.end()) {
             std::vector<ImportedNumber> stated(numbers.size());
+            for (std::size_t row = 0; row < numbers.size(); ++row) {
+                stated[row].value = numbers[row].value;
+            }
             uncertainty_from(child, stated);
             for (std::size_t row = 0; row < numbers.size(); ++row) {
                 add_statement(stated[row], numbers[row]);

@@ -26,9 +26,10 @@ constexpr const char* k_nothing = "NaN";
 // JCGM 100:2008, 7.2.6: at most two digits of an uncertainty say something.
 constexpr int k_digits_of_u = 2;
 
-/// What is stated of the uncertainty of a value. A column whose values state different things is written once for each
-/// of them, because a list of D-SI states one.
-enum class Stated { nothing, expanded, interval, standard };
+/// What is stated of the uncertainty of a value. A list of D-SI states one of these, so a column whose values state
+/// different things is written as one list for each, with the values of its own rows only: the same value twice, once
+/// with its uncertainty and once with NaN, would contradict itself.
+enum class Stated { expanded, interval, standard, nothing };
 
 bool has_usable_factor(const CertifiedValue& v) {
     return d_si_coverage_factor(v.printed_k) != k_nothing;
@@ -58,8 +59,14 @@ std::string distribution_of(const CertifiedValue& v) {
 struct Column {
     const CertifiedTable& table;
     const CertifiedColumn& column;
-    bool list;  ///< lists, even of one row; else single numbers
+    bool list;                        ///< lists, even of one row; else single numbers
+    Stated stated = Stated::nothing;  ///< what the list that is written states
 
+    /// Whether a value belongs to the list that is written.
+    [[nodiscard]] bool has(const CertifiedValue& v) const { return stated_of(v) == stated; }
+    [[nodiscard]] const Verdict* verdict(const CertifiedValue& v, const std::string& specification) const {
+        return has(v) && v.verdict && v.verdict->specification == specification ? &*v.verdict : nullptr;
+    }
     [[nodiscard]] std::vector<std::string> entries(const std::function<std::string(const CertifiedValue&)>& of) const {
         std::vector<std::string> all;
         for (const CertifiedValue& v : column.values) {
@@ -74,11 +81,10 @@ void number_or_list(DccWriter& w, const Column& c, const std::string& name, cons
     w.xml.element(c.list ? name + "XMLList" : name, c.list ? joined_list(entries) : entries.front());
 }
 
-void uncertainty(DccWriter& w, const Column& c, Stated stated) {
+void uncertainty(DccWriter& w, const Column& c) {
     const auto only = [&](const std::function<std::string(const CertifiedValue&)>& text) {
-        // A list of D-SI needs one entry a value, so a row that states something else has NaN here and its numbers in
-        // the other list.
-        return c.entries([&](const CertifiedValue& v) { return stated_of(v) == stated ? text(v) : k_nothing; });
+        // Rows of a table share their position in all of its lists: a row of another list has NaN here, also as value.
+        return c.entries([&](const CertifiedValue& v) { return c.has(v) ? text(v) : k_nothing; });
     };
     const std::string suffix = c.list ? "XMLList" : "";
     std::vector<std::string> probabilities;
@@ -93,7 +99,7 @@ void uncertainty(DccWriter& w, const Column& c, Stated stated) {
                        }));
     };
     w.xml.open("si:measurementUncertaintyUnivariate" + suffix);
-    if (stated == Stated::expanded) {
+    if (c.stated == Stated::expanded) {
         w.xml.open("si:expandedMU" + suffix);
         number_or_list(w, c, "si:valueExpandedMU", only([&](const CertifiedValue& v) {
                            return required_d_si_number(v.printed_U, c.column.result);
@@ -102,7 +108,7 @@ void uncertainty(DccWriter& w, const Column& c, Stated stated) {
                        only([](const CertifiedValue& v) { return d_si_coverage_factor(v.printed_k); }));
         number_or_list(w, c, "si:coverageProbability", probabilities);
         number_or_list(w, c, "si:distribution", c.entries(distribution_of));
-    } else if (stated == Stated::interval) {
+    } else if (c.stated == Stated::interval) {
         w.xml.open("si:coverageIntervalMU" + suffix);
         u();
         number_or_list(w, c, "si:intervalMin", only([&](const CertifiedValue& v) {
@@ -144,10 +150,6 @@ std::string conformity_word(const std::string& verdict) {
         return "conditionalPass";
     }
     return verdict == "conditional_fail" ? "conditionalFail" : "noPass";
-}
-
-const Verdict* verdict_for(const CertifiedValue& v, const std::string& specification) {
-    return v.verdict && v.verdict->specification == specification ? &*v.verdict : nullptr;
 }
 
 /// How the layout of a table calls a result; none: it has no layout, or does not.
@@ -195,7 +197,7 @@ void numbers_quantity(DccWriter& w, const Column& c, const Text& name, const std
 void limit(DccWriter& w, const Column& c, const std::string& specification, const std::string& word,
            const std::function<std::string(const Verdict&)>& text) {
     const std::vector<std::string> entries = c.entries([&](const CertifiedValue& v) {
-        const Verdict* const verdict = verdict_for(v, specification);
+        const Verdict* const verdict = c.verdict(v, specification);
         return verdict == nullptr ? k_nothing : d_si_number(text(*verdict));
     });
     if (std::any_of(entries.begin(), entries.end(), [](const std::string& e) { return e != k_nothing; })) {
@@ -209,7 +211,7 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     std::vector<std::string> exact;
     std::vector<const Verdict*> formulas;  // several where an alternative of the rule decided some of the values
     for (const CertifiedValue& v : c.column.values) {
-        const Verdict* const verdict = verdict_for(v, specification);
+        const Verdict* const verdict = c.verdict(v, specification);
         const auto same = [&](const Verdict* one) { return one->formula == verdict->formula; };
         if (verdict != nullptr && !verdict->formula.empty() && std::none_of(formulas.begin(), formulas.end(), same)) {
             formulas.push_back(verdict);
@@ -243,7 +245,7 @@ void conformity(DccWriter& w, const Column& c, const std::string& specification)
     const auto percent = [&](const char* word, const std::function<std::string(const Verdict&)>& text) {
         words_quantity(w, words("dcc", "limits", word) + " [%]", w.ref_types()(word),
                        c.entries([&](const CertifiedValue& v) {
-                           const Verdict* const verdict = verdict_for(v, specification);
+                           const Verdict* const verdict = c.verdict(v, specification);
                            return verdict == nullptr ? std::string() : text(*verdict);
                        }));
     };
@@ -257,8 +259,9 @@ void flags(DccWriter& w, const Column& c, const XmlWriter::Attributes& attribute
            const std::function<bool(const CertifiedValue&)>& flag) {
     w.xml.open("dcc:metaData", attributes);
     w.optional_text("dcc:declaration", declaration);
-    w.xml.element(c.list ? "dcc:validXMLList" : "dcc:valid",
-                  full_list(c.entries([&](const CertifiedValue& v) { return flag(v) ? "true" : "false"; })));
+    w.xml.element(
+        c.list ? "dcc:validXMLList" : "dcc:valid",
+        full_list(c.entries([&](const CertifiedValue& v) { return c.has(v) && flag(v) ? "true" : "false"; })));
     w.xml.close();
 }
 
@@ -266,6 +269,9 @@ void meta_data(DccWriter& w, const Column& c) {
     std::vector<std::string> specifications;
     bool raised = false;
     for (const CertifiedValue& v : c.column.values) {
+        if (!c.has(v)) {
+            continue;
+        }
         raised = raised || v.raised;
         if (v.verdict &&
             std::find(specifications.begin(), specifications.end(), v.verdict->specification) == specifications.end()) {
@@ -292,33 +298,32 @@ void meta_data(DccWriter& w, const Column& c) {
     w.xml.close();
 }
 
-void column_once(DccWriter& w, const Column& c, Stated stated, bool with_meta_data) {
+void column_once(DccWriter& w, const Column& c) {
     const certificate::ShownColumn* const as = shown_as(c.table, c.column.result);
     const std::string known =
         w.ref_types()(as != nullptr && !as->role.empty() ? "role_" + as->role : "value_" + c.table.id);
     const std::string ref_type = known.empty() ? w.ref_types()("value_results") : known;
     w.xml.open("dcc:quantity", {{"refType", ref_type + " gumcert_" + as_token(c.column.result)}});
     w.text("dcc:name", result_meaning(c.table, c.column, w.words()));
-    if (stated == Stated::standard) {
+    if (c.stated == Stated::standard) {
         w.text("dcc:description", note_on_standard(w, c));
     }
     w.xml.open(c.list ? "si:realListXMLList" : "si:real");
     w.xml.element(c.list ? "si:labelXMLList" : "si:label", as_token(c.column.result));
     // The text that is printed, not the number behind it: readers of the XML and of the page must get the same value.
-    const std::vector<std::string> values =
-        c.entries([&](const CertifiedValue& v) { return required_d_si_number(v.printed_value, c.column.result); });
+    const std::vector<std::string> values = c.entries([&](const CertifiedValue& v) {
+        return c.has(v) ? required_d_si_number(v.printed_value, c.column.result) : k_nothing;
+    });
     w.xml.element(c.list ? "si:valueXMLList" : "si:value", full_list(values));
     w.xml.element(c.list ? "si:unitXMLList" : "si:unit", d_si_unit(c.column.unit));
-    if (stated != Stated::nothing) {
-        uncertainty(w, c, stated);
+    if (c.stated != Stated::nothing) {
+        uncertainty(w, c);
     }
     w.xml.close();
     if (as != nullptr) {
         write_stage(w, as->stage);
     }
-    if (with_meta_data) {
-        meta_data(w, c);
-    }
+    meta_data(w, c);
     w.xml.close();
 }
 
@@ -339,13 +344,8 @@ void write_column(DccWriter& w, const Column& c) {
     for (const CertifiedValue& v : c.column.values) {
         kinds.insert(stated_of(v));
     }
-    if (kinds.size() > 1) {
-        kinds.erase(Stated::nothing);  // these rows state NaN beside the others
-    }
-    bool first = true;
     for (const Stated stated : kinds) {
-        column_once(w, c, stated, first);
-        first = false;
+        column_once(w, {.table = c.table, .column = c.column, .list = c.list, .stated = stated});
     }
     degrees_of_freedom(w, c);
 }

@@ -92,6 +92,16 @@ Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
     parameter("U_max", s.rule.largest_U, unit);
     parameter("EOPR", s.rule.population_reliability, "");
     parameter("s_0", s.rule.population_deviation, unit);
+    if (s.rule.population_deviation || s.rule.population_reliability) {
+        // Without a centre the population lies in the middle; who recomputes the risk must know it.
+        const std::optional<double> middle =
+            s.lower && s.upper ? std::optional(0.5 * (*s.lower + *s.upper)) : std::nullopt;
+        parameter("y_0", s.rule.population_centre ? s.rule.population_centre : middle, unit);
+    }
+    if (!s.rule.method.empty()) {
+        const Text one = words.filled("statement", "rule_method", {{"method", s.rule.method}});
+        text = text.empty() ? one : text + "; " + one;
+    }
     return text;
 }
 
@@ -199,6 +209,25 @@ Text of_rows(const Text& sentence, const Certificate& certificate, const Certifi
     return words.filled("statement", "of_rows", {{"names", names}, {"sentence", sentence}});
 }
 
+/// The global probability of false acceptance, where no table of verdicts states it value by value: ANSI/NCSL Z540.3, 5.3, is
+/// about this number, and a note may speak of it.
+Text global_risk(const std::vector<Decided>& decided, const Wording& words) {
+    const certificate::Verdict* largest = nullptr;
+    bool differ = false;
+    for (const Decided& d : decided) {
+        const certificate::Verdict& v = *d.value->verdict;
+        if (v.false_accept && !v.printed.false_accept.empty()) {
+            differ = differ || (largest != nullptr && largest->printed.false_accept != v.printed.false_accept);
+            largest = largest == nullptr || *v.false_accept > *largest->false_accept ? &v : largest;
+        }
+    }
+    if (largest == nullptr || !all_are_shown(decided)) {
+        return {};
+    }
+    return " " + words.filled("statement", differ ? "conformity_global_risk_most" : "conformity_global_risk",
+                              {{"risk", words.number(largest->printed.false_accept)}});
+}
+
 /// Guard band and risks of values that were decided by one formula.
 Text width_and_risks(const std::vector<Decided>& decided, const Wording& words) {
     const auto bands = common(texts_of(decided, [](const auto& d) {
@@ -215,6 +244,7 @@ Text width_and_risks(const std::vector<Decided>& decided, const Wording& words) 
     if (risks && !risks->empty()) {
         text += " " + words.filled("statement", "conformity_risk", {{"risk", words.number(*risks)}});
     }
+    text += global_risk(decided, words);
     const Text conditional = risk_of_conditional_pass(decided, words);
     return conditional.empty() ? text : text + " " + conditional;
 }

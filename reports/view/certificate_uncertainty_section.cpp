@@ -49,15 +49,29 @@ Text profile_sentence(const certificate::LocalisedText& sentence, const Text& k,
     return Text(std::move(texts));
 }
 
-/// Trials of what was evaluated by Monte Carlo, where the record holds them.
-std::string trials_of(const EvaluationRecord& record) {
+/// Trials of the values that were evaluated by Monte Carlo, where the record holds them: "8080000"; "6910000 … 8080000"
+/// where results took different numbers of them.
+Text trials_of(const EvaluationRecord& record, const std::vector<const CertifiedValue*>& values, const Wording& words) {
+    const auto is_stated = [&](const Result& r) {
+        return std::any_of(values.begin(), values.end(), [&](const CertifiedValue* v) {
+            return r.reported.interval && v->interval && v->value == r.reported.value &&
+                   v->interval->first == (*r.reported.interval)[0] && v->interval->second == (*r.reported.interval)[1];
+        });
+    };
+    const bool some_are_found = std::any_of(record.results.begin(), record.results.end(), is_stated);
+    std::map<double, std::string> all;
     for (const Result& r : record.results) {
-        if (r.monte_carlo) {
-            const MonteCarloSummary& m = *r.monte_carlo;
-            return m.trials.text.empty() ? plain(m.trials.number) : m.trials.text;
+        if (r.monte_carlo && (is_stated(r) || !some_are_found)) {
+            const auto& trials = r.monte_carlo->trials;
+            all.emplace(static_cast<double>(trials.number), trials.text.empty() ? plain(trials.number) : trials.text);
         }
     }
-    return record.rotary && record.rotary->monte_carlo ? plain(record.rotary->monte_carlo->trials) : std::string();
+    if (all.empty()) {
+        return record.rotary && record.rotary->monte_carlo ? words.number(plain(record.rotary->monte_carlo->trials))
+                                                           : Text();
+    }
+    const Text fewest = words.number(all.begin()->second);
+    return all.size() == 1 ? fewest : fewest + "\u00A0…\u00A0" + words.number(all.rbegin()->second);
 }
 
 /// "shortest" where a certified interval is the shortest one of its result, "symmetric" else.
@@ -140,7 +154,7 @@ Text coverage_sentence(Coverage c, const CertifiedOverview& overview, const Eval
             return words.fill("coverage_monte_carlo", {{"p", p}});
         case Coverage::interval:
             return words.filled("statement", "uncertainty_interval",
-                                {{"trials", words.number(trials_of(record))},
+                                {{"trials", trials_of(record, values, words)},
                                  {"kind", words("statement", "interval_" + interval_kind(record, values))},
                                  {"p", p}});
         case Coverage::none:
@@ -150,7 +164,25 @@ Text coverage_sentence(Coverage c, const CertifiedOverview& overview, const Eval
     return words.fill("coverage_none", {});
 }
 
-/// Names of what the budget contains, each once.
+/// Whether a result, or its values at the points, stand in the tables of the certificate.
+bool is_certified(const Result& result, const EvaluationRecord& record) {
+    const std::string& name = result.quantity.empty() ? result.name : result.quantity;
+    const auto& tables = record.certificate->tables;
+    return std::any_of(tables.begin(), tables.end(), [&](const certificate::CertifiedTable& table) {
+        return std::any_of(table.columns.begin(), table.columns.end(),
+                           [&](const auto& column) { return column.result == name || column.result == result.name; });
+    });
+}
+
+/// Whether a row of a budget adds to the uncertainty of its result. Where no row has a sensitivity the uncertainty of the input
+/// is all that is known of it.
+bool contributes(const BudgetRow& row, const Result& result) {
+    const bool has_sensitivities = std::any_of(result.budget.begin(), result.budget.end(),
+                                               [](const BudgetRow& r) { return r.contribution.number != 0.0; });
+    return has_sensitivities ? row.contribution.number != 0.0 : row.u.number != 0.0;
+}
+
+/// Names of what contributes to the uncertainty of a certified result, each once.
 std::vector<Text> contributions(const EvaluationRecord& record, const Wording& words) {
     std::vector<Text> names;
     const auto see = [&](const Text& name) {
@@ -164,8 +196,13 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
         }
         return names;  // the inputs of the set-up errors have these sources, under other names
     }
+    const bool some_are_certified = std::any_of(record.results.begin(), record.results.end(),
+                                                [&](const Result& r) { return is_certified(r, record); });
     for (const Result& r : record.results) {
         for (const BudgetRow& row : r.budget) {
+            if ((some_are_certified && !is_certified(r, record)) || !contributes(row, r)) {
+                continue;
+            }
             if (row.role != "fit") {
                 see(row.input);
                 continue;

@@ -1,5 +1,6 @@
 #include "reports/view/comparison_laboratory_sections.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/plots/comparison_plots.h"
@@ -309,7 +310,7 @@ void factors_in_brief(CertificateBuilder& builder, const Wording& words, const C
         builder.paragraph(
             words.filled("comparison", "factors_in_brief",
                          {{"names", some_of(words, names)},
-                          {"p", words.number(gum::round_significant(100.0 * c.score_probability, 4) + " %")}}));
+                          {"p", words.number(certificate::printed_coverage_probability(c.score_probability) + " %")}}));
     }
 }
 

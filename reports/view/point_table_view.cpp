@@ -198,12 +198,15 @@ private:
         const ShownColumn c{.show = "", .of = of_result.of, .heading = {}, .role = "", .stage = of_result.stage};
         const auto is_interval = [](const CertifiedValue& v) { return coverage_of(v) == Coverage::interval; };
         if (any(*of, is_interval)) {
-            const auto end = [&](const char* head, std::string CertifiedValue::*text) {
+            const auto column = [&](const char* head, std::string CertifiedValue::*text) {
                 put(c, words_("certificate", head), of->printed_unit, true, *of,
                     [=](const CertifiedValue& v) { return Text(is_interval(v) ? v.*text : ""); });
             };
-            end("low", &CertifiedValue::printed_low);
-            end("high", &CertifiedValue::printed_high);
+            if (any(*of, [&](const auto& v) { return is_interval(v) && !v.printed_u.empty(); })) {
+                column("u", &CertifiedValue::printed_u);
+            }
+            column("low", &CertifiedValue::printed_low);
+            column("high", &CertifiedValue::printed_high);
         }
         const auto has = [&](const char* show) {
             return std::any_of(table_.layout->shown.begin(), table_.layout->shown.end(),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "certificate/statement_of_uncertainty.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/unit_table.h"
 #include "gum/rounding.h"
@@ -23,7 +24,7 @@ reports::EvaluationRecord record_head(std::string_view kind, const JobHead& job,
     record.kind = kind;
     record.title = job.title;
     record.coverage_probability = {job.coverage_probability,
-                                   gum::round_significant(100.0 * job.coverage_probability, 4) + " %"};
+                                   certificate::printed_coverage_probability(job.coverage_probability) + " %"};
     record.job_json = gumcert::json::canonical_json(job.document);
     record.job_files = files;
     // The sizes of units that the numbers were found with.

@@ -204,5 +204,17 @@ TEST(StatementOfUncertainty, ANumberOfTheScopeIsHeldAsItIs) {
     EXPECT_FALSE(states_capability(0.1778, "0.2", {}));
 }
 
+TEST(CoverageProbability, IsNeverPrintedAsAHundred) {
+    EXPECT_EQ(printed_coverage_probability(0.9545), "95.45");
+    EXPECT_EQ(printed_coverage_probability(0.95), "95.00");
+    EXPECT_EQ(printed_coverage_probability(0.9973), "99.73");
+    EXPECT_EQ(printed_coverage_probability(0.99999), "99.999");
+    for (double outside = 0.5; outside > 1e-9; outside *= 0.83) {
+        const std::string text = printed_coverage_probability(1.0 - outside);
+        const double read = 1.0 - *number_of(text) / 100.0;
+        EXPECT_NEAR(read / outside, 1.0, 0.06) << text << ", 1 - p = " << outside;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

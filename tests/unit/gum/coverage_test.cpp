@@ -131,6 +131,32 @@ TEST(CoverageFactor, FallsWithDegreesOfFreedomToTheNormalValue) {
     EXPECT_TRUE(agrees(coverage_factor(0.95, k_infinity), 1.959963984540054, 1e-14));
 }
 
+/// mpmath with 40 digits: the regularised incomplete beta function, solved for t; the inverse error function.
+TEST(CoverageFactor, KeepsItsDigitsForSmallProbabilities) {
+    EXPECT_TRUE(agrees(coverage_factor(1e-10, 5), 1.3171527620701362e-10, 1e-14));
+    EXPECT_TRUE(agrees(coverage_factor(1e-300, 5), 1.3171527620701362e-300, 1e-14));
+    EXPECT_TRUE(agrees(coverage_factor(1e-4, 0.5), 0.00018540747091691423, 1e-13));
+    EXPECT_TRUE(agrees(coverage_factor(1e-10, 1), 1.5707963267948967e-10, 1e-14));
+    EXPECT_TRUE(agrees(coverage_factor(0.0009, 3), 0.0012243149786764623, 1e-13));
+    EXPECT_TRUE(agrees(coverage_factor(1e-10, k_infinity), 1.2533141373155003e-10, 1e-14));
+}
+
+TEST(CoverageFactor, IsAboveZeroAndRisesWithTheProbability) {
+    for (const double nu : {1e-3, 0.5, 1.0, 2.7, 30.0, 1e6, k_infinity}) {
+        double previous = 0.0;
+        for (double p = 1e-300; p < 0.1; p *= 1.7) {
+            double k = std::numeric_limits<double>::infinity();
+            try {
+                k = coverage_factor(p, nu);
+            } catch (const NoResultError&) {
+                break;  // too large for a double, and so for every larger p
+            }
+            EXPECT_GT(k, previous) << "p = " << p << ", nu = " << nu;
+            previous = k;
+        }
+    }
+}
+
 TEST(CoverageFactor, RefusesWhatIsNoProbability) {
     for (const double p : {0.0, 1.0, -0.1, 1.1, 95.45, std::nan(""), k_infinity}) {
         EXPECT_EQ(code_of<InputError>([&] { (void)coverage_factor(p, 10.0); }), "GC-GUM-0004") << p;
@@ -299,6 +325,12 @@ TEST(EllipsoidCoverageFactor, OfOneScale) {
             agrees(ellipsoid_coverage_factor(0.95, 1, nu, EstimatedSpread::scale), coverage_factor(0.95, nu), 1e-10))
             << nu;
     }
+}
+
+TEST(EllipsoidFactor, RefusesWhatHasNoFactor) {
+    EXPECT_EQ(code_of<InputError>([] { (void)ellipsoid_coverage_factor(0.95, 0, 2.0); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<InputError>([] { (void)ellipsoid_coverage_factor(0.95, 0, k_infinity); }), "GC-GUM-0003");
+    EXPECT_EQ(code_of<NoResultError>([] { (void)ellipsoid_coverage_factor(0.95, 3, 2.0000001); }), "GC-GUM-0010");
 }
 
 }  // namespace

@@ -79,6 +79,18 @@ TEST(PointHeadings, TellResultsOfOneRoleApart) {
     EXPECT_EQ(heading(table, 5), "Error e_dn");
 }
 
+/// A hysteresis has the role of a deviation, so that it is held against the place where it was measured.
+TEST(PointHeadings, ADeviationIsCalledByItsDescription) {
+    CertifiedTable table = two_of_each();
+    table.columns[0].name = "hysteresis";
+    table.layout->shown[2].role = "deviation";
+    EXPECT_EQ(heading(table, 2), "hysteresis");
+    table.columns[0].name = "Deviation of the set torque from the torque measured";
+    EXPECT_EQ(heading(table, 2), "Deviation") << "it says no more";
+    table.columns[0].name = "e_up";
+    EXPECT_EQ(heading(table, 2), "Deviation");
+}
+
 TEST(PointHeadings, StagesTellThemApartAlready) {
     CertifiedTable table = two_of_each();
     table.layout->shown[1].stage = table.layout->shown[2].stage = "as_found";

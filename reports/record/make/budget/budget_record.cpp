@@ -554,7 +554,7 @@ reports::EvaluationRecord budget_record(const BudgetJob& job, const gum::BudgetR
                     out.description_by_language = described->second;
                 }
             }
-            out.value = unit.from_si(point.propagation.value(index));
+            out.value = recorded_value(point.propagation.value(index), roundings(index), unit);
             if (from.coverage_note == gum::k_exact_by_definition) {
                 out.value = held_digits(out.value, unit.difference_from_si(roundings(index)));
             }

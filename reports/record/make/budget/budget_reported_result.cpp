@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "gum/monte_carlo/monte_carlo.h"
@@ -24,6 +26,14 @@ int held_digits_of(double number, double error, int asked) {
 }
 
 }  // namespace
+
+double recorded_value(double si, double rounding, const gum::Unit& unit) {
+    // BudgetModel::rounding() counts one rounding of every input and step; the inputs themselves are means and converted
+    // numbers, and the result is converted once more.
+    constexpr double k_roundings = 8.0;
+    const double lost = k_roundings * rounding + std::numeric_limits<double>::epsilon() * std::abs(si);
+    return gum::settled_decimal(unit.from_si(si), unit.difference_from_si(lost));
+}
 
 reports::ReportedResult reported_of(const gum::BudgetOutputResult& output, double y, const gum::Unit& unit,
                                     const gum::Budget& budget) {

@@ -143,6 +143,34 @@ std::string text_at(const Texts& texts, const std::string& at) {
     return found == texts.end() ? "" : found->text;
 }
 
+/// Numbers of the data with the unit that stands beside them: "upper" of a specification, "minimum" of a condition.
+void add_units(Texts& texts) {
+    static constexpr std::array<std::string_view, 9> k_with_unit = {
+        "lower", "upper", "minimum", "maximum", "value", "U", "guard_band", "largest_U", "population_deviation"};
+    std::map<std::string, std::string> units;
+    for (const StatedLeaf& leaf : texts) {
+        if (leaf.at.ends_with("/unit")) {
+            units.emplace(leaf.at.substr(0, leaf.at.size() - std::string_view("/unit").size()), leaf.text);
+        }
+    }
+    for (StatedLeaf& leaf : texts) {
+        const std::size_t slash = leaf.at.rfind('/');
+        const std::string_view key = std::string_view(leaf.at).substr(slash + 1);
+        if (leaf.kind != std::string_view("number") ||
+            std::find(k_with_unit.begin(), k_with_unit.end(), key) == k_with_unit.end()) {
+            continue;
+        }
+        std::string parent = leaf.at.substr(0, slash);
+        if (parent.ends_with("/rule")) {
+            parent.resize(parent.size() -
+                          std::string_view("/rule").size());  // parameters are in the unit of the limits
+        }
+        if (const auto unit = units.find(parent); unit != units.end()) {
+            leaf.text += "\u00A0" + unit->second;
+        }
+    }
+}
+
 void compare_texts(const Certificate& earlier, const Certificate& later, std::vector<Change>& changes) {
     Texts before;
     Texts after;
@@ -150,14 +178,23 @@ void compare_texts(const Certificate& earlier, const Certificate& later, std::ve
     describe(of_earlier, earlier.data);
     StatedTexts of_later(after);
     describe(of_later, later.data);
+    // Compared without their units: where a unit alone is another one, it is told itself, and not at every number beside it.
+    Texts shown_before = before;
+    Texts shown_after = after;
+    add_units(shown_before);
+    add_units(shown_after);
     for (const StatedLeaf& now : after) {
-        if (const std::string old = text_at(before, now.at); !is_left_out(now.at) && old != now.text) {
-            changes.push_back({.kind = now.kind, .where = now.at, .before = old, .after = now.text});
+        if (!is_left_out(now.at) && text_at(before, now.at) != now.text) {
+            changes.push_back({.kind = now.kind,
+                               .where = now.at,
+                               .before = text_at(shown_before, now.at),
+                               .after = text_at(shown_after, now.at)});
         }
     }
     for (const StatedLeaf& old : before) {
         if (!is_left_out(old.at) && text_at(after, old.at).empty()) {
-            changes.push_back({.kind = old.kind, .where = old.at, .before = old.text, .after = ""});
+            changes.push_back(
+                {.kind = old.kind, .where = old.at, .before = text_at(shown_before, old.at), .after = ""});
         }
     }
 }
@@ -167,6 +204,8 @@ void compare_texts(const Certificate& earlier, const Certificate& later, std::ve
 struct PrintedMember {
     std::string_view at, kind;
     enum class Unit { none, of_column, percent } unit = Unit::none;
+    /// Stands in the table of verdicts only, which the certificate has where its results do not show their verdicts.
+    bool of_verdict_table = false;
 };
 constexpr std::array<PrintedMember, 21> k_printed_members{{
     {"/printed_value", "value", PrintedMember::Unit::of_column},
@@ -182,14 +221,14 @@ constexpr std::array<PrintedMember, 21> k_printed_members{{
     {"/verdict/note", "note"},
     {"/verdict/printed/lower", "limit_low", PrintedMember::Unit::of_column},
     {"/verdict/printed/upper", "limit_high", PrintedMember::Unit::of_column},
-    {"/verdict/printed/acceptance_lower", "acceptance_low", PrintedMember::Unit::of_column},
-    {"/verdict/printed/acceptance_upper", "acceptance_high", PrintedMember::Unit::of_column},
-    {"/verdict/printed/conformance_probability", "conformance_probability", PrintedMember::Unit::percent},
-    {"/verdict/printed/specific_risk", "specific_risk", PrintedMember::Unit::percent},
-    {"/verdict/printed/largest_specific_risk", "largest_specific_risk", PrintedMember::Unit::percent},
-    {"/verdict/printed/false_accept", "false_accept", PrintedMember::Unit::percent},
-    {"/verdict/printed/false_reject", "false_reject", PrintedMember::Unit::percent},
-    {"/verdict/printed/test_uncertainty_ratio", "test_uncertainty_ratio"},
+    {"/verdict/printed/acceptance_lower", "acceptance_low", PrintedMember::Unit::of_column, true},
+    {"/verdict/printed/acceptance_upper", "acceptance_high", PrintedMember::Unit::of_column, true},
+    {"/verdict/printed/conformance_probability", "conformance_probability", PrintedMember::Unit::percent, true},
+    {"/verdict/printed/specific_risk", "specific_risk", PrintedMember::Unit::percent, true},
+    {"/verdict/printed/largest_specific_risk", "largest_specific_risk", PrintedMember::Unit::percent, true},
+    {"/verdict/printed/false_accept", "false_accept", PrintedMember::Unit::percent, true},
+    {"/verdict/printed/false_reject", "false_reject", PrintedMember::Unit::percent, true},
+    {"/verdict/printed/test_uncertainty_ratio", "test_uncertainty_ratio", PrintedMember::Unit::none, true},
 }};
 
 /// Something that the tables of results show.
@@ -210,9 +249,18 @@ std::string in_all_languages(const certificate::LocalisedText& text) {
     return all;
 }
 
+/// Whether limits and verdict of a result stand in the table of results: then nothing else of the decision is printed value by
+/// value (reports/view, certificate_conformity_section).
+bool shows_verdict(const CertifiedTable& table, const std::string& result) {
+    return table.layout &&
+           std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
+                       [&](const certificate::ShownColumn& c) { return c.show == "verdict" && c.of == result; });
+}
+
 /// What is printed of one value; a member that is not printed is an empty text.
-void show_value(const CertifiedColumn& column, const CertifiedValue& value, const std::string& where,
-                std::vector<TableText>& shown) {
+void show_value(const CertifiedTable& table, const CertifiedColumn& column, const CertifiedValue& value,
+                const std::string& where, std::vector<TableText>& shown) {
+    const bool in_results = shows_verdict(table, column.result);
     Texts texts;
     StatedTexts of_value(texts);
     describe(of_value, value);
@@ -222,7 +270,8 @@ void show_value(const CertifiedColumn& column, const CertifiedValue& value, cons
     }
     const auto show = [&](const PrintedMember& member) {
         const auto found = at.find(member.at);
-        const std::string text(found == at.end() ? std::string_view() : found->second);
+        const bool is_printed = found != at.end() && !(in_results && member.of_verdict_table);
+        const std::string text(is_printed ? found->second : std::string_view());
         const std::string unit = member.unit == PrintedMember::Unit::of_column ? column.printed_unit
                                  : member.unit == PrintedMember::Unit::percent ? "%"
                                                                                : "";
@@ -294,7 +343,7 @@ std::vector<TableText> shown_in_tables(const Certificate& certificate) {
             shown.push_back({"rule", column.result, of_verdicts(column, &certificate::Verdict::rule)});
             for (std::size_t i = 0; i < column.values.size(); ++i) {
                 const bool at_points = table.argument && i < table.argument->printed.size();
-                show_value(column, column.values[i],
+                show_value(table, column, column.values[i],
                            at_points ? column.result + " [" + table.argument->printed[i] + "]" : column.result, shown);
             }
         }
@@ -353,6 +402,62 @@ void compare_results(const Certificate& earlier, const Certificate& later, std::
     }
 }
 
+/// "D_u" of "D_u [10 bar]"; the whole where there is no point.
+std::string result_of_place(const std::string& where) {
+    return where.ends_with(']') ? where.substr(0, where.rfind(" [")) : where;
+}
+
+/// One change in place of those of all values of a result, where all are the same: a limit was agreed once, not at each point.
+/// Numbers that were measured stay at their points. A limit whose specification is told to have changed is not told again.
+/// \param texts  changes of the certificate data
+std::vector<Change> with_common_changes_once(const std::vector<Change>& changes, const std::vector<Change>& texts,
+                                             const Certificate& later) {
+    static constexpr std::array<std::string_view, 5> k_agreed = {"limit_low", "limit_high", "acceptance_low",
+                                                                 "acceptance_high", "note"};
+    const auto is_agreed = [](const Change& c) {
+        return std::find(k_agreed.begin(), k_agreed.end(), c.kind) != k_agreed.end();
+    };
+    std::map<std::string, std::size_t> rows;
+    std::map<std::string, std::string> specification_of;
+    for (const CertifiedTable& table : later.tables) {
+        for (const CertifiedColumn& column : table.columns) {
+            specification_of[column.result] = of_verdicts(column, &certificate::Verdict::specification);
+            rows[column.result] += static_cast<std::size_t>(
+                std::count_if(column.values.begin(), column.values.end(), [](const auto& v) { return v.verdict; }));
+        }
+    }
+    const auto is_told_of_specification = [&](const std::string& result, const std::string& kind) {
+        const auto& all = later.data.specifications;
+        const std::string key = kind == "limit_low" ? "/lower" : kind == "limit_high" ? "/upper" : "";
+        return !key.empty() && std::any_of(texts.begin(), texts.end(), [&](const Change& text) {
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if (all[i].id == specification_of[result] &&
+                    text.where == "/specifications/" + std::to_string(i) + key) {
+                    return true;
+                }
+            }
+            return false;
+        });
+    };
+    std::vector<Change> once;
+    std::set<std::array<std::string, 4>> told;
+    for (const Change& change : changes) {
+        const std::string result = result_of_place(change.where);
+        const auto same = [&](const Change& other) {
+            return other.kind == change.kind && other.before == change.before && other.after == change.after &&
+                   result_of_place(other.where) == result;
+        };
+        const auto count = static_cast<std::size_t>(std::count_if(changes.begin(), changes.end(), same));
+        if (!is_agreed(change) || count < 2 || count != rows[result]) {
+            once.push_back(change);
+        } else if (!is_told_of_specification(result, change.kind) &&
+                   told.insert({result, change.kind, change.before, change.after}).second) {
+            once.push_back({.kind = change.kind, .where = result, .before = change.before, .after = change.after});
+        }
+    }
+    return once;
+}
+
 [[noreturn]] void refuse(const char* code, const std::string& where, std::string what, std::string rule,
                          std::string action) {
     throw gum::InputError(gum::Diagnostic{
@@ -362,9 +467,18 @@ void compare_results(const Certificate& earlier, const Certificate& later, std::
 }  // namespace
 
 std::vector<Change> changes_between(const Certificate& earlier, const Certificate& later) {
-    std::vector<Change> changes;
-    compare_results(earlier, later, changes);
-    compare_texts(earlier, later, changes);
+    std::vector<Change> of_results;
+    compare_results(earlier, later, of_results);
+    std::vector<Change> of_texts;
+    compare_texts(earlier, later, of_texts);
+    of_results = with_common_changes_once(of_results, of_texts, later);
+    // For whom and of what comes first, as on the certificate; then the results, then all else.
+    const auto rest = std::stable_partition(of_texts.begin(), of_texts.end(), [](const Change& change) {
+        return change.where.starts_with("/item") || change.where.starts_with("/customer");
+    });
+    std::vector<Change> changes(of_texts.begin(), rest);
+    changes.insert(changes.end(), of_results.begin(), of_results.end());
+    changes.insert(changes.end(), rest, of_texts.end());
     return changes;
 }
 

@@ -1,7 +1,9 @@
 #include "reports/record/make/certificate/certified_conformity.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "gum/conformity/conformity.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 
@@ -110,16 +113,30 @@ void print_limits(Verdict& verdict, int decimals) {
     verdict.printed.upper = limit(verdict.upper);
 }
 
+/// Behind the point for two significant digits of a guard band; none more where the second one is 0.
+int decimals_of_width(double w) {
+    constexpr int k_most = 18;
+    const std::string two = gum::round_significant(w, 2);
+    const std::string one = gum::round_significant(w, 1);
+    constexpr double k_noise = 1e-9;  // relative
+    const bool one_says_it = std::abs(certificate::number_of(one).value_or(0.0) - w) <= k_noise * std::abs(w);
+    return std::min(certificate::decimals_of(one_says_it ? one : two), k_most);
+}
+
 /// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
 /// with what stands beside them, and that the printed value is inside of them where the verdict says so.
 /// \param shown  the decision from the printed numbers
 void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
-    // Acceptance limits follow from U: they end where value and limits end.
+    // Acceptance limits follow from U: they end where value and limits end, or where w ends, of which two digits say what
+    // it is: 0.5·U is 0.55 and not 0.6 for U = 1.1.
     int finest = decimals;
     for (const std::string& text : {verdict.printed.lower, verdict.printed.upper}) {
         finest = text.empty() ? finest : std::max(finest, certificate::decimals_of(text));
     }
     const gum::ToleranceLimits& accepted = shown.acceptance;
+    if (shown.guard_band != 0.0 && (accepted.lower || accepted.upper)) {
+        finest = std::max(finest, decimals_of_width(shown.guard_band));
+    }
     verdict.printed.acceptance_lower = accepted.lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
     verdict.printed.acceptance_upper = accepted.upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
     const bool guarded = accepted.lower || accepted.upper;  // else no value is accepted, and there is no band
@@ -143,8 +160,25 @@ std::string error_of_count(const KnownDistribution& known, const Verdict& verdic
     }
     const auto trials = static_cast<double>(known.trials);
     const double p = std::clamp(verdict.conformance_probability, 1.0 / trials, 1.0 - 1.0 / trials);
+    // A reader of a page has no use for 1E-5.
+    const std::string one_digit = gum::round_significant(100.0 * std::sqrt(p * (1.0 - p) / trials), 1);
+    const double rounded = certificate::number_of(one_digit).value_or(0.0);
     return " The standard uncertainty of the conformance probability from their number is " +
-           gum::round_significant(100.0 * std::sqrt(p * (1.0 - p) / trials), 1) + " %.";
+           text::shortest_plain(rounded, 0.0) + " %.";
+}
+
+/// Whether a formula has the letter U as a quantity, or the ratio that is made with it: not TU, the limit, nor AU.
+bool names_U(const std::string& formula) {
+    const auto is_letter = [&](std::size_t at) {
+        return at < formula.size() && std::isalnum(static_cast<unsigned char>(formula[at])) != 0;
+    };
+    for (std::size_t at = formula.find('U'); at != std::string::npos; at = formula.find('U', at + 1)) {
+        const bool alone = !is_letter(at + 1) && (at == 0 || !is_letter(at - 1));
+        if (alone || formula.compare(at - std::min<std::size_t>(at, 1), 3, "TUR") == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void fill(Verdict& verdict, const ConformityDecision& decision) {
@@ -209,20 +243,26 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         const gum::Diagnostic& first = error.diagnostics().front();
         return not_applicable(verdict, first.what + ": " + first.rule);
     }
-    if (!known.note.empty() && (!known.function || numbers->unrounded.distribution)) {
+    // Where nothing was decided no probability is printed, and none has to be explained.
+    const bool is_open = verdict.verdict == "not_applicable" && !verdict.largest_specific_risk;
+    if (!known.note.empty() && !is_open && (!known.function || numbers->unrounded.distribution)) {
         verdict.note += (verdict.note.empty() ? "" : " ") + known.note + error_of_count(known, verdict);
         if (numbers->raised && numbers->unrounded.distribution) {
             verdict.note +=
                 " Its deviations from the value are widened in the ratio of the stated to the evaluated U, because the "
                 "capability of the laboratory is stated: k and the coverage probability hold for the stated U.";
         }
-        if (!value.U) {
+        if (!value.U && names_U(verdict.formula)) {
             verdict.note +=
                 " U in the formula of the rule is the larger distance of an end of the coverage interval "
                 "from the value.";
         }
     }
     print(verdict, shown, decimals);
+    if (is_open) {
+        verdict.printed.conformance_probability.clear();
+        verdict.printed.specific_risk.clear();
+    }
     return verdict;
 }
 

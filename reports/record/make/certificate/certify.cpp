@@ -242,7 +242,8 @@ private:
              .clause = "ILAC-P14:09/2020",
              .severity = certificate::FindingSeverity::critical,
              .where = column.result,
-             .what = "the expanded uncertainty has a coverage probability of " + gum::percent(p) + " %",
+             .what = "the expanded uncertainty has a coverage probability of " +
+                     certificate::printed_coverage_probability(p) + " %",
              .action = "State accredited results with a coverage probability of about 95 % (coverage_probability in "
                        "the job)."});
     }

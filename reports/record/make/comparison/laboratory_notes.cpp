@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/rounding.h"
 #include "reports/record/make/comparison/comparison_print.h"
 #include "reports/record/make/record_parts.h"
@@ -26,7 +27,7 @@ constexpr std::size_t k_most_names_in_remark = 12;
 
 /// A coverage probability: "95.45 %".
 std::string in_percent(double probability) {
-    return gum::round_significant(100.0 * probability, 4) + " %";
+    return certificate::printed_coverage_probability(probability) + " %";
 }
 
 /// The numbers of a comparison, and their texts in its record.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/record/make/comparison/comparison_print.h"
@@ -242,7 +243,7 @@ private:
         if (converted > 0) {
             say("At " + std::to_string(converted) + " of " + count_of_points() +
                 " a stated coverage factor is not that of about 95 %: En takes U = k u with the factor for " +
-                gum::round_significant(100.0 * result_.score_probability, 4) + " %" +
+                certificate::printed_coverage_probability(result_.score_probability) + " %" +
                 " and the stated degrees of freedom there.");
             if (std::any_of(comparison_.points.begin(), comparison_.points.end(), [](const gum::ComparedPoint& point) {
                     return (point.of_scores && point.of_scores->converted) ||

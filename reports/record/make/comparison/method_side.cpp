@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/budget/evaluate_budget.h"
 #include "gum/budget/expanded_about_value.h"
 #include "gum/budget/reported_covariance.h"
@@ -185,7 +186,7 @@ void add_remarks_on_U(const MethodBudget& budget, EvaluatedBudget& evaluated, co
         const gum::ResultUncertainty& u = side.uncertainty[i];
         const reports::ReportedResult reported = evaluated.reported(i, unit);
         const std::string at = budget.name[i].empty() ? "" : " at point " + budget.name[i];
-        const std::string percent = gum::round_significant(100.0 * reported.coverage_probability, 4) + " %";
+        const std::string percent = certificate::printed_coverage_probability(reported.coverage_probability) + " %";
         if (!reported.U) {
             if (of_interval++ == 0) {
                 const gum::RoundedPair pair = gum::round_to_uncertainty(reported.value, u.U, 2);

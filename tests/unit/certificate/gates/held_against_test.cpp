@@ -110,6 +110,7 @@ TEST_F(TakenElsewhere, IsCriticalWhereTheResultIsLarger) {
     expect_finding(finding, "X12", "ILAC-P14:09/2020", k_critical, "/accreditation/scope/2/capability");
     EXPECT_EQ(finding.what,
               "the capability of \"L1\" is taken at \"nominal\" = 10 mm, and the result \"l\" is 50000838 nm");
+    EXPECT_NE(finding.action.find("\"role\": \"error\""), std::string::npos) << "of an error the role is missing";
     EXPECT_TRUE(told({.name = "nominal", .value = 0.1, .unit = "m"}));
     EXPECT_EQ(only(found).severity, FindingSeverity::minor)
         << "a capability at more than was measured is the worse one";

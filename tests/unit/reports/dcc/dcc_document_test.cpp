@@ -200,13 +200,16 @@ TEST(DccDocument, KeepsColumnsApartThatStateDifferentThings) {
     values[1].printed_low = "0.10";
     values[1].printed_high = "1.20";
     const auto exa = named(checked(record), "gumcert_EXA");
-    ASSERT_EQ(exa.size(), 2 * values.size());  // once with U, once with intervals
-    EXPECT_EQ(exa[0].kind, "none");
-    EXPECT_EQ(exa[1].kind, "none");
+    const std::size_t rows = values.size();
+    ASSERT_EQ(exa.size(), 3 * rows);  // with U, with intervals, without uncertainty
+    EXPECT_EQ(exa[0].value + exa[1].value, "NaNNaN");
     EXPECT_EQ(exa[2].kind, "expanded");
-    EXPECT_EQ(exa[values.size() + 1].kind, "coverage_interval");
-    EXPECT_EQ(exa[values.size() + 1].low, "0.10");
-    EXPECT_EQ(exa[values.size() + 2].kind, "none");
+    EXPECT_EQ(exa[rows + 1].kind, "coverage_interval");
+    EXPECT_EQ(exa[rows + 1].low, "0.10");
+    EXPECT_EQ(exa[rows].value + exa[rows + 2].value, "NaNNaN");
+    EXPECT_EQ(exa[2 * rows].kind, "none");
+    EXPECT_EQ(exa[2 * rows].value, values[0].printed_value);
+    EXPECT_EQ(exa[2 * rows + 1].value, "NaN");
 }
 
 TEST(DccDocument, StatesAFactorBelowOneInWords) {

@@ -3,9 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms/asset_files.h"
+#include "reports/forms/pdf_page_texts.h"
+#include "reports/forms/pdf_worker.h"
+#include "reports/view/certificate_identity_sections.h"
 #include "tests/support/sample_budget_record.h"
 #include "tests/unit/reports/certified_sample.h"
 #include "tests/unit/reports/document_text.h"
@@ -35,6 +41,39 @@ TEST(Label, AsPdfIsOnePageThatSaysTheSame) {
     }
     EXPECT_THAT(text, HasSubstr(record.certificate->data.number));
     EXPECT_THAT(text, HasSubstr(std::string(60, 'W')));
+}
+
+/// Each page is held against its view after it was set: a template that changes a text, and be it to capitals, is refused.
+TEST(Label, AsPdfCarriesTheMarkOfEveryStateInEveryLanguage) {
+    SKIP_WITHOUT_PDF();
+    EvaluationRecord issued = test::certified_budget_record();
+    EvaluationRecord specimen = issued;
+    specimen.certificate->data.status = "specimen";
+    EvaluationRecord superseded = issued;
+    superseded.certificate->superseded_by = "EX-2";
+    const std::filesystem::path noto = "/usr/share/fonts/opentype/noto";
+    for (const std::string language : {"en", "de", "es", "zh-Hant"}) {
+        RenderAssets of_language = assets();
+        of_language.languages = {language};
+        if (language == "zh-Hant") {
+            if (!std::filesystem::exists(noto)) {
+                continue;
+            }
+            of_language.fonts = {noto};
+        }
+        PdfWorker worker(of_language);
+        const Wording words = read_wording(of_language);
+        for (const EvaluationRecord& record : {issued, test::drafted(issued), specimen, superseded}) {
+            const std::string status = document_status(record);
+            std::string pdf;
+            EXPECT_NO_THROW(pdf = render_label_pdf(record, of_language, &worker)) << language << ", " << status;
+            if (status != "issued" && !pdf.empty()) {
+                std::string mark = words("certificate_status", status).first();
+                std::erase(mark, ' ');
+                EXPECT_THAT(texts_of_pages(pdf).at(0), HasSubstr(mark)) << language;
+            }
+        }
+    }
 }
 
 TEST(Label, NeedsACertificate) {

@@ -609,6 +609,99 @@ TEST(CertificateSentences, ARuleThatDecidedNothingIsNotSaidToHaveDecided) {
     EXPECT_THAT(text, HasSubstr("Tolerance limits=T_L = −10\u00A0nm; T_U = 10\u00A0nm"));
 }
 
+/// A law: what is named contributes to some certified result, and what contributes is named.
+TEST(CertificateSentences, OnContributionsNameWhatContributes) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        Draw draw(seed);
+        EvaluationRecord record = test::certified_budget_record();
+        std::string expected;
+        for (BudgetRow& row : record.results.front().budget) {
+            const bool contributes = !draw.one_in(3);
+            row.contribution.number = contributes ? 1.0 : 0.0;
+            row.u.number = contributes ? 1.0 : 0.0;
+            expected += contributes ? (expected.empty() ? "" : ", ") + row.input : "";
+        }
+        const std::vector<std::string> lines =
+            beginning(document_of_record(record).uncertainty, "Contributions considered: ");
+        ASSERT_EQ(lines.size(), expected.empty() ? 0U : 1U);
+        if (!expected.empty()) {
+            EXPECT_THAT(lines.front(), ::testing::StartsWith("Contributions considered: " + expected + ". "));
+        }
+    }
+}
+
+TEST(CertificateSentences, OnMonteCarloSayHowManyTrialsEachValueHadAndWhatIsShown) {
+    EvaluationRecord record = test::certified_budget_record();
+    Result& first = record.results.front();
+    first.reported.method = "monte_carlo";
+    first.reported.because = "asymmetric";
+    first.reported.value = 1.0;
+    first.reported.interval = {0.7, 1.4};
+    MonteCarloSummary trials;
+    trials.trials = {8080000, "8080000"};
+    first.monte_carlo = trials;
+    Result second = first;
+    second.name = second.quantity = "h";
+    second.monte_carlo->trials = {6910000, "6910000"};
+    second.reported.interval = {0.6, 1.4};
+    Result other = first;  // by the law: its trials are no ones of an interval
+    other.name = other.quantity = "x";
+    other.monte_carlo->trials = {1000, "1000"};
+    other.reported.interval = {0.1, 0.2};
+    record.results = {first, second, other};
+    CertifiedTable& table = record.certificate->tables.front();
+    table.columns.resize(1);
+    CertifiedValue value = table.columns[0].values[0];
+    value.value = 1.0;
+    value.U.reset();
+    value.printed_U = value.printed_k = "";
+    value.coverage = "monte_carlo";
+    value.interval = {0.7, 1.4};
+    value.printed_low = "0.70";
+    value.printed_high = "1.40";
+    table.columns[0].values[0] = value;
+    const auto statement = [&] { return together(document_of_record(record).uncertainty); };
+    EXPECT_THAT(statement(), HasSubstr("(8080000 trials;"));
+    table.columns.push_back(table.columns[0]);
+    table.columns[1].result = "h";
+    table.columns[1].values[0].interval = {0.6, 1.4};
+    EXPECT_THAT(statement(), HasSubstr("(6910000\u00A0…\u00A08080000 trials;"));
+    EXPECT_THAT(statement(), HasSubstr("given beside it for comparison"));
+    record.certificate->data.annexes = "none";
+    EXPECT_THAT(statement(), Not(HasSubstr("given beside it")));
+}
+
+TEST(CertificateSentences, OnRisksHaveTheirSubjectAndTheirNumber) {
+    EvaluationRecord record = at_three_points([](auto& values) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i].verdict = test::sample_verdict(values[i]);
+            values[i].verdict->verdict = i == 0 ? "conditional_pass" : "pass";
+            values[i].verdict->printed.largest_specific_risk = std::to_string(i) + ".3";
+            values[i].verdict->false_accept = 0.001 * static_cast<double>(i);
+            values[i].verdict->printed.false_accept = "0." + std::to_string(i);
+        }
+    });
+    AgreedSpecification specification = test::sample_specification("axial", "E", -10.0, 10.0, "nm");
+    specification.rule = {};
+    specification.rule.id = "DR-09";
+    specification.rule.method = "4";
+    specification.rule.population_deviation = 0.2;
+    specification.rule.population_centre = 0.1;
+    record.certificate->data.specifications = {specification};
+    CertifiedTable& table = record.certificate->tables.front();
+    const std::string apart = together(document_of_record(record).conformity);
+    EXPECT_THAT(apart, HasSubstr("For a conditional pass the specific probability of false acceptance is larger"))
+        << "also where no other risk is told before it";
+    EXPECT_THAT(apart, HasSubstr("s_0 = 0.2\u00A0nm; y_0 = 0.1\u00A0nm; method 4"));
+    EXPECT_THAT(apart, Not(HasSubstr("Global probability"))) << "the table of verdicts has it";
+    table.layout.emplace();
+    for (const char* show : {"value", "U", "limit", "verdict"}) {
+        table.layout->shown.push_back({.show = show, .of = "E", .heading = {}, .role = "", .stage = ""});
+    }
+    EXPECT_THAT(together(document_of_record(record).conformity),
+                HasSubstr("Global probability of false acceptance (PFA): at most 0.2 % for these values."));
+}
+
 TEST(CertificateSentences, AGuardBandOfTwoUnitsIsNotOneNumber) {
     EvaluationRecord record = at_three_points([](auto& values) {
         for (CertifiedValue& v : values) {

@@ -119,6 +119,27 @@ TEST(PointTableView, ShowsWhatTheLayoutSays) {
                 ElementsAre("Nennwert / V", "Messabweichung / mV", "U / mV", "Grenzen ± / mV", "Aussage"));
 }
 
+/// Where an interval stands in place of U, u stands beside it (docs/budget_job.md).
+TEST(PointTableView, ShowsUOfAnInterval) {
+    certificate::Certificate certificate = table_of_points();
+    CertifiedValue& value = certificate.tables[0].columns[0].values[1];
+    value.U.reset();
+    value.printed_U.clear();
+    value.printed_k.clear();
+    value.coverage = "monte_carlo";
+    value.interval = {-0.3, 0.0};
+    value.printed_low = "-0.30";
+    value.printed_high = "0.00";
+    value.printed_u = "0.077";
+    const json table = table_in(certificate);
+    const auto at = std::find_if(table.at("columns").begin(), table.at("columns").end(),
+                                 [](const json& column) { return column.at("head") == "u"; });
+    ASSERT_NE(at, table.at("columns").end());
+    EXPECT_EQ(row(table, 1).at(static_cast<std::size_t>(at - table.at("columns").begin())), "0.077");
+    value.printed_u.clear();  // a distribution without variance
+    EXPECT_THAT(heads(table_in(certificate)), testing::Not(testing::Contains(testing::StartsWith("u / "))));
+}
+
 TEST(PointTableView, TakesTwoColumnsForLimitsThatAreNotSymmetrical) {
     certificate::Certificate certificate = table_of_points();
     certificate.tables[0].columns[0].values[0].verdict->printed.lower = "−0.4";

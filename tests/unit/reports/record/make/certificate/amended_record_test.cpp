@@ -128,6 +128,67 @@ TEST(AmendedRecord, TellsCellsLimitsAndHeadingsThatDiffer) {
         << "a result that came is told by its value";
 }
 
+TEST(AmendedRecord, TellsOnceWhatWasAgreedForAllValues) {
+    const certificate::Certificate earlier = certificate_with_layout();
+    certificate::Certificate later = earlier;
+    for (certificate::CertifiedValue& value : later.tables.front().columns.front().values) {
+        value.verdict->printed.upper = "5";
+    }
+    EXPECT_EQ(said(changes_between(earlier, later)), "limit_high E: 1.6\u00A0mg -> 5\u00A0mg\n");
+}
+
+/// Where the table of results shows the verdicts the certificate has no table of them.
+TEST(AmendedRecord, TellsNothingOfADecisionThatIsNotPrinted) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::ShownColumn verdict;
+    verdict.show = "verdict";
+    verdict.of = "E";
+    earlier.tables.front().layout->shown.push_back(verdict);
+    const auto changed = [&](std::string& (*text)(certificate::Verdict&)) {
+        certificate::Certificate later = earlier;
+        text(*later.tables.front().columns.front().values.front().verdict) += "1";
+        return said(changes_between(earlier, later));
+    };
+    using V = certificate::Verdict;
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.acceptance_lower; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.acceptance_upper; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.conformance_probability; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.specific_risk; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.largest_specific_risk; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.false_accept; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.false_reject; }), "");
+    EXPECT_EQ(changed([](V& v) -> std::string& { return v.printed.test_uncertainty_ratio; }), "");
+    EXPECT_NE(changed([](V& v) -> std::string& { return v.printed.upper; }), "");
+    EXPECT_NE(changed([](V& v) -> std::string& { return v.verdict; }), "");
+}
+
+TEST(AmendedRecord, BeginsWithTheItemAndGivesNumbersTheirUnits) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::AgreedSpecification specification;
+    specification.id = "s";
+    specification.unit = "mg";
+    specification.upper = 1.6;
+    earlier.data.specifications = {specification};
+    for (certificate::CertifiedValue& value : earlier.tables.front().columns.front().values) {
+        value.verdict->specification = "s";
+    }
+    certificate::Certificate later = earlier;
+    later.data.specifications.front().upper = 5.0;
+    later.data.item.serial_number = "SN-7";
+    later.data.remarks.emplace_back("New remark");
+    for (certificate::CertifiedValue& value : later.tables.front().columns.front().values) {
+        value.verdict->printed.upper = "5";
+    }
+    later.tables.front().columns.front().values.front().printed_value += "1";
+    const std::vector<Change> changes = changes_between(earlier, later);
+    ASSERT_EQ(changes.size(), 4U) << said(changes);
+    EXPECT_EQ(changes[0].where, "/item/serial_number");
+    EXPECT_EQ(changes[1].kind, "value");
+    const std::string rest = said({changes[2], changes[3]});
+    EXPECT_NE(rest.find("number /specifications/0/upper: 1.6\u00A0mg -> 5\u00A0mg"), std::string::npos) << rest;
+    EXPECT_NE(rest.find("New remark"), std::string::npos) << rest;
+}
+
 /// Gives one text after the other of what is described another value, and counts them.
 class OtherText {
 public:

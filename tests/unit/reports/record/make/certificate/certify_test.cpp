@@ -500,6 +500,37 @@ TEST(Certify, PrintsAGuardBandAndLimitsThatCanBeCheckedByHand) {
     EXPECT_NEAR(v.verdict->guard_band, 0.771, 1e-12);
 }
 
+/// w = 0.5·1.1 is 0.55: with the one decimal of the value it would be 0.6, and no reader could find r·U in it.
+TEST(Certify, PrintsAGuardBandToTwoDigits) {
+    CertificateData data = data_with_rule("DR-04", -3.0, 3.0, "m");
+    data.specifications[0].rule.guard_factor = 0.5;
+    data.accreditation.reset();
+    const Verdict v = *certified(one_result(1.0, 1.1, "m"), data).verdict;
+    EXPECT_EQ(v.printed.guard_band, "0.55");
+    EXPECT_EQ(v.printed.acceptance_lower, "-2.45");
+    EXPECT_EQ(v.printed.acceptance_upper, "2.45");
+    data.specifications[0].rule.guard_factor = 1.0;
+    EXPECT_EQ(certified(one_result(1.0, 1.1, "m"), data).verdict->printed.guard_band, "1.1");
+    data = data_with_rule("DR-07", -3.0, 3.0, "m");
+    data.specifications[0].rule.probability = 0.05;
+    data.accreditation.reset();
+    EXPECT_EQ(certified(one_result(1.0, 1.1, "m"), data).verdict->printed.guard_band, "0.91");  // 1.645·0.55 = 0.9047
+}
+
+TEST(Certify, SaysNothingOfProbabilitiesThatItDoesNotPrint) {
+    EvaluationRecord record = one_result(0.1, 2.0, "m");
+    record.results[0].coverage = "convolution";
+    CertificateData data = data_with_rule("DR-03", -0.8, 0.8, "m");
+    data.accreditation.reset();
+    const Verdict open = *certified(record, data).verdict;
+    EXPECT_EQ(open.verdict, "not_applicable");
+    EXPECT_THAT(open.note, Not(HasSubstr("Probabilities")));
+    EXPECT_EQ(open.printed.conformance_probability + open.printed.specific_risk, "");
+    const Verdict decided = *certified(record, data_with_rule("DR-03", -8.0, 8.0, "m")).verdict;
+    EXPECT_THAT(decided.note, HasSubstr("Probabilities"));
+    EXPECT_NE(decided.printed.conformance_probability, "");
+}
+
 TEST(Certify, PrintsAValueOutsideOfTheLimitsWhereItFails) {
     // AU = 10 − 0.83 · 0.027 = 9.97759: rounded to the place of the value it would be 9.978, which the value is.
     CertificateData data = data_with_rule("DR-04", 9.0, 10.0, "m");
@@ -594,6 +625,9 @@ TEST(Certify, CountsTheTrialsOfMonteCarlo) {
     EXPECT_NEAR(v.conformance_probability, 0.75, 0.02);
     EXPECT_THAT(v.note, HasSubstr("9999 Monte Carlo trials"));
     EXPECT_THAT(v.note, HasSubstr("is 0.4 %"));  // √(0.75 · 0.25/9999)
+    const Verdict far = *certified(record, data_with_rule("DR-01", 0.0, 100.0, "m"), {}, inputs).verdict;
+    EXPECT_THAT(far.note, HasSubstr("is 0.01 %"));
+    EXPECT_THAT(far.note, Not(HasSubstr("E-")));
     EXPECT_THAT(certified(record, data_with_rule("DR-01", 9.0, 10.0, "m")).verdict->note,
                 HasSubstr("normal distribution"));
 }
@@ -841,6 +875,9 @@ TEST(Certify, DecidesWithTheFartherEndOfAnInterval) {
     EXPECT_NEAR(v.guard_band, 0.3, 1e-12);
     EXPECT_EQ(v.verdict, "pass");
     EXPECT_THAT(v.note, HasSubstr("larger distance"));
+    EXPECT_THAT(certified(record, data_with_rule("DR-01", 9.0, 10.0, "m"), {}, inputs).verdict->note,
+                Not(HasSubstr("larger distance")))
+        << "its formula has no U";
     EXPECT_EQ(certified(record, data_with_rule("DR-03", 9.0, 9.75, "m"), {}, inputs).verdict->verdict, "fail");
 }
 

@@ -139,7 +139,7 @@ TEST(ChangesInWords, ComeWithTheirUnitsAsPeopleWriteThem) {
     later.data.conditions.front().minimum = 2e-8;
     const std::vector<Change> changes = changes_between(earlier, later);
     ASSERT_EQ(changes.size(), 2U);
-    EXPECT_EQ(changes[0].after, "0.00000002");
+    EXPECT_EQ(changes[0].after, "0.00000002\u00A0%");
     EXPECT_EQ(changes[1].before + changes[1].after, "°C%");
 }
 
