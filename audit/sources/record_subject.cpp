@@ -348,7 +348,12 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
             }
         }
     }
-    if (checklist_of(budget.method) == nullptr) {
+    // What the program evaluates is the method; the title of a budget names it.
+    if (record.kind == "rotary_table") {
+        budget.method = "rotary_table_multilateration";
+    } else if (record.kind != "budget") {
+        budget.method.clear();
+    } else if (checklist_of(budget.method) == nullptr) {
         budget.method = method_in_title(budget.method + " " + record.title);
     }
     const reports::ReportedResult& reported = result.reported;
