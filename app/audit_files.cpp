@@ -16,6 +16,7 @@
 #include "audit/sources/certificate_subject.h"
 #include "audit/sources/record_subject.h"
 #include "audit/sources/workbook_subject.h"
+#include "certificate/stated_text.h"
 #include "certificate/waiver.h"
 #include "encoding/sha2.h"
 #include "gum/monte_carlo/worker_threads.h"
@@ -241,11 +242,19 @@ std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
     std::vector<gum::Diagnostic> problems;
     for (std::size_t i = 0; i < waivers.size(); ++i) {
         if (!certificate::has_effect(waivers[i], "")) {
-            problems.push_back({.code = "GC-AUDIT-0012",
-                                .where = file.string() + "#/" + std::to_string(i),
-                                .what = "the waiver of " + waivers[i].finding + " names nobody, or gives no reason",
-                                .rule = "a finding is accepted by a person, with a reason that is a sentence",
-                                .action = "state \"by\" and \"reason\""});
+            const bool is_named = certificate::is_name(waivers[i].by);
+            const bool has_reason = certificate::is_statement(waivers[i].reason);
+            problems.push_back(
+                {.code = "GC-AUDIT-0012",
+                 .where = file.string() + "#/" + std::to_string(i),
+                 .what = "the waiver of " + waivers[i].finding +
+                         (!is_named     ? " names nobody"
+                          : !has_reason ? " has a reason that tells nothing: \"" + waivers[i].reason.in("en") + "\""
+                                        : " has no date"),
+                 .rule = "a finding is accepted by a person, with a reason that is a sentence",
+                 .action = !is_named     ? "state \"by\""
+                           : !has_reason ? "state in \"reason\" why the result holds all the same"
+                                         : "state \"date\""});
         }
     }
     if (!problems.empty()) {
@@ -265,7 +274,7 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
             audited.report =
                 *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
                      .audit;
-            audit::accept_findings(audited.report, waivers);
+            audit::accept_findings(audited.report, waivers, audit::all_rules());
             return audited;
         case Contents::record: {
             const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
@@ -301,7 +310,7 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
                 .action = "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file"});
     }
     audited.report = audit::audit(std::move(subject), audit::all_rules());
-    audit::accept_findings(audited.report, waivers);
+    audit::accept_findings(audited.report, waivers, audit::all_rules());
     return audited;
 }
 

@@ -157,6 +157,34 @@ Sentence message_in_words(const gum::Diagnostic& diagnostic) {
     return said;
 }
 
+/// What follows from the findings of a report, with the effects that they have.
+void conclude(AuditReport& report, std::span<const Rule> rules) {
+    std::vector<AuditFinding> conclusions;
+    for (const Rule& rule : rules) {
+        if (rule.conclude == nullptr || !why_not_applicable(rule, report.subject).empty()) {
+            continue;
+        }
+        FindingCollector collector(rule);
+        rule.conclude(report.subject, report.findings, collector);
+        for (AuditFinding& finding : collector.take()) {
+            finding.is_conclusion = true;
+            conclusions.push_back(std::move(finding));
+        }
+    }
+    report.findings.insert(report.findings.end(), std::make_move_iterator(conclusions.begin()),
+                           std::make_move_iterator(conclusions.end()));
+}
+
+/// Graver findings first, then those with the larger effect.
+void sort_findings(std::vector<AuditFinding>& findings) {
+    std::stable_sort(findings.begin(), findings.end(), [](const AuditFinding& a, const AuditFinding& b) {
+        const auto key = [](const AuditFinding& finding) {
+            return std::tuple(-static_cast<int>(finding.severity), finding.effect ? -size_of(*finding.effect) : 0.0);
+        };
+        return key(a) < key(b);
+    });
+}
+
 }  // namespace
 
 bool AuditReport::has_critical() const {
@@ -168,7 +196,8 @@ bool is_open_critical(const AuditFinding& finding, std::span<const certificate::
     return finding.severity == FindingSeverity::critical && waiver_of(finding, waivers) == nullptr;
 }
 
-void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers) {
+void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers, std::span<const Rule> rules) {
+    bool any = false;
     for (const certificate::Waiver& waiver : waivers) {
         const bool fits = std::any_of(
             report.findings.begin(), report.findings.end(),
@@ -180,7 +209,20 @@ void accept_findings(AuditReport& report, std::span<const certificate::Waiver> w
         if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
             said.push_back(sentence);
         }
-        report.subject.waivers.push_back(waiver);
+        // What the gates of a certificate found is accepted there, by the same list.
+        const bool fits_gate =
+            report.subject.certificate &&
+            std::any_of(report.subject.certificate->findings.begin(), report.subject.certificate->findings.end(),
+                        [&waiver](const certificate::Finding& finding) { return finding.id == waiver.finding; });
+        if (fits || fits_gate) {
+            report.subject.waivers.push_back(waiver);
+        }
+        any = any || fits;
+    }
+    if (any) {
+        std::erase_if(report.findings, [](const AuditFinding& finding) { return finding.is_conclusion; });
+        conclude(report, rules);
+        sort_findings(report.findings);
     }
 }
 
@@ -197,7 +239,7 @@ const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<cons
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
     AuditReport report;
     std::vector<SeverityPolicy> policies;
-    std::vector<const Rule*> concluding, of_rest;
+    std::vector<const Rule*> of_rest;
     const auto take = [&report, &policies](const Rule& rule, FindingCollector& collector) {
         for (AuditFinding& finding : collector.take()) {
             report.findings.push_back(std::move(finding));
@@ -221,9 +263,6 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         } else {
             if (rule.examine != nullptr && rule.examine != rule.examine_gates) {
                 rule.examine(subject, collector);
-            }
-            if (rule.conclude != nullptr) {
-                concluding.push_back(&rule);
             }
             if (rule.examine_rest != nullptr) {
                 of_rest.push_back(&rule);
@@ -287,25 +326,11 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
             finding.missing_term = missing_term(subject.budgets[finding.budgets.front()]);
         }
     }
-    std::vector<AuditFinding> conclusions;
-    for (const Rule* rule : concluding) {
-        FindingCollector collector(*rule);
-        rule->conclude(subject, report.findings, collector);
-        std::vector<AuditFinding> found = collector.take();
-        conclusions.insert(conclusions.end(), std::make_move_iterator(found.begin()),
-                           std::make_move_iterator(found.end()));
-    }
-    report.findings.insert(report.findings.end(), std::make_move_iterator(conclusions.begin()),
-                           std::make_move_iterator(conclusions.end()));
-    std::stable_sort(report.findings.begin(), report.findings.end(), [](const AuditFinding& a, const AuditFinding& b) {
-        const auto key = [](const AuditFinding& finding) {
-            return std::tuple(-static_cast<int>(finding.severity), finding.effect ? -size_of(*finding.effect) : 0.0);
-        };
-        return key(a) < key(b);
-    });
     const std::vector<certificate::Waiver> waivers = std::exchange(subject.waivers, {});
     report.subject = std::move(subject);
-    accept_findings(report, waivers);
+    conclude(report, rules);
+    sort_findings(report.findings);
+    accept_findings(report, waivers, rules);
     return report;
 }
 

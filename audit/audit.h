@@ -59,8 +59,10 @@ struct AuditReport {
 /// issued.
 [[nodiscard]] bool is_open_critical(const AuditFinding& finding, std::span<const certificate::Waiver> waivers);
 
-/// Takes more waivers into a report. One that fits no finding is told in `not_read`, once.
-void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers);
+/// Takes more waivers into a report. One that fits no finding is told in `not_read`, once, and accepts nothing. What
+/// follows from other findings is concluded anew: an accepted one is no longer open.
+/// \param rules  those of the audit
+void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers, std::span<const Rule> rules);
 
 /// Applies all rules to a subject, and evaluates what each correction does to every result that it touches.
 /// \param rules  audit/rules/registry.h holds them all

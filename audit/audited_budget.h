@@ -170,7 +170,11 @@ struct Claims {
     std::optional<StatedNumber> value, u_c, nu_eff, k, U;
     std::optional<double> coverage_probability;
     std::string coverage_sentence;  ///< what is written beside U: "k = 2, 95 %"
-    std::string verdict;            ///< "pass", "fail" …; "" where none is stated
+    std::string distribution;  ///< of the result, as a certificate calls it: "normal", "convolution"; "" not stated
+    /// Of a workbook: the cell of k computes with ν_eff, or with the degrees of freedom of rows. It follows them then, whatever
+    /// number it shows.
+    bool k_follows_nu = false;
+    std::string verdict;  ///< "pass", "fail" …; "" where none is stated
     std::optional<StatedNumber> en;
     BrokenClaims broken;
 };

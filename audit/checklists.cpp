@@ -9,12 +9,17 @@ namespace {
 
 using enum Contributor;
 
+/// Of a mass: its buoyancy, or a density from which it follows.
+const std::vector<std::string_view> k_of_buoyancy = {"buoyancy",  "*auftrieb", "air density", "luftdichte", "density",
+                                                     "densities", "dichte",    "*dichte ",    "densidad",   "*密度"};
+
 std::vector<MethodChecklist> make_checklists() {
     return {
         {.method = "rotary_table_multilateration",
          .title = say("Rotary table by multilateration"),
          .source = "ISO 230-7:2015, Test code for machine tools, Part 7: Geometric accuracy of axes of rotation",
-         .words = {"multilateration", "rotary table", "rundtisch", "drehtisch"},
+         // A rotary table is calibrated by other methods as well: with a polygon and an autocollimator, by circle closure.
+         .words = {"multilaterat", "laser tracer", "lasertracer", "tracking interferometer"},
          .required = {{say("calibration of the laser (wavelength)"),
                        {},
                        {"laser", "wavelength", "wellenlange", "tracer", "interferometer"}},
@@ -102,7 +107,7 @@ std::vector<MethodChecklist> make_checklists() {
                        {"rounding", "readability", "ziffernschritt", "teilungswert", "scale interval"}},
                       {say("repeatability"), {repeatability}, {}},
                       {say("eccentric loading"), {}, {"eccentric", "exzentri", "ecken"}},
-                      {say("air buoyancy"), {}, {"buoyancy", "*auftrieb", "air density", "luftdichte"}},
+                      {say("air buoyancy"), {}, k_of_buoyancy},
                       {say("convection and drift of the temperature"), {temperature}, {"convection", "konvektion"}}},
          .not_with = {"pressure", "*druck", "*wasserwaage", "current balance", "*stromwaage"}},
         {.method = "weights",
@@ -110,8 +115,8 @@ std::vector<MethodChecklist> make_checklists() {
          .source = "OIML R 111-1, Weights of classes E1, E2, F1, F2, M1, M1-2, M2, M2-3 and M3; EA-4/02",
          .words = {"weight ", "weights", "gewicht", "mass standard", "massenormal"},
          .required = {{say("mass of the reference weight"), {reference}, {}},
-                      {say("air buoyancy"), {}, {"buoyancy", "*auftrieb", "air density", "luftdichte"}},
-                      {say("weighing process"), {repeatability}, {}},
+                      {say("air buoyancy"), {}, k_of_buoyancy},
+                      {say("weighing process"), {repeatability}, {"weighing", "*wagung", "wage", "abba", "aba "}},
                       {say("balance (eccentricity, sensitivity, linearity)"),
                        {},
                        {"eccentric", "exzentri", "sensitivity", "empfindlich", "linear", "balance", "waage"}}},
@@ -279,8 +284,24 @@ std::string method_in_title(std::string_view title) {
     return "";
 }
 
+bool is_scatter_of_readings(const AuditedRow& row) {
+    switch (row.contributor) {
+        case temperature:
+        case expansion:
+        case environment:
+        case refractive_index:
+        case reference_drift:
+            return false;  // readings of what acts on the result
+        default:
+            return !row.readings.empty() || row.pooled_s || row.origin == Origin::readings;
+    }
+}
+
 bool NamedRow::stands_for(const RequiredContributor& required) const {
-    return std::find(required.by.begin(), required.by.end(), contributor_) != required.by.end() ||
+    const auto asks = [&required](Contributor contributor) {
+        return std::find(required.by.begin(), required.by.end(), contributor) != required.by.end();
+    };
+    return asks(contributor_) || (is_scatter_ && asks(repeatability)) ||
            std::any_of(words_.begin(), words_.end(),
                        [&required](const WordLine& words) { return words.has_any(required.words); });
 }

@@ -44,17 +44,23 @@ struct MethodChecklist {
 /// Id of the method that a title names, in English or German: "Calibration of micrometers"; "" where it names none.
 [[nodiscard]] std::string method_in_title(std::string_view title);
 
+/// Whether a row holds the scatter of readings, or a pooled one: that is repeatability, whatever it is called. Not where
+/// its words say that a condition was read.
+[[nodiscard]] bool is_scatter_of_readings(const AuditedRow& row);
+
 /// What a row is called, to hold it against one required contributor after the other.
 class NamedRow {
 public:
     explicit NamedRow(const AuditedRow& row)
         : contributor_(row.contributor),
+          is_scatter_(is_scatter_of_readings(row)),
           words_{WordLine(row.quantity), WordLine(row.description), WordLine(row.comment), WordLine(row.source)} {}
     /// Whether the row stands for a required contributor, whatever number it has.
     [[nodiscard]] bool stands_for(const RequiredContributor& required) const;
 
 private:
     Contributor contributor_;
+    bool is_scatter_;
     std::array<WordLine, 4> words_;
 };
 [[nodiscard]] bool stands_for(const AuditedRow& row, const RequiredContributor& required);

@@ -66,19 +66,20 @@ std::vector<CoverageRule> fixed_rules(const AuditedBudget& budget) {
 
 /// Half a unit of the last digit of a claimed k. One known to all digits, as of a sheet with formulas, may have been typed or
 /// rounded there: where it has two decimals or three, these are its digits. 0: nothing is left open.
-double half_step_of_k(const StatedNumber& k) {
+double half_step_of_k(const Claims& claims) {
+    const StatedNumber& k = *claims.k;
     const auto ends_at = [&k](double step) {
         const double steps = k.value / step;
         return std::abs(steps - std::round(steps)) <= 1e-9 * std::abs(steps);
     };
-    if (k.half_step > 0.0 || ends_at(1.0)) {
+    if (k.half_step > 0.0 || (ends_at(1.0) && !claims.k_follows_nu)) {
         return k.half_step;  // of "2.1" the 0 of 2.10 may be hidden, of "2" it is none
     }
     return ends_at(0.01) ? 0.005 : ends_at(0.001) ? 0.0005 : 0.0;
 }
-Interval interval_of_k(const StatedNumber& k) {
-    const double half = half_step_of_k(k);
-    return {k.value - half, k.value + half};
+Interval interval_of_k(const Claims& claims) {
+    const double half = half_step_of_k(claims);
+    return {claims.k->value - half, claims.k->value + half};
 }
 
 /// Whether k is claimed with two decimals or all digits of a computed number: "2" is what laboratories take whatever ν_eff.
@@ -89,15 +90,18 @@ bool has_decimals(const std::optional<StatedNumber>& k) {
     }
     return std::abs(k->value - std::round(k->value)) > 1e-9 * std::abs(k->value);
 }
-/// Whether a claimed k may have been taken from ν_eff by a rule: it has decimals, and is none of the numbers that stand for
+/// Whether a claimed k may have been taken from ν_eff by a rule: its cell computes with it; or it has decimals, and is none of the numbers that stand for
 /// all budgets, or ν_eff or the very probability of the rule stand beside it.
 bool may_be_of_rule(const Claims& claims, const CoverageRule& rule) {
+    if (claims.k && claims.k_follows_nu) {
+        return true;
+    }
     if (!has_decimals(claims.k)) {
         return false;
     }
     constexpr double k_for_all[] = {1.645, 1.65, 1.96, 2.0, 2.576, 2.58, 3.0};
     const bool usual = std::any_of(std::begin(k_for_all), std::end(k_for_all), [&claims](double k) {
-        return std::abs(claims.k->value - k) <= 0.1 * half_step_of_k(*claims.k) + k_arithmetic;
+        return std::abs(claims.k->value - k) <= 0.1 * half_step_of_k(claims) + k_arithmetic;
     });
     return !usual || claims.nu_eff || claims.coverage_probability == rule.probability;
 }
@@ -174,6 +178,10 @@ std::string text_of_claim(const StatedNumber& number) {
     return text;
 }
 
+bool is_normal_or_student(std::string_view name) {
+    return name == "normal" || name == "gauss" || name == "gaussian" || name == "t" || name.starts_with("student");
+}
+
 ClaimCheck check_u_c(const AuditedBudget& budget) {
     ClaimCheck check;
     check.coverage = budget.coverage;
@@ -214,7 +222,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     const auto gives_U = [&](const Interval& k) {
         return !claims.U || before_rounding_up(*claims.U).meets(allowed_U(budget, k, u_c));
     };
-    const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(interval_of_k(*claims.k)); };
+    const auto gives_k = [&](const Interval& k) { return !claims.k || wide(k).meets(interval_of_k(claims)); };
     // U may have been computed with the k that is printed, or before k was rounded.
     const auto with_claimed_k = [&](const Interval& k) {
         return claims.k ? hull(k, {claims.k->value, claims.k->value}) : k;
@@ -246,7 +254,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
         by_rule.coverage = rule;
         by_rule.k_over_rows = 1.0;
         // Within the digits of the claimed k all rules give it alike, and the first of them is taken.
-        const double half_step = half_step_of_k(*claims.k);
+        const double half_step = half_step_of_k(claims);
         const double off = std::max(0.0, std::abs(evaluate(by_rule).k - claims.k->value) - half_step);
         if (!nearest || off < distance - half_step * k_arithmetic) {
             nearest = rule;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "audit/audited_budget.h"
 #include "audit/budget_outcome.h"
@@ -27,6 +28,9 @@ struct ClaimCheck {
     bool linear_sum = false;  ///< u_c is Σ |c| u of the rows, not the root of the sum of squares
     CoverageRule coverage;  ///< the rule of coverage that gives the claimed k and U; that of the budget where none does
 };
+
+/// Whether the name of a distribution is that of Gauss or of Student, by its letters: "normal", "student_t".
+[[nodiscard]] bool is_normal_or_student(std::string_view name);
 
 /// Holds claims against what the printed digits of the rows allow (outcome_intervals()). U follows from the claimed u_c
 /// where there is one, and by any rule of coverage that the claims leave open: the stated k, or t_p(ν_eff) with p

@@ -58,6 +58,7 @@ struct AuditFinding {
     Correction correct;                ///< of the first of `budgets`; empty: not known, or a document
     std::map<std::size_t, Correction> correct_others;  ///< of the other `budgets`
     std::vector<std::string> other_places;             ///< where else the same was found
+    bool is_conclusion = false;                        ///< follows from other findings (Rule::conclude)
     bool of_gate = false;               ///< taken over from the gates of a certificate, which have it already
     bool contribution_missing = false;  ///< no `correct`, because nobody knows how large the missing contribution is
     std::optional<Effect> effect;

@@ -15,23 +15,46 @@ namespace gumcert::audit {
 
 /// One item of a comparison, as far as the audit looks at it. All numbers in one unit.
 struct AuditedScore {
-    std::string name;  ///< of the point or laboratory
-    double value = 0.0, u = 0.0, U = 0.0;
+    std::string name;                      ///< of the point or laboratory
+    double value = 0.0, u = 0.0, U = 0.0;  ///< u and U of 0: not stated
     double reference_value = 0.0, reference_u = 0.0, reference_U = 0.0;
     std::optional<double> k, reference_k;
+    /// The scores were evaluated by this program: what it has no score for has none, and U of both sides are those that
+    /// E_n takes. Its k differ where degrees of freedom do, so that the probabilities stand in their place.
+    bool is_evaluated = false;
+    std::optional<double> probability, reference_probability;  ///< that U covers; none: not known, or not used in E_n
     std::optional<double> en, zeta, z;
     std::optional<double> sigma_pt;
     bool correlation_known = false;  ///< stated, also as 0 with a reason
+    /// |E_n| above 1 is a signal to act on. Not where the evaluation gives none, because the value that the result was held
+    /// against is one of several.
+    bool is_signal = true;
+    /// Scores of its direction, where the evaluation has no objection to them together: chance explains one that is no
+    /// larger than it makes the largest of so many.
+    std::optional<std::size_t> points_without_objection;
+};
+
+/// What was compared with one assigned value: an item in one round, or everything where there are no items.
+struct AuditedItem {
+    std::string name;  ///< "" of a comparison with one item
+    /// p of the test of all results for consistency, and the p below which it is not passed; none: it was not made.
+    std::optional<double> p_consistent;
+    double threshold = 0.05;
+    std::optional<double> p_low;            ///< of the same test: probability of so little scatter
+    std::vector<std::string> inconsistent;  ///< laboratories outside of the largest consistent subset
+    bool has_stability = false;  ///< the stability of the artefact is in the uncertainty of the value, or was shown
 };
 
 struct AuditedComparison {
     bool between_laboratories = false;  ///< each score is that of another laboratory, which acts on it
+    double score_probability = 0.9545;  ///< of the U that E_n takes
     std::vector<AuditedScore> scores;
-    std::optional<double> p_low, p_high;      ///< of the sum of squared scores given their covariance
+    std::optional<double> p_low, p_high;  ///< of the sum of squared scores given their covariance
+    /// What the evaluation tested of each item. With items, consistency is theirs to tell: the sum of the scores holds all
+    /// results against the assigned value, which is made of some of them.
+    std::vector<AuditedItem> items;
     std::vector<std::string> shared_sources;  ///< standards that both sides name
     bool assigned_value_contains_participant = false, instability_in_reference = false;
-    /// Of methods: no more scores above 1 than chance gives in 99 of 100 comparisons, by the evaluation itself.
-    bool is_explained_by_chance = false;
     std::string action_record;  ///< what was done where |E_n| > 1; "" nothing is on record
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
 #include "certificate/text_words.h"
+#include "gum/comparison/agreement.h"
 #include "gum/comparison/robust_statistics.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
@@ -59,6 +61,11 @@ std::string short_number(double number) {
     return text::significant(number, 3);
 }
 
+/// "p_high = 0.003". What is too small for a number has no digits, and is not 0.
+Sentence probability(const char* symbol, double p) {
+    return p > 0.0 ? equals(symbol, short_number(p)) : say("{symbol} is below {least:number}", symbol, "1e-300");
+}
+
 /// A score above 1 that does not print as 1.
 std::string above_one(double score) {
     std::string shown = short_number(score);
@@ -71,7 +78,7 @@ std::string above_one(double score) {
 /// E_n that follows from both expanded uncertainties of a score, where another one is stated; N02 tells it.
 std::optional<double> refuted_en(const AuditedScore& score) {
     const double squares = score.U * score.U + score.reference_U * score.reference_U;
-    if (!score.en || score.correlation_known || !(squares > 0.0)) {
+    if (!score.en || score.is_evaluated || score.correlation_known || !(squares > 0.0)) {
         return std::nullopt;
     }
     constexpr double k_printed = 0.02;  // of a score with two decimals, and 2 % of it
@@ -114,11 +121,11 @@ std::optional<double> en_of(const AuditedScore& score) {
     if (const std::optional<double> right = refuted_en(score)) {
         return right;
     }
-    if (score.en) {
+    // With one uncertainty alone there is no E_n: the difference over it is another number.
+    if (score.en || score.is_evaluated || !(score.U > 0.0 && score.reference_U > 0.0)) {
         return score.en;
     }
-    const double squares = score.U * score.U + score.reference_U * score.reference_U;
-    return squares > 0.0 ? std::optional((score.value - score.reference_value) / std::sqrt(squares)) : std::nullopt;
+    return (score.value - score.reference_value) / std::hypot(score.U, score.reference_U);
 }
 std::optional<double> en_of(const AuditedBudget& budget) {
     if (const std::optional<FollowingScore> score = refuted_en(budget)) {
@@ -131,15 +138,19 @@ std::optional<double> en_of(const AuditedBudget& budget) {
     return outcome ? outcome->en : std::nullopt;
 }
 
-/// Σ ζ² over all scores, with the ζ that is stated or follows from u; nothing where one has neither.
+/// Σ ζ² over all scores, with the ζ that is stated or follows from both u; nothing where one has neither, or where the
+/// evaluation knows what its scores have in common.
 std::optional<double> sum_of_squared_zeta(std::span<const AuditedScore> scores) {
     double sum = 0.0;
     for (const AuditedScore& score : scores) {
-        const double squares = score.u * score.u + score.reference_u * score.reference_u;
-        if (!score.zeta && !(squares > 0.0)) {
+        if (score.is_evaluated) {
             return std::nullopt;
         }
-        const double zeta = score.zeta ? *score.zeta : (score.value - score.reference_value) / std::sqrt(squares);
+        if (!score.zeta && !(score.u > 0.0 && score.reference_u > 0.0)) {
+            return std::nullopt;
+        }
+        const double zeta =
+            score.zeta ? *score.zeta : (score.value - score.reference_value) / std::hypot(score.u, score.reference_u);
         sum += zeta * zeta;
     }
     return scores.empty() ? std::nullopt : std::optional(sum);
@@ -176,12 +187,22 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
     }
     // Σ ζ² far below its expected value: not luck, but uncertainties that are too large, or results that were not
     // independent of the reference.
-    if (p_low && *p_low < k_low_tail) {
-        AuditFinding finding = finding_of_comparison(
-            say("the differences are too small for the stated uncertainties: p_low = {p_low:number}, threshold 0.025",
-                short_number(*p_low)));
-        finding.evidence = {equals("p_low", short_number(*p_low))};
-        findings.add(std::move(finding));
+    const auto too_small = [&findings](const std::string& where, const std::optional<double>& p) {
+        if (p && *p < k_low_tail) {
+            AuditFinding finding = finding_of_comparison(
+                say("the differences are too small for the stated uncertainties: {p_low}, threshold 0.025",
+                    probability("p_low", *p)));
+            finding.where = where.empty() ? finding.where : where;
+            finding.evidence = {probability("p_low", *p)};
+            findings.add(std::move(finding));
+        }
+    };
+    if (p_low || !subject.comparison) {
+        too_small("", p_low);
+    } else {
+        for (const AuditedItem& item : subject.comparison->items) {
+            too_small(item.name, item.p_low);
+        }
     }
     const std::optional<double> spread = robust_deviation(scores);
     for (const AuditedScore& score : scores) {
@@ -204,6 +225,13 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
             findings.add(std::move(finding));
         }
     }
+}
+
+/// Whether U of both sides cover the same, as factors of a normal distribution.
+bool covers_the_same(double probability, double other) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    return is_about(gum::coverage_factor(probability, infinite), gum::coverage_factor(other, infinite),
+                    gum::k_same_coverage_factor);
 }
 
 /// N01, what follows from the other findings: |E_n| ≤ 1 as stated, and above 1 with all of them corrected.
@@ -275,7 +303,16 @@ void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
             finding.actual = say_number(short_number(*score.en));
             findings.add(std::move(finding));
         }
-        if (score.k && score.reference_k && !is_about(*score.k, *score.reference_k, gum::k_same_coverage_factor)) {
+        if (score.probability && score.reference_probability &&
+            !covers_the_same(*score.probability, *score.reference_probability)) {
+            constexpr double k_percent = 100.0;
+            findings.add(finding_of_score(score, say("U for {p:number} % and U for {other:number} % meet in one E_n",
+                                                     text::significant(k_percent * *score.probability, 4),
+                                                     text::significant(k_percent * *score.reference_probability, 4))),
+                         FindingSeverity::major);
+        }
+        if (!score.is_evaluated && score.k && score.reference_k &&
+            !is_about(*score.k, *score.reference_k, gum::k_same_coverage_factor)) {
             findings.add(
                 finding_of_score(
                     score, say("k = {k:number} and k = {other:number} meet in one E_n (they differ by more than 2.5 %)",
@@ -285,7 +322,7 @@ void factors_mixed(const AuditSubject& subject, FindingCollector& findings) {
         for (const auto& [U, u, k, of_laboratory] :
              {std::tuple(score.U, score.u, score.k, true),
               std::tuple(score.reference_U, score.reference_u, score.reference_k, false)}) {
-            if (k && U > 0.0 && u > 0.0 && !is_about(U, *k * u, 0.05)) {
+            if (!score.is_evaluated && k && U > 0.0 && u > 0.0 && !is_about(U, *k * u, 0.05)) {
                 findings.add(finding_of_score(
                     score, of_laboratory ? say("U = {U:number} of the laboratory is not k·u = {k_u:number}",
                                                in_words(U), in_words(*k * u))
@@ -382,28 +419,35 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
         return;
     }
     const bool others_act = subject.comparison && subject.comparison->between_laboratories;
-    const bool by_chance = subject.comparison && subject.comparison->is_explained_by_chance;
+    // Scores of which the same is said are one finding, and the first is the one that shows: the largest goes first.
+    std::vector<std::pair<double, const AuditedScore*>> above;
     for (const AuditedScore& score : scores_of(subject)) {
         const std::optional<double> en = en_of(score);
-        if (!en || std::abs(*en) <= 1.0) {
-            continue;
+        if (en && std::abs(*en) > 1.0 && score.is_signal) {
+            above.emplace_back(std::abs(*en), &score);
         }
-        const std::string shown = above_one(std::abs(*en));
-        if (by_chance) {
-            findings.add(
-                finding_of_score(
-                    score, say("|E_n| = {en:number} is above 1, and so many of the scores are by chance alone", shown)),
+    }
+    std::stable_sort(above.begin(), above.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [en, score] : above) {
+        const std::string shown = above_one(en);
+        const auto add = [&, of = score](const char* kind, Sentence what, FindingSeverity severity) {
+            AuditFinding finding = finding_of_score(*of, std::move(what));
+            finding.kind = kind;
+            findings.add(std::move(finding), severity);
+        };
+        if (score->points_without_objection &&
+            en <= gum::largest_en_by_chance(*score->points_without_objection, subject.comparison->score_probability)) {
+            add("score/by_chance",
+                say("|E_n| = {en:number} is above 1, and so many of the scores are by chance alone", shown),
                 FindingSeverity::information);
         } else if (others_act) {
             // An organiser has the signal of a laboratory to report; what that laboratory does is on record there.
-            findings.add(
-                finding_of_score(
-                    score,
-                    say("|E_n| = {en:number} is above 1: a signal for this laboratory, which acts on it", shown)),
+            add("score/signal",
+                say("|E_n| = {en:number} is above 1: a signal for this laboratory, which acts on it", shown),
                 FindingSeverity::information);
         } else {
-            findings.add(
-                finding_of_score(score, say("|E_n| = {en:number} is above 1, and no action is on record", shown)));
+            add("score/no_action", say("|E_n| = {en:number} is above 1, and no action is on record", shown),
+                FindingSeverity::critical);
         }
     }
     if (!scores_of(subject).empty()) {
@@ -421,9 +465,21 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
 
 /// N07
 void instability_not_in_reference(const AuditSubject& subject, FindingCollector& findings) {
-    if (subject.comparison && !subject.comparison->scores.empty() && !subject.comparison->instability_in_reference) {
-        findings.add(finding_of_comparison(
-            say("the uncertainty of the reference value has no contribution of the stability of the artefact")));
+    if (!subject.comparison || subject.comparison->scores.empty()) {
+        return;
+    }
+    std::vector<AuditedItem> items = subject.comparison->items;
+    if (items.empty()) {
+        items.emplace_back().has_stability = subject.comparison->instability_in_reference;
+    }
+    for (const AuditedItem& item : items) {
+        if (!item.has_stability) {
+            AuditFinding finding = finding_of_comparison(
+                say("the uncertainty of the reference value has no contribution of the stability of the artefact"));
+            finding.where = item.name.empty() ? finding.where : item.name;
+            finding.kind = "stability";
+            findings.add(std::move(finding));
+        }
     }
 }
 
@@ -447,21 +503,41 @@ void reference_without_uncertainty(const AuditSubject& subject, FindingCollector
 
 /// N09
 void inconsistent_set(const AuditSubject& subject, FindingCollector& findings) {
+    const auto contradict = [&findings](const std::string& where, const Sentence& p, double threshold) {
+        AuditFinding finding = finding_of_comparison(
+            say("the results contradict each other more than their uncertainties allow: {p}, threshold "
+                "{threshold:number}",
+                p, short_number(threshold)));
+        finding.where = where.empty() ? finding.where : where;
+        finding.evidence = {p};
+        findings.add(std::move(finding));
+    };
+    if (subject.comparison && !subject.comparison->items.empty()) {
+        for (const AuditedItem& item : subject.comparison->items) {
+            if (item.p_consistent && *item.p_consistent < item.threshold) {
+                contradict(item.name, probability("p", *item.p_consistent), item.threshold);
+            } else if (!item.inconsistent.empty()) {
+                AuditFinding finding = finding_of_comparison(
+                    say("the results contradict each other more than their uncertainties allow: outside of the "
+                        "largest consistent subset are {laboratories}",
+                        listed(sentences_of(item.inconsistent), 4)));
+                finding.where = item.name.empty() ? finding.where : item.name;
+                findings.add(std::move(finding));
+            }
+        }
+        return;
+    }
     const std::span<const AuditedScore> scores = scores_of(subject);
     const std::optional<double> chi_square = sum_of_squared_zeta(scores);
-    std::optional<double> p_high = subject.comparison ? subject.comparison->p_high : std::nullopt;
-    if (!p_high && chi_square && scores.size() > 1) {
-        p_high = gum::chi_square_upper_tail(*chi_square, static_cast<double>(scores.size()));
-    }
-    const bool is_together = subject.comparison && subject.comparison->p_high;
-    const double threshold = is_together ? k_inconsistent_together : k_inconsistent;
-    if (p_high && *p_high < threshold) {
-        AuditFinding finding =
-            finding_of_comparison(say("the results contradict each other more than their uncertainties allow: p_high = "
-                                      "{p_high:number}, threshold {threshold:number}",
-                                      short_number(*p_high), short_number(threshold)));
-        finding.evidence = {equals("p_high", short_number(*p_high))};
-        findings.add(std::move(finding));
+    if (subject.comparison && subject.comparison->p_high) {
+        if (*subject.comparison->p_high < k_inconsistent_together) {
+            contradict("", probability("p_high", *subject.comparison->p_high), k_inconsistent_together);
+        }
+    } else if (chi_square && scores.size() > 1) {
+        const double p_high = gum::chi_square_upper_tail(*chi_square, static_cast<double>(scores.size()));
+        if (p_high < k_inconsistent) {
+            contradict("", probability("p_high", p_high), k_inconsistent);
+        }
     }
 }
 
@@ -498,7 +574,8 @@ std::vector<Rule> comparison_rules() {
          .severity = FindingSeverity::major,
          .needs = {Need::comparison},
          .detection =
-             "|E_n| > 1 with all findings corrected (critical); p_low < 0.025 over the set; u > 1.5 s* of five or "
+             "|E_n| > 1 with all findings corrected (critical); p_low < 0.025 over the set, or in the test of one item "
+             "for consistency; u > 1.5 s* of five or "
              "more laboratories; U more than twice the capability",
          .correction = "Correct the uncertainty, and score again.",
          .question = "Why is the uncertainty so much larger than the differences, or than the capability?",
@@ -512,7 +589,8 @@ std::vector<Rule> comparison_rules() {
          .needs = {Need::comparison},
          .detection =
              "E_n recomputed from the expanded uncertainties (0.02 and 2 %), where no correlation is stated; k of "
-             "both sides (2.5 %, major); U against k·u (5 %)",
+             "both sides (2.5 %, major); U against k·u (5 %); where this program evaluated E_n, the coverage "
+             "probabilities of the U that it took (major)",
          .correction = "Use expanded uncertainties of the same coverage probability on both sides.",
          .question = "Which k belongs to the two uncertainties?",
          .examine = factors_mixed},
@@ -555,8 +633,9 @@ std::vector<Rule> comparison_rules() {
          .needs = {Need::comparison},
          .detection =
              "|E_n| above 1, by the E_n that follows where N02 refutes the stated one, and no record of what was "
-             "done; an information between laboratories, because each acts on its own signal, and where the comparison "
-             "has no more of them than chance",
+             "done; an information between laboratories, because each acts on its own signal, and where nothing speaks "
+             "against the scores of one direction together and the score is no larger than chance makes it; none "
+             "where the evaluation gives no signal",
          .correction = "Find the cause, act, and put it on record.",
          .question = "What was done about this result?",
          .examine = no_action_on_record},
@@ -566,7 +645,9 @@ std::vector<Rule> comparison_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::comparison},
-         .detection = "a comparison that names no contribution of the stability of the artefact",
+         .detection =
+             "an item, or a comparison without items, that names no contribution of the stability of the artefact "
+             "and has no test that shows it stable",
          .correction = "Add the contribution, or show by measurements at start and end that there is none.",
          .question = "What is known of the artefact's stability during the comparison?",
          .examine = instability_not_in_reference},
@@ -586,7 +667,10 @@ std::vector<Rule> comparison_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::comparison},
-         .detection = "p_high of Σζ² below 0.025, given the covariance; below 0.05 where none is stated",
+         .detection =
+             "between laboratories, the test of an item for consistency as it was evaluated, or results outside "
+             "of the largest consistent subset; else p_high of Σζ² below 0.025, given the covariance, or below "
+             "0.05 where none is stated; none where nothing was evaluated",
          .correction = "Look for the result that contradicts the others, or for what the uncertainties leave out.",
          .question = "How was the inconsistency dealt with?",
          .examine = inconsistent_set},

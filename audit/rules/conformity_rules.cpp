@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "audit/audit.h"
 #include "audit/rules/gate_findings.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
@@ -168,7 +169,8 @@ void verdict_on_open_findings(const AuditSubject& subject, std::span<const Audit
             const bool touches = std::find(other.budgets.begin(), other.budgets.end(), i) != other.budgets.end();
             // Findings on documents and persons leave the uncertainty, and with it the verdict, as they are.
             const bool of_uncertainty = other.correct || other.contribution_missing;
-            if (touches && of_uncertainty && other.severity >= FindingSeverity::major &&
+            const bool is_open = waiver_of(other, subject.waivers) == nullptr;
+            if (touches && of_uncertainty && is_open && other.severity >= FindingSeverity::major &&
                 std::find(open.begin(), open.end(), other.rule) == open.end() &&
                 std::find(critical.begin(), critical.end(), other.rule) == critical.end()) {
                 (other.severity == FindingSeverity::critical ? critical : open).push_back(other.rule);
@@ -277,8 +279,9 @@ std::vector<Rule> conformity_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::rows, Need::limits},
-         .detection =
-             "a verdict, or limits with a rule, and major or critical findings of this audit on the same budget",
+         .detection = "a verdict, or limits with a rule, and major or critical findings of this audit on the same "
+                      "budget that nobody "
+                      "accepts",
          .correction = "Correct the uncertainty, and decide again.",
          .question = "Does the verdict stand with the corrected uncertainty?",
          .conclude = verdict_on_open_findings},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -290,10 +291,13 @@ CoverageWords coverage_words(const AuditedBudget& budget) {
 struct ShownCoverage {
     BudgetOutcome outcome;
     OutcomeIntervals allowed;
+    bool is_of_other_nu = false;  ///< k is that of a ν_eff that the rows do not give: K01 tells it
 };
 ShownCoverage shown_coverage(const AuditedBudget& budget) {
-    const CoverageRule shown = check_claims(budget).coverage;
-    return {.outcome = evaluate(budget, shown), .allowed = outcome_intervals(budget, shown)};
+    const ClaimCheck check = check_claims(budget);
+    return {.outcome = evaluate(budget, check.coverage),
+            .allowed = outcome_intervals(budget, check.coverage),
+            .is_of_other_nu = check.nu_eff_outside};
 }
 
 /// Whether the stated k is the used one, rounded to a whole number by more than 5 %: "2" for 2.40. K13.
@@ -307,6 +311,19 @@ Sentence with_sentence(Sentence said, const std::string& sentence) {
     return sentence.empty() ? said : say("{said}: \"{sentence}\"", std::move(said), sentence);
 }
 
+/// The smallest k that p can have by the distribution that is stated of a result without rows. A sum that a bounded
+/// contribution dominates has a k below that of the normal distribution: √3 p where it is rectangular, 1.65 at 95 %. Which
+/// sum it was, nobody knows where no distribution is stated, or one that has no k of its own.
+double least_k_without_rows(const std::string& distribution, double p) {
+    const std::string name = text::in_small_letters(distribution);
+    if (is_normal_or_student(name)) {
+        return gum::standard_normal_quantile(0.5 + 0.5 * p);
+    }
+    const bool is_rectangular = name.empty() || name == "uniform" || name == "rectangular";
+    // Of the distributions in use that of the arcsine is the narrowest: k = √2 sin(π p/2).
+    return is_rectangular ? std::numbers::sqrt3 * p : std::numbers::sqrt2 * std::sin(0.5 * std::numbers::pi * p);
+}
+
 /// K03
 void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
     for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome&) {
@@ -316,7 +333,7 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         const double k = outcome.k;
         const Interval stated = words.k ? words.k->interval() : Interval{k, k};
         const std::string& sentence = budget.claims.coverage_sentence;
-        if (words.k && !loses_digits(*words.k, k) && !outcome.at_capability &&
+        if (words.k && !shown.is_of_other_nu && !loses_digits(*words.k, k) && !outcome.at_capability &&
             !stated.meets({0.99 * shown.allowed.k.low, 1.01 * shown.allowed.k.high})) {
             AuditFinding finding =
                 finding_of(subject, b,
@@ -336,7 +353,10 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         // "About 95 %" is said of k = 2; an interval may be a little wider than p asks for.
         const double least = gum::standard_normal_quantile(0.5 + 0.5 * *words.p);
         // Without rows only the document knows ν_eff; where it does not say, it may be as small as 1.
-        const double stated_nu = budget.claims.nu_eff ? budget.claims.nu_eff->interval().low : 1.0;
+        const bool is_normal = budget.claims.distribution == "normal";
+        const double stated_nu = budget.claims.nu_eff ? budget.claims.nu_eff->interval().low
+                                 : is_normal          ? std::numeric_limits<double>::infinity()
+                                                      : 1.0;
         const double fewest = std::floor(budget.rows.empty() ? stated_nu : shown.allowed.nu_eff.low);
         // k of p grows when ν_eff falls: from that of the normal distribution to that of the fewest degrees of freedom
         // that the rows, or the document, leave open.
@@ -344,7 +364,10 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
             fewest >= 1.0 ? std::max(least, gum::coverage_factor(*words.p, fewest)) : std::max(least, k);
         // A sum that a rectangular contribution dominates has a k below that of the normal distribution, 1.65 at 95 %.
         const bool narrow_shape = budget.coverage.kind == CoverageRule::Kind::convolution || k < 1.75;
-        if ((k < 0.99 * least && !narrow_shape) || k > 1.06 * most) {
+        const double least_of_all = budget.rows.empty() ? least_k_without_rows(budget.claims.distribution, *words.p)
+                                    : narrow_shape      ? 0.0
+                                                        : least;
+        if (k < 0.99 * least_of_all || k > 1.06 * most) {
             AuditFinding finding =
                 finding_of(subject, b,
                            with_sentence(say("k = {k:number} and p = {p:number} % do not belong together", in_words(k),
@@ -619,7 +642,8 @@ std::vector<Rule> coverage_rules() {
          .policy = fixed,
          .severity = major,
          .needs = {Need::claims},
-         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together",
+         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together, "
+                      "by the distribution that is stated: without rows and without one, k from √3 p on is open",
          .correction = "State the k that was used, and the probability that belongs to it.",
          .question = "Which coverage factor was used, and which probability is meant?",
          .examine = k_and_sentence},

@@ -59,6 +59,9 @@ bool names_a_vessel(const WordLine& words) {
                           "block calibrator",
                           "homogen",
                           "liquid",
+                          "solution",
+                          "buffer",
+                          "thermostat",
                           "water",
                           "ice",
                           "triple point",
@@ -72,18 +75,34 @@ bool names_a_vessel(const WordLine& words) {
                           "*ofen",
                           "wasser",
                           "*flussigkeit",
+                          "losung",
+                          "puffer",
+                          "*thermostat",
                           "eispunkt",
                           "*vergleichsstelle",
                           "camara",
                           "bano",
                           "horno",
                           "liquido",
-                          "agua"});
+                          "disolucion",
+                          "solucion",
+                          "termostato",
+                          "agua",
+                          "*溶液",
+                          "*水槽",
+                          "*浴",
+                          "*箱"});
 }
 
-/// Whether an absolute value may be one of the room: not much further off the observed range than the room swings.
-/// \param room  how far it may be off, [unit of the condition]
-bool is_near(const Condition& condition, const AuditedRow& row, double room) {
+/// Half-width that a row has: what it states, or that of a rectangular distribution with its u.
+double half_width_of(const AuditedRow& row) {
+    const bool stated = row.origin == Origin::limits && row.origin_value;
+    return stated ? *row.origin_value : std::numbers::sqrt3 * row.used_u;
+}
+
+/// Whether an absolute value may be one of the room: its interval meets the observed range. What lies outside of it was
+/// held there by something else: 25.02 °C ± 0.05 °C where 19.7 °C to 20.3 °C were observed.
+bool is_of_observed_range(const Condition& condition, const AuditedRow& row) {
     if (!row.estimate) {
         return false;
     }
@@ -93,7 +112,8 @@ bool is_near(const Condition& condition, const AuditedRow& row, double room) {
             return false;
         }
         const double value = observed.from_si(of_row.to_si(row.estimate->value));
-        return value >= condition.minimum - room && value <= condition.maximum + room;
+        const double half_width = difference_in(half_width_of(row), row.unit, condition.unit).value_or(0.0);
+        return value >= condition.minimum - half_width && value <= condition.maximum + half_width;
     } catch (const gum::InputError&) {
         return false;
     }
@@ -135,19 +155,17 @@ public:
             return false;
         }
         if (condition.kind == "temperature") {
-            constexpr double k_room =
-                5.0;  // °C: a room at 20 °C is not at 0 °C, and what is held at 0 °C is not the room
             // A difference of two temperatures, or of two coefficients, does not swing with the room.
             return row.contributor == Contributor::temperature &&
                    !words.has_any({"difference", "differenz", "unterschied", "delta"}) &&
-                   (room || !is_absolute(row.unit) || !row.estimate || is_near(condition, row, k_room));
+                   (room || !is_absolute(row.unit) || !row.estimate || is_of_observed_range(condition, row));
         }
         const bool names_kind =
             (condition.kind == "humidity" &&
              quantity.has_any({"humid", "feucht", "luftfeucht", "humedad", "*濕度", "*湿度"})) ||
             (condition.kind == "pressure" &&
              quantity.has_any({"pressure", "druck", "luftdruck", "barometric", "presion", "*氣壓", "*气压"}));
-        return names_kind && (room || is_near(condition, row, 0.0));
+        return names_kind && (room || is_of_observed_range(condition, row));
     }
 
 private:
@@ -158,12 +176,6 @@ private:
         return at.is.input.empty() ? std::pair(at.budget, at.is.place) : std::pair(std::string::npos, at.is.input);
     }
 };
-
-/// Half-width that a row has: what it states, or that of a rectangular distribution with its u.
-double half_width_of(const AuditedRow& row) {
-    const bool stated = row.origin == Origin::limits && row.origin_value;
-    return stated ? *row.origin_value : std::numbers::sqrt3 * row.used_u;
-}
 
 /// Whether another part of the same input is wider: then the range is held against that.
 bool has_wider_part(const RowAt& at) {
@@ -356,8 +368,8 @@ std::vector<Rule> environment_rules() {
          .detection =
              "half of the observed range against the half-width, or √3·u, of a row that stands for the room: not "
              "what is measured (an input of a standard or with a role in the results, a part of a quantity of "
-             "the kind of the result), not a bath or chamber; humidity and pressure by words of air or room, "
-             "or a value within the range",
+             "the kind of the result), not a bath, solution or chamber; by words of air or room, as a deviation, or "
+             "by a value whose half-width reaches the observed range",
          .correction = "Take the observed range into the budget.",
          .question = "Which range of the conditions is the budget made for?",
          .examine = recorded_range_larger},

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+
+#include "audit/claims.h"
 
 namespace gumcert::audit {
 namespace {
@@ -139,10 +142,30 @@ bool takes_gate_findings(std::string_view rule) {
                        [rule](const GateFinding& entry) { return entry.rule == rule; });
 }
 
+namespace {
+
+/// Whether the rule itself looks at the number that a check of a digital certificate names, with more of the document
+/// than the check has: the decision rule beside a verdict, the degrees of freedom beside a factor. It is told once then.
+bool is_left_to_rule(const certificate::Finding& gate, const AuditSubject& subject) {
+    const auto names = [&gate](const std::string& before, const std::optional<StatedNumber>& number) {
+        return number && !number->text.empty() && gate.what.find(before + number->text + " ") != std::string::npos;
+    };
+    return std::any_of(subject.budgets.begin(), subject.budgets.end(), [&](const AuditedBudget& budget) {
+        const Claims& claims = budget.claims;
+        if (gate.id == "GC-DCC-0116") {
+            return budget.rule && !claims.verdict.empty() && names(claims.verdict + " for ", claims.value);
+        }
+        return gate.id == "GC-DCC-0117" && claims.coverage_probability && is_normal_or_student(claims.distribution) &&
+               names("coverage factor ", claims.k);
+    });
+}
+
+}  // namespace
+
 void take_gate_findings(const AuditSubject& subject, FindingCollector& findings) {
     for (const certificate::Finding& gate :
          subject.certificate ? subject.certificate->findings : subject.of_evaluation) {
-        if (rule_of_gate_finding(gate) != findings.rule()) {
+        if (rule_of_gate_finding(gate) != findings.rule() || is_left_to_rule(gate, subject)) {
             continue;
         }
         AuditFinding finding;

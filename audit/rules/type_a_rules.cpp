@@ -45,11 +45,33 @@ Sentence with_nu(Sentence said, const std::string& nu) {
     return say("{said}, ν = {nu:number}", std::move(said), nu);
 }
 
-/// U01
+/// Whether the printed U stays what it is for any ν of a row from 1 on: ν of more readings lies between that and infinity. A
+/// fixed k hides what ν does, so that it is asked of t_p(ν_eff).
+bool leaves_printed_U(const AuditedBudget& budget, std::size_t row) {
+    AuditedBudget fewest = budget;
+    fewest.rows[row].used_nu = 1.0;
+    CoverageRule rule = budget.coverage;
+    if (rule.kind == CoverageRule::Kind::fixed) {
+        rule.kind = CoverageRule::Kind::student_t;
+        rule.probability = budget.claims.coverage_probability.value_or(rule.probability);
+    }
+    try {
+        return evaluate(fewest, rule).printed_U == evaluate(budget, rule).printed_U;
+    } catch (const gum::DiagnosedError&) {
+        return false;
+    }
+}
 
+/// A half-width and its divisor need no readings, whatever the row is called: the evaluation is Type B.
+bool has_bounds(const AuditedRow& row) {
+    return row.shape == Shape::rectangular || row.shape == Shape::triangular || row.shape == Shape::arcsine ||
+           row.shape == Shape::trapezoidal;
+}
+
+/// U01
 void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
-        if (!at.is.type_a.value_or(false) || at.is.nu || std::isfinite(at.is.used_nu)) {
+        if (!at.is.type_a.value_or(false) || at.is.nu || std::isfinite(at.is.used_nu) || has_bounds(at.is)) {
             return;
         }
         const std::optional<std::size_t> n = readings_of(at.is);
@@ -61,6 +83,10 @@ void no_degrees_of_freedom(const AuditSubject& subject, FindingCollector& findin
             finding.expected = equals("ν", std::to_string(*n - 1));
             finding.actual = say("no ν");
             finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
+        } else if (leaves_printed_U(at.of, at.row)) {
+            finding.evidence.push_back(say("no ν from 1 on changes the printed U"));
+            findings.add(std::move(finding), FindingSeverity::minor);
+            return;
         }
         findings.add(std::move(finding));
     });
@@ -419,7 +445,9 @@ std::vector<Rule> type_a_rules() {
          .title = "Type A evaluation without degrees of freedom",
          .clause = {.text = "JCGM 100:2008, 4.2.6", .verified = true},
          .needs = {Need::rows},
-         .detection = "a row of Type A for which neither the table nor a number of readings gives ν",
+         .detection = "a row of Type A without a bounded distribution, for which the table gives no ν; ν = n − 1 of "
+                      "the readings "
+                      "that its words or the range of its STDEV name; minor where no ν from 1 on changes the printed U",
          .correction = "State ν: n − 1 of a mean of n readings, the sum over all series of a pooled estimate.",
          .question =
              "The row counts with infinite degrees of freedom, so k is too small where it is large. From how many "

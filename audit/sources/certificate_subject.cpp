@@ -15,6 +15,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/unit.h"
 #include "reports/dcc/dcc_certificate_data.h"
+#include "text/small_letters.h"
 
 namespace gumcert::audit {
 namespace {
@@ -256,6 +257,7 @@ AuditedBudget Results::budget_of(std::size_t position) {
     claims.U = number_stated(q.U, budget.place);
     claims.k = number_stated(q.k, budget.place);
     claims.u_c = number_stated(q.u, budget.place);
+    claims.distribution = text::in_small_letters(q.distribution);
     if (const std::optional<StatedNumber> p = number_stated(q.p, budget.place); p && p->value > 0.0 && p->value < 1.0) {
         claims.coverage_probability = p->value;
     }

@@ -348,7 +348,12 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
             }
         }
     }
-    if (checklist_of(budget.method) == nullptr) {
+    // What the program evaluates is the method; the title of a budget names it.
+    if (record.kind == "rotary_table") {
+        budget.method = "rotary_table_multilateration";
+    } else if (record.kind != "budget") {
+        budget.method.clear();
+    } else if (checklist_of(budget.method) == nullptr) {
         budget.method = method_in_title(budget.method + " " + record.title);
     }
     const reports::ReportedResult& reported = result.reported;
@@ -389,49 +394,130 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
     return budget;
 }
 
-AuditedScore score_of(const reports::ComparisonPoint& point) {
+/// "gauge, round 2"; "" where there is one item in one round.
+std::string name_in_round(const std::string& item, const std::string& round) {
+    return item + (item.empty() || round.empty() ? "" : ", ") + (round.empty() ? "" : "round " + round);
+}
+
+const reports::ComparisonItemEvaluation* item_of(const reports::Comparison& comparison,
+                                                 const reports::ComparisonPoint& point) {
+    const auto found = std::find_if(comparison.items.begin(), comparison.items.end(), [&point](const auto& item) {
+        return item.id == point.item && item.round == point.round;
+    });
+    return found == comparison.items.end() ? nullptr : &*found;
+}
+
+/// One side of a score: U, and the probability that it covers.
+struct TakenU {
+    double U = 0.0;
+    std::optional<double> probability;
+};
+/// U as E_n takes it: where the stated factor means another probability for its degrees of freedom, the evaluation has
+/// formed U anew (gum::en_uncertainty), so that k of both sides need not be the same.
+/// \param of_scores    U that was formed anew; none: as stated
+/// \param probability  that is stated beside a k that is none of Student's distribution
+TakenU taken_by_en(const reports::Comparison& comparison, const std::optional<double>& stated_U,
+                   const std::optional<double>& of_scores, const std::optional<double>& probability) {
+    const double wanted = comparison.score_probability;
+    return of_scores ? TakenU{.U = *of_scores, .probability = wanted}
+                     : TakenU{.U = stated_U.value_or(0.0), .probability = probability.value_or(wanted)};
+}
+
+/// The number of points of the direction of a point, where the evaluation has no objection to their scores together.
+std::optional<std::size_t> points_without_objection(const reports::Comparison& comparison,
+                                                    const reports::ComparisonPoint& point) {
+    const std::string direction = point.direction.empty() ? "all" : point.direction;
+    const auto found = std::find_if(comparison.summary.begin(), comparison.summary.end(),
+                                    [&direction](const auto& row) { return row.direction == direction; });
+    if (found == comparison.summary.end() || found->verdict.empty() || found->points < 1 ||
+        found->count_above_1 > found->count_by_chance.value_or(-1)) {
+        return std::nullopt;
+    }
+    // Chance is reckoned from uncertainties that nothing refutes.
+    for (const char* const objection : {"disagreement", "points_above_1", "side_refuted"}) {
+        if (found->verdict == objection) {
+            return std::nullopt;
+        }
+    }
+    return static_cast<std::size_t>(found->points);
+}
+
+AuditedScore score_of(const reports::Comparison& comparison, const reports::ComparisonPoint& point) {
     AuditedScore score;
-    score.name = !point.name.empty() ? point.name : point.participant + (point.item.empty() ? "" : ", " + point.item);
+    score.is_evaluated = true;
+    score.name = point.name;
+    if (score.name.empty()) {
+        const std::string item = name_in_round(point.item, point.round);
+        score.name = point.participant + (point.participant.empty() || item.empty() ? "" : ", ") + item;
+    }
     if (score.name.empty()) {
         score.name = point.direction + " " + point.printed_angle;
     }
+    const reports::ComparisonItemEvaluation* item = item_of(comparison, point);
+    const TakenU own = taken_by_en(comparison, point.U.number, point.U_of_scores.number, point.coverage_probability);
+    const bool has_scatter = item != nullptr && item->U_rests_on == "scatter";
+    const TakenU reference = taken_by_en(comparison, point.reference_U.number,
+                                         has_scatter       ? std::nullopt
+                                         : item != nullptr ? item->U_of_scores.number
+                                                           : point.reference_U_of_scores,
+                                         point.reference_coverage_probability);
     score.value = point.value.number;
     score.u = point.u.value_or(0.0);
-    score.U = point.U.number.value_or(0.0);
+    score.U = own.U;
+    score.probability = own.probability;
     score.reference_value = point.reference_value.number;
     score.reference_u = point.reference_u.value_or(0.0);
-    score.reference_U = point.reference_U.number.value_or(0.0);
-    // Of a budget k is that of the distribution of its result, for the probability that stands beside it: a k of 9 and one
-    // of 2 mean the same 95 % then.
-    score.k = point.coverage_probability ? std::nullopt : point.k.number;
-    score.reference_k = point.reference_coverage_probability ? std::nullopt : point.reference_k;
+    score.reference_U = reference.U;
+    // Against a value that comes from the scatter of the results E_n takes no U(X): U of the difference is formed from
+    // what all other results show, or from the u that are stated. How well the value is known, U(X) by the scatter says.
+    const bool by_scatter = has_scatter || point.u_others;
+    score.reference_probability = by_scatter ? std::nullopt : reference.probability;
     score.en = point.En.number;
     score.zeta = point.zeta.number;
     score.z = point.z.number;
-    score.correlation_known = point.correlation.has_value();
+    // A result without a score of its uncertainty has no correlation to state.
+    score.correlation_known = point.correlation.has_value() || (!point.En.number && !point.zeta.number);
+    score.is_signal = point.signal != "inconclusive" && point.signal != "none";
+    score.points_without_objection = points_without_objection(comparison, point);
     return score;
+}
+
+AuditedItem audited_item(const reports::ComparisonItemEvaluation& stated) {
+    AuditedItem item;
+    item.name = name_in_round(stated.name.empty() ? stated.id : stated.name, stated.round);
+    item.has_stability = stated.u_stability.number.has_value() || (stated.stability && stated.stability->stable);
+    item.inconsistent = stated.not_consistent;
+    if (stated.consistency) {
+        const reports::ConsistencySummary& test = *stated.consistency;
+        item.p_consistent = test.p_value.number;
+        item.threshold = test.alpha;
+        // What a subset has left out of the test makes it too good.
+        if (item.inconsistent.empty() && test.degrees_of_freedom > 0) {
+            item.p_low =
+                gum::chi_square_lower_tail(test.chi_square.number, static_cast<double>(test.degrees_of_freedom));
+        }
+    }
+    return item;
 }
 
 AuditedComparison comparison_of(const reports::Comparison& stated) {
     AuditedComparison comparison;
     comparison.between_laboratories = stated.form == "laboratories";
+    comparison.score_probability = stated.score_probability;
     for (const reports::ComparisonPoint& point : stated.points) {
         if (point.En.number || point.zeta.number || point.z.number) {
-            comparison.scores.push_back(score_of(point));
+            comparison.scores.push_back(score_of(stated, point));
         }
     }
     if (!stated.summary.empty()) {
         comparison.p_low = stated.summary.back().p_low.number;
         comparison.p_high = stated.summary.back().p_high.number;
-        const reports::ComparisonSummary& all = stated.summary.back();
-        comparison.is_explained_by_chance = all.count_by_chance && all.count_above_1 <= *all.count_by_chance;
     }
     for (const reports::SharedSource& shared : stated.shared_sources) {
         comparison.shared_sources.push_back(shared.source);
     }
     for (const reports::ComparisonItemEvaluation& item : stated.items) {
-        comparison.instability_in_reference =
-            comparison.instability_in_reference || item.u_stability.number.has_value();
+        comparison.items.push_back(audited_item(item));
     }
     return comparison;
 }

@@ -59,6 +59,87 @@ void mark_sums(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held)
                             [&](std::size_t i, const std::vector<CellPlace>& under) { mark_sum(*of[i], held, under); });
 }
 
+/// The number of values of which the formula of a cell takes the standard deviation, "=STDEV(L3:L12)", directly or through
+/// cells that only pass it on. Nothing where it reads anything else.
+std::optional<std::size_t> values_of_deviation(const AuditedWorkbook& held, CellPlace cell) {
+    constexpr int k_most_steps = 4;
+    constexpr std::size_t k_most_values = 10'000;
+    for (int step = 0; step < k_most_steps; ++step) {
+        const SheetFormula* const formula = held.formula_at(cell);
+        const std::vector<workbook::Area> read =
+            formula != nullptr ? held.graph.areas_read(cell) : std::vector<workbook::Area>();
+        const std::vector<CellPlace> values =
+            read.empty() ? std::vector<CellPlace>() : held.graph.precedents(cell, k_most_values);
+        const auto is_call = [](const workbook::FormulaNode& node) {
+            return node.kind == workbook::FormulaNodeKind::call;
+        };
+        const std::vector<workbook::FormulaNode>* const nodes = formula != nullptr ? &formula->formula.nodes : nullptr;
+        if (values.empty() || values.size() == k_most_values) {
+            return std::nullopt;
+        }
+        if (nodes->size() == 1 && values.size() == 1) {
+            cell = values.front();
+            continue;
+        }
+        const bool is_deviation = std::any_of(nodes->begin(), nodes->end(), [&](const workbook::FormulaNode& node) {
+            return is_call(node) && (node.text == "STDEV" || node.text == "STDEV.S");
+        });
+        const bool reads_once = std::all_of(read.begin(), read.end(), [&read](const workbook::Area& area) {
+            return area.sheet == read.front().sheet && area.range == read.front().range;
+        });
+        const auto numbers = std::count_if(values.begin(), values.end(), [&held](const CellPlace& value) {
+            const workbook::Cell* const stored = find_cell(held.workbook.sheets[value.sheet], value.address);
+            return stored != nullptr && stored->value.kind == workbook::CellKind::number;
+        });
+        return is_deviation && reads_once && numbers > 1 ? std::optional(static_cast<std::size_t>(numbers))
+                                                         : std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// The readings of Type A rows that say nothing of them, where their cell takes the standard deviation of some.
+void count_readings(AuditedBudget& budget, const AuditedWorkbook& held) {
+    for (AuditedRow& row : budget.rows) {
+        if (!row.type_a.value_or(false) || row.nu || row.n || !row.readings.empty() || row.pooled_s) {
+            continue;
+        }
+        for (const std::optional<StatedNumber>* number : {&row.stated, &row.u}) {
+            const std::optional<CellPlace> cell = *number ? held.cell_at((*number)->place) : std::nullopt;
+            row.n = row.n || !cell ? row.n : values_of_deviation(held, *cell);
+        }
+    }
+}
+
+/// The cell of k computes with ν_eff, or with the degrees of freedom of a row: then k is none of the numbers that stand for
+/// all budgets, also where it shows one of them.
+/// \param under  the cells on which k stands, in order
+void mark_k_of_nu(AuditedBudget& budget, const AuditedWorkbook& held, const std::vector<CellPlace>& under) {
+    const auto reads = [&](const std::optional<StatedNumber>& number) {
+        const std::optional<CellPlace> cell = number ? held.cell_at(number->place) : std::nullopt;
+        return cell && std::binary_search(under.begin(), under.end(), *cell);
+    };
+    budget.claims.k_follows_nu =
+        reads(budget.claims.nu_eff) ||
+        std::any_of(budget.rows.begin(), budget.rows.end(), [&reads](const AuditedRow& row) { return reads(row.nu); });
+    if (budget.claims.k_follows_nu) {
+        note_claims_beyond_rows(budget);
+    }
+}
+
+void mark_factors(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held) {
+    std::vector<CellPlace> factors;
+    std::vector<AuditedBudget*> of;
+    for (AuditedBudget& budget : budgets) {
+        const std::optional<StatedNumber>& k = budget.claims.k;
+        if (const std::optional<CellPlace> cell = k ? held.cell_at(k->place) : std::nullopt) {
+            factors.push_back(*cell);
+            of.push_back(&budget);
+        }
+    }
+    held.graph.each_closure(
+        factors, [&](std::size_t i, const std::vector<CellPlace>& under) { mark_k_of_nu(*of[i], held, under); });
+}
+
 /// What the file shows is what it claims, also where its formulas give something else.
 void take_shown_claims(AuditedBudget& budget, const AuditedWorkbook& held) {
     const ComputedClaims computed{.claims = budget.claims,
@@ -155,6 +236,10 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
     if (!held->evaluation.cells.empty()) {
         subject.kind = AuditSubject::Kind::workbook;
         mark_sums(subject.budgets, *held);
+        mark_factors(subject.budgets, *held);
+        for (AuditedBudget& budget : subject.budgets) {
+            count_readings(budget, *held);
+        }
         for (AuditedBudget& budget : subject.budgets) {
             take_shown_claims(budget, *held);
         }

@@ -81,10 +81,14 @@ std::string outcomes_of(const AuditedResultView& result, const AuditWords& words
 }
 
 std::string finding_text(const AuditFindingView& finding, std::size_t position, const AuditedFileView& file,
-                         const AuditWords& words) {
+                         const std::vector<PrintedWaiver>& waivers, const AuditWords& words) {
     std::string out =
         paragraph_of(padded(std::to_string(position), 3, true) + " ",
                      words.severity(finding.severity) + ": " + finding.id + " " + words.sentence(finding.title).text);
+    if (finding.waiver && *finding.waiver < waivers.size()) {
+        const PrintedWaiver& waiver = waivers[*finding.waiver];
+        out += labelled(words("accepted_by"), waiver.by + ", " + waiver.when + ": " + waiver.reason);
+    }
     out += labelled(words("where"), finding.where);
     out += labelled(words("what"), words.said(finding.what).text);
     if (finding.effect) {
@@ -155,7 +159,8 @@ std::string list_of(const std::string& heading, const std::vector<AuditSentence>
     return out.empty() ? "" : "\n" + heading + "\n" + out;
 }
 
-std::string file_text(const AuditedFileView& file, const AuditWords& words, bool verbose) {
+std::string file_text(const AuditedFileView& file, const std::vector<PrintedWaiver>& waivers, const AuditWords& words,
+                      bool verbose) {
     std::string out = paragraph_of("", file.name + " (" + words.file_kind(file.kind) + ")");
     out += paragraph_of("  ", counts_of(file, words));
     if (file.results.empty()) {
@@ -175,7 +180,7 @@ std::string file_text(const AuditedFileView& file, const AuditWords& words, bool
         out += paragraph_of("  ", words("no_findings"));
     }
     for (std::size_t i = 0; i < file.findings.size(); ++i) {
-        out += finding_text(file.findings[i], i + 1, file, words);
+        out += finding_text(file.findings[i], i + 1, file, waivers, words);
     }
     out += questions_of(file, words);
     if (!all_is_named_first(file)) {
@@ -194,7 +199,7 @@ std::string audit_as_text(const AuditView& view, const Wording& wording, bool ve
     std::string out = list_of(words("unaudited"), words.unaudited(view));
     out.erase(0, out.empty() ? 0 : 1);  // nothing stands above it
     for (const AuditedFileView& file : view.files) {
-        out += (out.empty() ? "" : "\n") + file_text(file, words, verbose);
+        out += (out.empty() ? "" : "\n") + file_text(file, view.waivers, words, verbose);
     }
     return out + waivers_of(view, words);
 }

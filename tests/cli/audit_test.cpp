@@ -240,6 +240,12 @@ TEST_F(AuditProgram, WaiversAreShownAndDecideOnTheExitCode) {
     const Ended refused = audit({table.string(), "--waivers", file.string()});
     EXPECT_EQ(refused.code, 3);
     EXPECT_NE(refused.err.find("GC-AUDIT-0012"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("names nobody"), std::string::npos) << refused.err;
+    waivers[0]["by"] = "Head of laboratory";
+    waivers[0]["reason"] = "OK";
+    write_bytes(file, waivers.dump());
+    EXPECT_NE(audit({table.string(), "--waivers", file.string()}).err.find("a reason that tells nothing: \"OK\""),
+              std::string::npos);
     write_bytes(file, "{}");
     EXPECT_EQ(audit({table.string(), "--waivers", file.string()}).code, 3);
 }

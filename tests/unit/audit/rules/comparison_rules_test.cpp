@@ -154,11 +154,98 @@ TEST(ComparisonRules, N06_does_not_accuse_what_chance_explains) {
     scores[0] = score_of("A", 1.0037 * std::hypot(1.0, 0.3), 1.0, 0.3);
     AuditSubject subject = comparison_of(scores);
     EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("|E_n| = 1.004 is above 1, and no action"));
-    subject.comparison->is_explained_by_chance = true;
+    subject.comparison->scores[0].points_without_objection = 12;
     EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("by chance alone"));
     for (const AuditFinding& finding : audit(subject, comparison_rules()).findings) {
         EXPECT_TRUE(finding.rule != "N06" || finding.severity == FindingSeverity::information);
     }
+    // The largest of 12 scores is above 1.68 in 1 of 100 comparisons only where uncertainties are right.
+    subject.comparison->scores[0] = score_of("A", 6.54 * std::hypot(1.0, 0.3), 1.0, 0.3);
+    subject.comparison->scores[0].points_without_objection = 12;
+    EXPECT_THAT(found_by(comparison_rules(), "N06", subject), HasSubstr("|E_n| = 6.54 is above 1, and no action"));
+}
+
+TEST(ComparisonRules, N06_says_of_each_score_what_holds_of_it) {
+    std::vector<AuditedScore> scores = sound_scores();
+    scores[1] = score_of("B", 1.1 * std::hypot(1.0, 0.3), 1.0, 0.3);
+    scores[1].points_without_objection = 5;
+    scores[3] = score_of("D", 3.0, 1.0, 0.3);
+    scores[4] = score_of("E", 4.0, 1.0, 0.3);
+    std::size_t grave = 0, by_chance = 0;
+    for (const AuditFinding& finding : audit(comparison_of(scores), comparison_rules()).findings) {
+        if (finding.rule == "N06" && finding.severity == FindingSeverity::critical) {
+            ++grave;
+            EXPECT_EQ(finding.where, "E") << "the largest shows";
+            EXPECT_EQ(finding.other_places, std::vector<std::string>{"D"});
+        } else if (finding.rule == "N06") {
+            ++by_chance;
+            EXPECT_EQ(finding.where, "B");
+        }
+    }
+    EXPECT_EQ(grave, 1U);
+    EXPECT_EQ(by_chance, 1U);
+}
+
+TEST(ComparisonRules, form_no_score_without_both_uncertainties) {
+    for (const auto& [U, reference_U] : {std::pair(0.0, 0.3), std::pair(1.0, 0.0), std::pair(0.0, 0.0)}) {
+        std::vector<AuditedScore> scores = sound_scores();
+        scores[0] = score_of("A", 9.0, U, reference_U);
+        scores[0].en = std::nullopt;
+        scores[0].z = 1.0;
+        EXPECT_EQ(found_by(comparison_rules(), "N06", comparison_of(scores)), "") << U << " " << reference_U;
+        EXPECT_EQ(found_by(comparison_rules(), "N09", comparison_of(scores)), "") << U << " " << reference_U;
+    }
+}
+
+TEST(ComparisonRules, take_an_evaluated_comparison_as_it_is) {
+    std::vector<AuditedScore> scores = sound_scores();
+    for (AuditedScore& score : scores) {
+        score.is_evaluated = true;
+        score.k = 2.21;  // both t of their own degrees of freedom
+        score.reference_k = 2.65;
+        score.probability = score.reference_probability = 0.9545;
+    }
+    scores[0].value = 30.0;
+    scores[0].en = std::nullopt;  // the evaluation has none
+    for (const Rule& rule : comparison_rules()) {
+        EXPECT_EQ(found_by(comparison_rules(), rule.id, comparison_of(scores)), "") << rule.id;
+    }
+    scores[1].reference_probability = 0.99;
+    EXPECT_THAT(found_by(comparison_rules(), "N02", comparison_of(scores)),
+                HasSubstr("U for 95.45 % and U for 99 % meet"));
+    scores[1].reference_probability = 0.95;
+    EXPECT_EQ(found_by(comparison_rules(), "N02", comparison_of(scores)), "");
+    scores[2] = score_of("C", 3.0, 1.0, 0.3);
+    scores[2].is_signal = false;
+    EXPECT_EQ(found_by(comparison_rules(), "N06", comparison_of(scores)), "") << "no signal is given";
+}
+
+TEST(ComparisonRules, consistency_is_that_of_each_item) {
+    AuditSubject subject = comparison_of(sound_scores());
+    for (AuditedScore& score : subject.comparison->scores) {
+        score.is_evaluated = true;
+    }
+    subject.comparison->p_high = 1e-9;  // of scores against a value that is made of some of them
+    subject.comparison->items.resize(3);
+    for (AuditedItem& item : subject.comparison->items) {
+        item.has_stability = true;
+    }
+    subject.comparison->items[0].name = "block 1";
+    EXPECT_EQ(found_by(comparison_rules(), "N09", subject), "") << "nothing was tested";
+    subject.comparison->items[1].name = "block 2";
+    subject.comparison->items[1].p_consistent = 0.0010;
+    EXPECT_THAT(found_by(comparison_rules(), "N09", subject), HasSubstr("p = 0.001, threshold 0.05"));
+    subject.comparison->items[1].p_consistent = 0.0;
+    EXPECT_THAT(found_by(comparison_rules(), "N09", subject), HasSubstr("p is below 1e-300"));
+    subject.comparison->items[1].p_consistent = 0.3;
+    subject.comparison->items[1].inconsistent = {"C", "D"};
+    EXPECT_THAT(found_by(comparison_rules(), "N09", subject), HasSubstr("largest consistent subset are C, D"));
+    EXPECT_EQ(found_by(comparison_rules(), "N01", subject), "");
+    subject.comparison->items[2].p_low = 0.02;
+    EXPECT_THAT(found_by(comparison_rules(), "N01", subject), HasSubstr("p_low = 0.02"));
+    EXPECT_EQ(found_by(comparison_rules(), "N07", subject), "");
+    subject.comparison->items[0].has_stability = false;
+    EXPECT_THAT(found_by(comparison_rules(), "N07", subject), HasSubstr("stability of the artefact"));
 }
 
 TEST(ComparisonRules, N06_asks_what_was_done) {

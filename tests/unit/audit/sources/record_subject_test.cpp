@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 
@@ -199,6 +200,148 @@ TEST(SubjectOfRecord, ComparesAtThePointThatIsAskedFor) {
     const AuditSubject first = subject_of(compared(), "record.json", 0);
     EXPECT_EQ(first.budgets[0].value, -0.5);
     EXPECT_NEAR(evaluate(first.budgets[0]).en.value_or(0.0), 0.8, 1e-9) << "of the other point";
+}
+
+/// Comparisons between laboratories with whatever an evaluation may leave out.
+reports::Comparison drawn_comparison(std::mt19937& random) {
+    const auto happens = [&random](double share) { return std::uniform_real_distribution<>(0.0, 1.0)(random) < share; };
+    reports::Comparison comparison;
+    comparison.form = "laboratories";
+    const bool by_scatter = happens(0.5), has_u = happens(0.8);
+    for (const char* const round : {"1", "2"}) {
+        reports::ComparisonItemEvaluation item;
+        item.id = "gauge";
+        item.round = round;
+        if (happens(0.7)) {
+            item.consistency.emplace();
+            item.consistency->chi_square.number = happens(0.5) ? 30.0 : 8.0;
+            item.consistency->degrees_of_freedom = 9;
+            item.consistency->p_value.number = item.consistency->chi_square.number > 10.0 ? 0.0004 : 0.53;
+            item.consistency->consistent = item.consistency->p_value.number >= item.consistency->alpha;
+        }
+        if (happens(0.5)) {
+            item.u_stability.number = 0.1;
+        }
+        comparison.items.push_back(item);
+        for (const char* const laboratory : {"A", "B", "C", "D", "E"}) {
+            reports::ComparisonPoint point;
+            point.participant = laboratory;
+            point.item = item.id;
+            point.round = round;
+            point.value.number = std::normal_distribution<>(0.0, 3.0)(random);
+            point.z.number = point.value.number;
+            point.signal = "none";
+            if (has_u) {
+                point.reference_u = 0.2;
+                point.reference_U.number = 0.9;
+                point.reference_k = 4.5;
+            }
+            if (happens(0.6)) {
+                point.u = 0.5;
+                point.U.number = 1.0;
+                point.k.number = 2.0;
+                point.U_of_scores.number = happens(0.3) ? std::optional(1.1) : std::nullopt;
+                if (has_u) {
+                    point.En.number = point.value.number / 1.2;
+                    point.zeta.number = point.value.number / 0.6;
+                    point.correlation = 0.0;
+                    point.u_others = by_scatter ? std::optional(0.3) : std::nullopt;
+                    point.signal = std::abs(*point.En.number) <= 1.0 ? "none"
+                                   : happens(0.7)                    ? "action"
+                                                                     : "inconclusive";
+                    point.signal_by = {"En"};
+                }
+            }
+            comparison.points.push_back(point);
+        }
+    }
+    return comparison;
+}
+
+/// The audit of an evaluated comparison has the signals, the tests and the gaps of the evaluation, and no others.
+TEST(SubjectOfRecord, FindsOfAComparisonWhatItsEvaluationSays) {
+    std::mt19937 random(7);
+    for (int trial = 0; trial < 200; ++trial) {
+        reports::EvaluationRecord record;
+        record.kind = "comparison";
+        record.comparison = drawn_comparison(random);
+        const reports::Comparison& comparison = *record.comparison;
+        std::set<std::string> signals, inconsistent, without_stability;
+        for (const reports::ComparisonPoint& point : comparison.points) {
+            if (point.En.number && std::abs(*point.En.number) > 1.0 && point.signal == "action") {
+                signals.insert(point.participant + ", gauge, round " + point.round);
+            }
+        }
+        for (const reports::ComparisonItemEvaluation& item : comparison.items) {
+            if (item.consistency && !item.consistency->consistent) {
+                inconsistent.insert("gauge, round " + item.round);
+            }
+            if (!item.u_stability.number) {
+                without_stability.insert("gauge, round " + item.round);
+            }
+        }
+        std::set<std::string> found_signals, found_inconsistent, found_without;
+        for (const AuditFinding& finding : audit(subject_of(record, "record.json"), all_rules()).findings) {
+            std::set<std::string> places(finding.other_places.begin(), finding.other_places.end());
+            places.insert(finding.where);
+            EXPECT_NE(finding.rule, "N02") << finding.what.english();
+            if (finding.rule == "N06") {
+                found_signals = places;
+            } else if (finding.rule == "N07") {
+                found_without = places;
+            } else if (finding.rule == "N09") {
+                found_inconsistent.insert(places.begin(), places.end());
+            }
+        }
+        EXPECT_EQ(found_signals, signals) << trial;
+        EXPECT_EQ(found_inconsistent, inconsistent) << trial;
+        EXPECT_EQ(found_without, without_stability) << trial;
+    }
+}
+
+TEST(SubjectOfRecord, ExplainsByChanceWhatTheVerdictOfItsDirectionDoesNotObjectTo) {
+    reports::EvaluationRecord record = compared();
+    reports::Comparison& comparison = *record.comparison;
+    for (const char* const direction : {"x", "y", "all"}) {
+        reports::ComparisonSummary& row = comparison.summary.emplace_back();
+        row.direction = direction;
+        row.points = 12;
+        row.count_above_1 = 3;
+        row.count_by_chance = 3;
+        row.verdict = direction == std::string("y") ? "agreement_few_points" : "disagreement";
+    }
+    comparison.points[0].direction = "x";
+    comparison.points[0].En.number = 6.54;
+    comparison.points[1].direction = "y";
+    comparison.points[1].En.number = 1.22;
+    const std::vector<AuditedScore> scores = subject_of(record, "record.json").comparison->scores;
+    EXPECT_FALSE(scores[0].points_without_objection);
+    EXPECT_EQ(scores[1].points_without_objection, 12U);
+    comparison.summary[1].count_above_1 = 4;
+    EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].points_without_objection);
+    for (const char* const objection : {"", "points_above_1", "side_refuted", "disagreement"}) {
+        comparison.summary[1].count_above_1 = 3;
+        comparison.summary[1].verdict = objection;
+        EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].points_without_objection) << objection;
+    }
+}
+
+TEST(SubjectOfRecord, TakesTheUncertaintiesThatEnTook) {
+    reports::EvaluationRecord record = compared();
+    reports::ComparisonPoint& point = record.comparison->points[0];
+    point.k.number = 3.0;
+    point.U_of_scores.number = 0.41;
+    point.reference_k = 4.51;
+    point.reference_U_of_scores = 0.82;
+    AuditedScore score = subject_of(record, "record.json").comparison->scores[0];
+    EXPECT_EQ(score.U, 0.41);
+    EXPECT_EQ(score.reference_U, 0.82);
+    EXPECT_EQ(score.probability, 0.9545);
+    EXPECT_EQ(score.reference_probability, 0.9545);
+    point.u_others = 0.3;
+    EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[0].reference_probability);
+    record.comparison->points[1].coverage_probability = 0.95;
+    EXPECT_EQ(subject_of(record, "record.json").comparison->scores[1].probability, 0.95);
 }
 
 TEST(SubjectOfRecord, ComponentsAreRowsOfTheirOwn) {

@@ -39,6 +39,18 @@ TEST(AuditText, SaysWhatTheCorrectionsDoAndInWhichDirection) {
     EXPECT_LT(text.find("U10"), text.find("Questions to the laboratory"));
 }
 
+TEST(AuditText, MarksWhatSomebodyAccepts) {
+    audit::AuditReport report = test::sample_audit();
+    EXPECT_THAT(squeezed(terminal_text({report})), Not(HasSubstr("Accepted by")));
+    report.subject.waivers = {
+        {.finding = "U10", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "The maker states it so."}};
+    const std::string text = squeezed(terminal_text({report}));
+    const std::size_t accepted = text.find("Accepted by A. N., 2026-03-04: The maker states it so.");
+    ASSERT_NE(accepted, std::string::npos) << text;
+    EXPECT_LT(text.find(": U10"), accepted);
+    EXPECT_EQ(text.find("Accepted by", accepted + 1), std::string::npos) << "no other finding";
+}
+
 TEST(AuditText, CountsWhatWasNotCheckedAndNamesItWhereAsked) {
     EXPECT_THAT(squeezed(terminal_text({test::sample_audit()})),
                 HasSubstr("Rules not checked: 2. --verbose lists them."));
