@@ -580,15 +580,26 @@ NOT_READ = {3, 5, 6, 7, 8, 10, 13, 14}
 
 class Reading:
     """How a file of SQLite is read so that nothing is left beside it: with the write-ahead log where one is there; else as a file
-    that does not change where its folder cannot be written, so that SQLite makes no log; else as one that may be written, by
-    whom the log that was made is taken away again. Nothing is written."""
+    that does not change where it or its folder cannot be written, or where it may have another name, by which writers have
+    another log; else as one that may be written, by whom the log that was made is taken away again. Nothing is written."""
 
     def __init__(self, path):
         self.path = os.path.realpath(path)
         self.before = self.now()
-        has_log = self.before[-1]
-        self.is_immutable = not has_log and not os.access(os.path.dirname(self.path), os.W_OK)
-        self.mode = "mode=ro" if has_log else "mode=ro&immutable=1" if self.is_immutable else "mode=rw"
+        has_log, may_write = self.before[-1], os.access(self.path, os.W_OK)
+        may_leave_nothing = may_write and os.access(os.path.dirname(self.path), os.W_OK) and not self.may_have_another_name()
+        self.is_immutable = not has_log and not may_leave_nothing
+        self.mode = (("mode=ro" if may_write else "mode=ro&readonly_shm=1") if has_log else
+                     "mode=ro&immutable=1" if self.is_immutable else "mode=rw")
+
+    def may_have_another_name(self):
+        """Several links, or mounted by itself."""
+        try:
+            mounts = [line.split(" ")[4] for line in pathlib.Path("/proc/self/mountinfo").read_text("utf-8", "surrogateescape").splitlines()]
+        except (OSError, IndexError):
+            mounts = []
+        places = {re.sub(r"\\([0-7]{3})", lambda octal: chr(int(octal[1], 8)), place) for place in mounts}
+        return os.stat(self.path).st_nlink > 1 or self.path in places
 
     def now(self):
         """What tells whether somebody writes; the last: whether SQLite keeps entries, or what it has to take back, beside the file."""
