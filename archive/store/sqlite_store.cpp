@@ -459,6 +459,12 @@ void SqliteStore::copy_to(const fs::path& file) {
 void require_archive(sqlite3* database, const fs::path& file) {
     constexpr const char* rule = "an archive of gumcert has its mark and a version that this program knows";
     if (pragma(database, "application_id", file.string()) != std::to_string(k_application_id)) {
+        if (schema_lines(database, file.string()).empty()) {
+            refuse_store(
+                "GC-ARCHIVE-0003", file, "is empty: nothing was ever written into it", rule,
+                "check the name; where a command that began an archive was cut short, remove the file and begin "
+                "again");
+        }
         refuse_store("GC-ARCHIVE-0003", file, "is a SQLite file of something else", rule, "check the name");
     }
     if (const std::string version = pragma(database, "user_version", file.string());
@@ -475,8 +481,21 @@ void close_sqlite_file(const fs::path& file) {
     (void)pragma(database.get(), "journal_mode = DELETE", file.string());
 }
 
-std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
+void require_place_of_archive(const fs::path& file) {
     refuse_network_share(file.parent_path());
+    for (const char* const ending : {"", "-wal", "-shm", "-journal"}) {
+        const fs::path taken = file.string() + ending;
+        struct stat found {};
+        if (lstat(taken.c_str(), &found) == 0) {
+            refuse_store("GC-ARCHIVE-0002", taken, "is there already", "an archive is begun in a new file",
+                         *ending == '\0' ? "choose another name"
+                                         : "choose another name: SQLite would take it for a part of the archive");
+        }
+    }
+}
+
+std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
+    require_place_of_archive(file);
     const bool made = make_file(file);
     if (!made && errno == EEXIST) {
         refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",

@@ -532,6 +532,53 @@ TEST_F(ArchiveOfALaboratory, WritesOverNothingThatItReads) {
         }
     }
     EXPECT_EQ(archive({"backup", "-o", path("lab.archive-journal")}, "K. Keeper").code, 5);
+    for (const std::string ending : {"-wal", "-shm", "-journal"}) {
+        for (const std::string place : {"", "./", "x/../"}) {
+            for (const std::string action : {"backup", "head"}) {
+                std::vector<std::string> words{"archive",     action, "--store",
+                                               "lab.archive", "-o",   place + "lab.archive" + ending};
+                if (action == "backup") {
+                    words.insert(words.end(), {"--by", "K. Keeper"});
+                }
+                const auto before = state();
+                const Ended ended = gumcert(words, {.working_folder = folder()});
+                EXPECT_EQ(ended.code, 5) << action << " -o " << place << ending;
+                EXPECT_TRUE(tells(ended, "GC-STORE-0004")) << ended.err;
+                EXPECT_EQ(state(), before) << action << " -o " << place << ending;
+            }
+        }
+    }
+}
+
+/// SQLite would take what stands there for a part of the new archive.
+TEST_F(ArchiveOfALaboratory, BeginsNoneWhereAPartOfOneSeemsToBe) {
+    write_bytes(path("lab.archive-wal"), "of somebody");
+    const Ended ended = archive({"init"}, "K. Keeper");
+    EXPECT_EQ(ended.code, 5);
+    EXPECT_TRUE(tells(ended, "GC-ARCHIVE-0002")) << ended.err;
+    EXPECT_EQ(bytes_of(path("lab.archive-wal")), "of somebody");
+    EXPECT_FALSE(fs::exists(store()));
+}
+
+TEST_F(ArchiveOfALaboratory, SaysThatAFileIsEmpty) {
+    write_bytes(store(), "");
+    EXPECT_TRUE(tells(archive({"list"}), "is empty"));
+}
+
+TEST_F(ArchiveOfALaboratory, AnswersWithTheNumberAloneWhenQuiet) {
+    begin({"--numbering", "N-###"});
+    EXPECT_EQ(archive({"number", "-q"}, "K. Keeper").out, "N-001\n");
+    EXPECT_EQ(json::parse(archive({"number", "-q", "--format", "json"}, "K. Keeper").out)["certificate"], "N-002");
+}
+
+TEST_F(ArchiveOfALaboratory, AFolderThatIsMissingIsNoDefect) {
+    begin();
+    const std::string nowhere = path("nofolder") + "/b.archive";
+    for (const Ended& ended : {archive({"backup", "-o", nowhere}, "K. Keeper"), archive({"migrate", "--to", nowhere}),
+                               gumcert({"archive", "init", "--store", nowhere, "--by", "K. Keeper"})}) {
+        EXPECT_EQ(ended.code, 5) << ended.err;
+        EXPECT_TRUE(tells(ended, "GC-STORE-0002")) << ended.err;
+    }
 }
 
 /// "N/1" and "N_1" have one name of a file: evidence of the one does not take the place of that of the other.
