@@ -13,7 +13,9 @@
 #include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "archive/head.h"
 #include "archive/names.h"
+#include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
@@ -108,9 +110,8 @@ public:
             const std::string text = reports::text_of_html(bytes);
             const PrintedDocument page({text});
             require_agreement(file, page);
-            const bool is_of_templates = reports::has_style_of(bytes, style()) && !page.names_other_templates(words_);
-            if (is_of_templates && !page.has_head_of_archive(words_)) {
-                require_same_text(file, text, reports::languages_of_html(bytes));
+            if (reports::has_style_of(bytes, style()) && !page.names_other_templates(words_)) {
+                require_same_page(file, bytes);
             } else {
                 findings.take({what_was_compared(file)});
             }
@@ -227,10 +228,51 @@ private:
             .severity = gum::Severity::note};
     }
 
-    /// A page that the templates of this program gave is the one that they give now: the record is of this version.
-    void require_same_text(const fs::path& file, const std::string& text, const std::vector<std::string>& languages) {
-        const std::string made = reports::text_of_html(reports::render_html(record_, in_languages(file, languages)));
-        refuse_disagreement(file, difference_of_texts(text, made));
+    /// A page that the templates of this program gave is the one that they give now, in its text and in every element and
+    /// attribute: the record is of this version.
+    void require_same_page(const fs::path& file, std::string_view bytes) {
+        reports::RenderAssets assets = in_languages(file, reports::languages_of_html(bytes));
+        assets.head = head_on_page(bytes, assets);
+        const std::string made = reports::render_html(record_, assets);
+        refuse_disagreement(file, difference_of_texts(reports::text_of_html(bytes), reports::text_of_html(made)));
+        refuse_disagreement(file, difference_of_texts(reports::structure_of_html(bytes),
+                                                      reports::structure_of_html(made), "is made as "));
+    }
+
+    /// The head of an archive as a page prints it, with the place where it can be checked; none where it prints none. Whether
+    /// it is one of this archive, the archive says.
+    [[nodiscard]] std::optional<reports::HeadToPrint> head_on_page(std::string_view bytes,
+                                                                   reports::RenderAssets assets) const {
+        const std::vector<archive::PrintedHead> printed = archive::printed_heads_in(bytes);
+        if (printed.empty()) {
+            return std::nullopt;
+        }
+        archive::Head head;
+        head.size = printed.front().size;
+        head.root = printed.front().root;
+        reports::HeadToPrint asked{.entries = std::to_string(head.size),
+                                   .digits = archive::short_form(head),
+                                   .mark = archive::mark_of(head),
+                                   .check_at = "WHERE-IT-CAN-BE-CHECKED"};
+        // What stands around the place is found on a page that is made with another one.
+        assets.head = asked;
+        const std::string made = reports::render_html(record_, assets);
+        const std::size_t at = made.find(asked.check_at);
+        const std::size_t begin = at == std::string::npos ? at : made.rfind('>', at);
+        const std::size_t end = at == std::string::npos ? at : made.find('<', at);
+        const std::size_t length = asked.check_at.size();
+        asked.check_at.clear();
+        if (begin != std::string::npos && end != std::string::npos) {
+            const std::string before = made.substr(begin, at - begin);
+            const std::string behind = made.substr(at + length, end - at - length);
+            const std::size_t sentence = bytes.find(before);
+            const std::size_t from = sentence == std::string_view::npos ? bytes.size() : sentence + before.size();
+            const std::string_view place = bytes.substr(from, std::min(bytes.find('<', from), bytes.size()) - from);
+            if (place.ends_with(behind)) {
+                asked.check_at = reports::text_of_html(place.substr(0, place.size() - behind.size()));
+            }
+        }
+        return asked;
     }
 
     void require_agreement(const fs::path& file, const PrintedDocument& document) {

@@ -632,7 +632,7 @@ std::string PrintedDocument::disagreement_with_view(const nlohmann::json& view) 
                      " of the record";
 }
 
-std::string difference_of_texts(std::string_view stated, std::string_view expected) {
+std::string difference_of_texts(std::string_view stated, std::string_view expected, std::string_view verb) {
     constexpr std::size_t k_shown = 60;  // bytes around the place
     const auto bare = [](std::string_view text) {
         std::string out;
@@ -659,7 +659,7 @@ std::string difference_of_texts(std::string_view stated, std::string_view expect
         }
         return text::in_quotes(text.substr(begin, end - begin));
     };
-    return "says " + shown(left) + ", and the page that the record gives says " + shown(right);
+    return std::string(verb) + shown(left) + ", and the page that the record gives " + std::string(verb) + shown(right);
 }
 
 bool says_number(std::string_view html, const std::string& number) {

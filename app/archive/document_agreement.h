@@ -88,7 +88,8 @@ private:
 };
 
 /// \return the first words in which two texts differ, for a message; "" where they have the same words
-[[nodiscard]] std::string difference_of_texts(std::string_view stated, std::string_view expected);
+[[nodiscard]] std::string difference_of_texts(std::string_view stated, std::string_view expected,
+                                              std::string_view verb = "says ");
 
 /// Whether a page of HTML says that it is the certificate with this number: as a word of its own, in the head of the pages
 /// where it has one.
