@@ -22,6 +22,7 @@
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
+#include "reports/forms/pdf_other_parts.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/render.h"
 #include "reports/printable_text.h"
@@ -70,8 +71,11 @@ private:
     std::vector<gum::Diagnostic> errors_, remarks_;
 };
 
-/// Signatures, as far as they can be judged: without a trust store it is not asked who the signer is.
-void check_pdf_signatures(const signing::Verification& verification, bool trust_named, CheckFindings& findings) {
+/// Signatures, as far as they can be judged: without a trust store it is not asked who the signer is, and said so, as of a
+/// digital certificate.
+void check_pdf_signatures(const fs::path& file, const signing::Verification& verification, bool trust_named,
+                          CheckFindings& findings) {
+    std::vector<gum::Diagnostic> signers;
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
             std::vector<gum::Diagnostic> found = signature.findings;
@@ -81,8 +85,22 @@ void check_pdf_signatures(const signing::Verification& verification, bool trust_
                 });
             }
             findings.take(std::move(found));
+            const std::string signer = signature.signer.empty() ? "a signer that is not stated" : signature.signer;
+            gum::Diagnostic unknown{
+                .code = "GC-DCC-0043",
+                .where = file.string(),
+                .what = "signed by " + signer + "; the document is as it was signed, who the signer is was not checked",
+                .rule = "a signer is known by a certificate that you trust",
+                .action = "name such certificates with --trust",
+                .severity = gum::Severity::warning};
+            const bool is_told = std::any_of(signers.begin(), signers.end(),
+                                             [&](const gum::Diagnostic& one) { return one.what == unknown.what; });
+            if (!trust_named && !is_told) {
+                signers.push_back(std::move(unknown));
+            }
         }
     }
+    findings.take(std::move(signers));
 }
 
 /// Holds documents against the record that they are said to be made of.
@@ -130,13 +148,16 @@ public:
             if (reports::printable(verification.pdf_keywords) != number_) {
                 refuse_as_other(file, verification.pdf_keywords, number_);
             }
-            check_pdf_signatures(verification, checks_.trusted.has_value(), findings);
+            check_pdf_signatures(file, verification, checks_.trusted.has_value(), findings);
+            require_nothing_beside_pages(file, bytes, verification, findings);
         } else {
             document.media_type = "application/xml";
             findings.take(imports::check_certificate(document.bytes, file.string(),
                                                      {.trusted = checks_.trusted, .now = checks_.now}));
         }
-        for (const DocumentIdentity& identity : identities_in(document.bytes, file.string(), verification)) {
+        const std::vector<DocumentIdentity> identities = identities_in(document.bytes, file.string(), verification);
+        findings.take(doubts_about(file.string(), identities, verification));
+        for (const DocumentIdentity& identity : identities) {
             if (identity.number != number_) {
                 refuse_as_other(file, identity.number, number_);
             }
@@ -151,9 +172,12 @@ public:
             signing::Verification alone;
             alone.kind = "dcc";
             for (const signing::Bytes& attachment : verification.attachments) {
-                if (!identities_in(attachment, file.string(), alone).empty()) {
-                    require_agreement_of_dcc(file, attachment);
+                if (identities_in(attachment, file.string(), alone).empty()) {
+                    refuse_document(file, "has an attached file that is no digital certificate",
+                                    "an archive keeps records and the documents that are made of them",
+                                    "make the document anew with gumcert render");
                 }
+                require_agreement_of_dcc(file, attachment);
             }
         } else {
             require_agreement_of_dcc(file, bytes);
@@ -209,6 +233,41 @@ private:
                 .what = hidden + ", and may show another text than it has",
                 .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
                 .action = "make the page with the templates of this program, or add the PDF"});
+        }
+    }
+
+    /// The pages show what they say: nothing lies over them, nothing is done by them, nothing else is with them.
+    static void require_nothing_beside_pages(const fs::path& file, std::string_view pdf,
+                                             const signing::Verification& verification, CheckFindings& findings) {
+        reports::PdfOtherParts parts;
+        try {
+            parts = reports::other_parts_of_pdf(pdf);
+        } catch (const std::bad_alloc&) {
+            throw;  // says nothing of the document
+        } catch (const std::exception& damaged) {
+            refuse_document(file, std::string("its parts cannot be read: ") + damaged.what(),
+                            "an archive keeps records and the documents that are made of them",
+                            "make the document anew");
+        }
+        if (parts.refused.empty() && parts.attached_files > verification.attachments.size()) {
+            parts.refused = "has an attached file that is no digital certificate";
+        }
+        if (!parts.refused.empty()) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0070",
+                .where = file.string(),
+                .what = parts.refused + ", and may show another text than it has",
+                .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
+                .action = "make the PDF anew with gumcert render"});
+        }
+        if (parts.has_drawn_signature) {
+            findings.take({gum::Diagnostic{
+                .code = "GC-ARCHIVE-0071",
+                .where = file.string(),
+                .what = "a signature is drawn on its pages; not compared: what it shows, and what lies below it",
+                .rule = "pages are made with any template and in any language, and what all of them print is compared",
+                .action = "look at the pages when the certificate is reviewed",
+                .severity = gum::Severity::note}});
         }
     }
 
@@ -307,6 +366,9 @@ private:
                                   : !on_every_page ? "does not print \"" + number_ + "\" on every page"
                                                    : "");
         const PrintedDocument document(pages);
+        if (!document.names_other_templates(words_)) {
+            refuse_disagreement(file, document.disagreement_with_pages(words_));
+        }
         require_agreement(file, document);
         // Each page was held against its view when it was made. In which language it is, is not said.
         std::string missing = document.disagreement_with_view(reports::view_of_document(record_, assets_));
