@@ -461,6 +461,15 @@ archive::Head::Signature signature_of(const std::string& bytes, const std::strin
 
 void sign(archive::Head& head, const std::string& key) {
     if (!key.empty()) {
+        if (head.at > latest_time()) {
+            throw gum::StorageError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0066",
+                .where = "the clock of this machine",
+                .what = "says " + time_now() + ", and the last entry is of " + head.at,
+                .rule = "what is signed speaks of a time that has come",
+                .action =
+                    "look at a calendar: set the clock right, or wait; without --sign the head is written as it is"});
+        }
         head.signature = signature_of(archive::signed_bytes(head), key);
     }
 }
@@ -534,7 +543,7 @@ void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOp
 
 /// Evidence and heads, each by itself; behind the first evidence also documents that should be of one of them.
 ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
-    const app::TrustedHeads heads(options.heads, options.trust);
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
     std::vector<app::DocumentInHand> documents;
     std::vector<std::string> evidence;
     bool has_evidence = false;
@@ -588,7 +597,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     if (!options.named.empty()) {
         return verify_files(options, common);
     }
-    const app::TrustedHeads heads(options.heads, options.trust);
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
     const auto store = opened(options, archive::Access::read_only);
     ProgressLine progress(!common.quiet);
     archive::Verification verification =
@@ -597,6 +606,13 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
     print_findings(verification.findings, common);
     const bool trust_is_idle = heads.has_key() && heads.all().empty();
+    std::vector<std::string> to_come = heads.times_to_come();
+    if (verification.head) {
+        if (std::string line = app::time_to_come("the last entry", verification.head->at, heads.latest());
+            !line.empty()) {
+            to_come.insert(to_come.begin(), std::move(line));
+        }
+    }
     if (as_json(options)) {
         json head;
         if (verification.head) {
@@ -610,6 +626,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
                     {"heads", heads.all().size()},
                     {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
                     {"head", head},
+                    {"times_to_come", to_come},
                     {"findings", shown_findings(verification.findings)}});
     } else if (!common.quiet) {
         std::string said =
@@ -622,6 +639,9 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
         }
         if (heads.all().empty()) {
             said += "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
+        }
+        for (const std::string& line : to_come) {
+            said += "  " + line + "\n";
         }
         if (trust_is_idle) {
             said += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
@@ -905,6 +925,10 @@ void require_query(const ArchiveOptions& options) {
             refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
         }
     }
+    if (!options.until.empty() && options.until < options.since) {
+        refuse_usage("archive affected", "--until " + options.until + " is before --since " + options.since,
+                     "the search is for work from the first of the days to the last", "correct them");
+    }
     if ((!options.output.empty() || options.shared) && options.register_folder.empty()) {
         refuse_usage("archive affected", options.shared ? "--shared without --register" : "-o without --register",
                      "amendments are drafted of certificates that are calculated again",
@@ -1036,6 +1060,11 @@ void require_options(const Action& action, const ArchiveOptions& o) {
         refuse_usage(command, o.store.empty() ? "--store is missing" : "--store and files of evidence",
                      "an action has one archive; evidence is verified without any",
                      o.store.empty() ? "name the file of the archive" : "leave one of them out");
+    }
+    if (!o.today.empty() && (!app::is_day(o.today) || o.today != time_now().substr(0, o.today.size()))) {
+        refuse_usage(command, "--today " + o.today + (app::is_day(o.today) ? "" : " is no day"),
+                     "it is the day of the calendar, and the clock of this machine says " + time_now(),
+                     "look at a calendar: set the clock right, or correct the day");
     }
     if (takes("by") && o.by.empty()) {
         refuse_usage(command, "--by is missing", "every entry of the log says who", "name the person who does this");

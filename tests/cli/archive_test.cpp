@@ -571,6 +571,20 @@ TEST_F(ArchiveOfALaboratory, AnswersWithTheNumberAloneWhenQuiet) {
     EXPECT_EQ(json::parse(archive({"number", "-q", "--format", "json"}, "K. Keeper").out)["certificate"], "N-002");
 }
 
+/// A day by hand is compared with the clock, always; days of a search are in their order.
+TEST_F(ArchiveOfALaboratory, LooksAtDaysThatAreGiven) {
+    begin({"--numbering", "N-###"});
+    for (const char* const day : {"xyz", "2026-02-30", "2020-01-01", "2026-2-3", "2991-01-01", " "}) {
+        const Ended ended = archive({"number", "--today", day}, "K. Keeper");
+        EXPECT_EQ(ended.code, 2) << day;
+        EXPECT_TRUE(tells(ended, "GC-USAGE-0001")) << ended.err;
+    }
+    const Ended ended = archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2025-01-01"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(tells(ended, "is before --since")) << ended.err;
+    EXPECT_EQ(archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2026-01-01"}).code, 0);
+}
+
 TEST_F(ArchiveOfALaboratory, AFolderThatIsMissingIsNoDefect) {
     begin();
     const std::string nowhere = path("nofolder") + "/b.archive";
