@@ -960,7 +960,8 @@ def main():
         found = list(findings(arguments.file, arguments.head, key, told.append, verdict))
         documents = [compared_document(file, verdict) for file in arguments.document]
     except OSError as trouble:
-        print(f"{trouble.filename}: {trouble.strerror}", file=sys.stderr)
+        name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename))  # an address in place of a file
+        print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
         return 5
     for line in found + [line for is_own, line in documents if not is_own]:
         print(shown(line))

@@ -277,8 +277,9 @@ std::vector<Rule> conformity_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::rows, Need::limits},
-         .detection =
-             "a verdict, or limits with a rule, and major or critical findings of this audit on the same budget",
+         .detection = "a verdict, or limits with a rule, and major or critical findings of this audit on the same "
+                      "budget that nobody "
+                      "accepts",
          .correction = "Correct the uncertainty, and decide again.",
          .question = "Does the verdict stand with the corrected uncertainty?",
          .conclude = verdict_on_open_findings},

@@ -619,7 +619,8 @@ std::vector<Rule> coverage_rules() {
          .policy = fixed,
          .severity = major,
          .needs = {Need::claims},
-         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together",
+         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together, "
+                      "by the distribution that is stated: without rows and without one, k from √3 p on is open",
          .correction = "State the k that was used, and the probability that belongs to it.",
          .question = "Which coverage factor was used, and which probability is meant?",
          .examine = k_and_sentence},

@@ -356,8 +356,8 @@ std::vector<Rule> environment_rules() {
          .detection =
              "half of the observed range against the half-width, or √3·u, of a row that stands for the room: not "
              "what is measured (an input of a standard or with a role in the results, a part of a quantity of "
-             "the kind of the result), not a bath or chamber; humidity and pressure by words of air or room, "
-             "or a value within the range",
+             "the kind of the result), not a bath, solution or chamber; by words of air or room, as a deviation, or "
+             "by a value whose half-width reaches the observed range",
          .correction = "Take the observed range into the budget.",
          .question = "Which range of the conditions is the budget made for?",
          .examine = recorded_range_larger},

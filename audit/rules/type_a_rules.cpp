@@ -419,7 +419,9 @@ std::vector<Rule> type_a_rules() {
          .title = "Type A evaluation without degrees of freedom",
          .clause = {.text = "JCGM 100:2008, 4.2.6", .verified = true},
          .needs = {Need::rows},
-         .detection = "a row of Type A for which neither the table nor a number of readings gives ν",
+         .detection = "a row of Type A without a bounded distribution, for which the table gives no ν; ν = n − 1 of "
+                      "the readings "
+                      "that its words or the range of its STDEV name; minor where no ν from 1 on changes the printed U",
          .correction = "State ν: n − 1 of a mean of n readings, the sum over all series of a pooled estimate.",
          .question =
              "The row counts with infinite degrees of freedom, so k is too small where it is large. From how many "

@@ -585,6 +585,42 @@ TEST_F(ArchiveOfALaboratory, LooksAtDaysThatAreGiven) {
     EXPECT_EQ(archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2026-01-01"}).code, 0);
 }
 
+/// An address stands in a message where a file was wanted; its password does not.
+TEST_F(ArchiveOfALaboratory, NeverShowsAPassword) {
+    begin();
+    const std::string address = "postgresql://u:S3cret@h/db";
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"archive", "verify", address},
+                                                  {"archive", "add", address, "--store", store(), "--by", "K. Keeper"},
+                                                  {"archive", "show", address, "--store", store()},
+                                                  {"archive", "export", address, "--store", store()},
+                                                  {"archive", "verify", "--store", store(), "--head", address},
+                                                  {"check", address},
+                                                  {"run", address, "--json-messages"}}) {
+        std::vector<std::string> logged = words;
+        logged.insert(logged.end(), {"--refusal-log", path("refusals.jsonl")});
+        const Ended ended = gumcert(logged);
+        EXPECT_NE(ended.code, 0) << words[1];
+        EXPECT_FALSE(tells(ended, "S3cret")) << ended.err;
+    }
+    EXPECT_EQ(bytes_of(path("refusals.jsonl")).find("S3cret"), std::string::npos);
+    EXPECT_EQ(verified_elsewhere({address}).err.find("S3cret"), std::string::npos);
+}
+
+TEST_F(ArchiveOfALaboratory, ExportsNothingOfANumberAlone) {
+    begin({"--numbering", "N-###"});
+    ASSERT_EQ(archive({"number"}, "K. Keeper").code, 0);
+    const Ended ended = archive({"export", "N-001", "-o", path("evidence.json")});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(tells(ended, "has no record")) << ended.err;
+    EXPECT_FALSE(fs::exists(path("evidence.json")));
+}
+
+TEST_F(ArchiveOfALaboratory, SecondVerifierReadsFilesAlone) {
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    const Ended ended = verified_elsewhere({path("pipe")});
+    EXPECT_EQ(ended.code, 5) << ended.out << ended.err;
+}
+
 TEST_F(ArchiveOfALaboratory, AFolderThatIsMissingIsNoDefect) {
     begin();
     const std::string nowhere = path("nofolder") + "/b.archive";

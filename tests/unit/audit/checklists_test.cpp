@@ -29,7 +29,8 @@ TEST(Checklists, have_ids_and_contributors_that_a_row_can_be) {
 }
 
 TEST(Checklists, know_their_method_by_its_title) {
-    EXPECT_EQ(method_in_title("Uncertainty budget: rotary table"), "rotary_table_multilateration");
+    EXPECT_EQ(method_in_title("Rotary table by multilateration"), "rotary_table_multilateration");
+    EXPECT_EQ(method_in_title("Rotary table, A axis, against a polygon of 36 sides, full closure"), "");
     EXPECT_EQ(method_in_title("Parallelendmaß im Vergleich"), "end_gauge_comparison");
     EXPECT_EQ(method_in_title("Bügelmessschraube, Messschraube 25 mm"), "caliper_micrometer");
     EXPECT_EQ(method_in_title("Messuhr"), "dial_indicator");
@@ -148,6 +149,44 @@ TEST(Checklists, know_the_rows_of_everyday_budgets_by_their_words) {
         missing("force", {{"transfer standard", reference}}),
         "drift of the force standard; repeatability and reproducibility (mounting positions); reversibility; zero "
         "point; resolution; temperature; ");
+}
+
+/// The law: readings and pooled deviations are repeatability by any name, unless a condition was read.
+TEST(Checklists, know_repeatability_by_its_readings) {
+    using enum Contributor;
+    const RequiredContributor repeats{"repeatability", {repeatability}, {}};
+    for (const Contributor contributor : {other, reference, item, item_resolution, alignment, temperature, expansion,
+                                          environment, refractive_index, reference_drift}) {
+        const bool is_condition = contributor == temperature || contributor == expansion ||
+                                  contributor == environment || contributor == refractive_index ||
+                                  contributor == reference_drift;
+        AuditedRow row;
+        row.quantity = "weighing difference";
+        row.contributor = contributor;
+        EXPECT_FALSE(stands_for(row, repeats));
+        row.pooled_s = 0.003;
+        EXPECT_EQ(stands_for(row, repeats), !is_condition) << static_cast<int>(contributor);
+        row.pooled_s.reset();
+        row.readings = {1.0, 1.1, 1.2};
+        EXPECT_EQ(stands_for(row, repeats), !is_condition) << static_cast<int>(contributor);
+        EXPECT_FALSE(stands_for(row, {"reproducibility", {reproducibility}, {}}));
+    }
+}
+
+TEST(Checklists, know_the_buoyancy_by_the_densities) {
+    for (const char* const method : {"balance", "weights"}) {
+        const auto& required = checklist_of(method)->required;
+        const auto buoyancy = std::find_if(required.begin(), required.end(), [](const RequiredContributor& one) {
+            return one.name.english() == "air buoyancy";
+        });
+        ASSERT_NE(buoyancy, required.end());
+        for (const char* const quantity : {"rho_a, density of air", "density of the weight", "Dichte der Luft",
+                                           "Luftdichte", "air buoyancy", "Luftauftrieb"}) {
+            AuditedRow row;
+            row.quantity = quantity;
+            EXPECT_TRUE(stands_for(row, *buoyancy)) << quantity;
+        }
+    }
 }
 
 TEST(Checklists, accept_a_row_by_contributor_or_word) {

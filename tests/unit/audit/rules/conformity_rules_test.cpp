@@ -119,6 +119,27 @@ TEST(ConformityRules, D08_follows_from_findings_on_the_same_budget) {
     EXPECT_THAT(said({planted(major, "U08"), planted(critical, "U09")}),
                 HasSubstr("critical findings are open: U09, and major ones: U08"));
     EXPECT_EQ(said({planted(minor, "U08")}), "");
+    // What somebody accepts is not open, also where it is accepted behind the audit.
+    rules = conformity_rules();
+    rules.push_back(planted(major, "U08"));
+    rules.push_back(planted(major, "U09"));
+    AuditSubject subject = subject_with({decided_budget("pass")});
+    const certificate::Waiver waiver{
+        .finding = "U08", .where = {}, .by = "A. N.", .date = "2026-03-04", .reason = "Seen and left by agreement."};
+    AuditReport report = audit(subject, rules);
+    accept_findings(report, std::span(&waiver, 1), rules);
+    const auto open = [](const AuditReport& of) {
+        std::string words;
+        for (const AuditFinding& finding : of.findings) {
+            words += finding.rule == "D08" ? finding.what.english() : "";
+        }
+        return words;
+    };
+    EXPECT_THAT(open(report), testing::EndsWith("findings are open: U09"));
+    subject.waivers = {waiver};
+    EXPECT_EQ(open(audit(subject, rules)), open(report));
+    rules.pop_back();
+    EXPECT_EQ(open(audit(subject, rules)), "");
 }
 
 }  // namespace

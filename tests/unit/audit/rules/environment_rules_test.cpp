@@ -102,6 +102,11 @@ TEST(EnvironmentRules, E02_takes_no_measurand_for_the_room) {
         {"ice point, temperature", "degC", 0.0, 0.01, "uV", 40.0, "temperature", "degC", 19, 21},
         {"temperature of the furnace", "degC", 400.0, 0.5, "uV", 40.0, "temperature", "degC", 19, 21},
         {"temperature", "degC", 400.0, 0.5, "uV", 40.0, "temperature", "degC", 19, 21},
+        {"temperature of the solution", "degC", 20.0, 0.05, "mS/cm", 0.02, "temperature", "degC", 19.7, 20.3},
+        {"Temperatur der Lösung", "degC", 20.0, 0.05, "mS/cm", 0.02, "temperature", "degC", 19.7, 20.3},
+        {"Temperatur im Thermostat", "degC", 20.0, 0.05, "mS/cm", 0.02, "temperature", "degC", 19.7, 20.3},
+        {"溶液溫度", "degC", 20.0, 0.05, "mS/cm", 0.02, "temperature", "degC", 19.7, 20.3},
+        {"temperature", "degC", 25.02, 0.05, "mS/cm", 0.02, "temperature", "degC", 19.7, 20.3},
         {"humidity of the chamber", "percent", 45.0, 0.4, "percent", 1.0, "humidity", "percent", 40, 50},
         {"humidity standard", "percent", 10.0, 0.4, "mA", 0.16, "humidity", "percent", 40, 50},
         {"Feuchte", "percent", 45.0, 0.4, "percent", -1.0, "humidity", "percent", 40, 50},
@@ -110,6 +115,21 @@ TEST(EnvironmentRules, E02_takes_no_measurand_for_the_room) {
     };
     for (const RowAndRoom& row : of_something_else) {
         EXPECT_EQ(ranges_found(row, false), 0U) << row.quantity;
+    }
+}
+
+/// The law: a value that is not called one of the room is one only where its half-width reaches the observed range.
+TEST(EnvironmentRules, E02_takes_what_lies_outside_of_the_range_for_no_room) {
+    for (double value = 17.0; value < 26.0; value += 0.31) {
+        for (const double half_width : {0.02, 0.1, 0.25}) {
+            const RowAndRoom row{"temperature", "degC",        value,  half_width, "mS/cm",
+                                 0.02,          "temperature", "degC", 19.7,       20.3};
+            EXPECT_EQ(ranges_found(row, false), value + half_width >= 19.7 && value - half_width <= 20.3 ? 1U : 0U)
+                << value << " ± " << half_width;
+            RowAndRoom of_room = row;
+            of_room.quantity = "room temperature";
+            EXPECT_EQ(ranges_found(of_room, false), 1U) << value << " ± " << half_width;
+        }
     }
 }
 

@@ -37,6 +37,37 @@ TEST(TypeARules, U01AsksForDegreesOfFreedom) {
     EXPECT_TRUE(findings_of("U01", subject_of(one)).empty());
 }
 
+TEST(TypeARules, U01LeavesHalfWidthsAlone) {
+    AuditedRow one = row("Wiederholbarkeit b'", 0.5);
+    one.type_a = true;
+    one.nu.reset();
+    one.used_nu = test::k_infinite;
+    using enum Shape;
+    for (const Shape shape : {not_stated, normal, student_t, rectangular, triangular, arcsine, trapezoidal}) {
+        one.shape = shape;
+        const bool is_bounded = shape >= rectangular && shape <= trapezoidal;
+        EXPECT_EQ(findings_of("U01", subject_of(one)).empty(), is_bounded) << static_cast<int>(shape);
+    }
+}
+
+/// The law: without readings the finding is minor where the printed U is the same for ν = 1 and for an infinite one.
+TEST(TypeARules, U01IsAsGraveAsAnyNuMayBe) {
+    for (const double share : {0.001, 0.01, 0.1, 0.3, 0.6, 1.0}) {
+        AuditedRow one = row("repeatability", share);
+        one.type_a = true;
+        one.nu.reset();
+        one.used_nu = test::k_infinite;
+        const AuditedBudget budget = budget_of({row("standard", 1.0), one});
+        AuditedBudget fewest = budget;
+        fewest.rows[1].used_nu = 1.0;
+        const std::vector<AuditFinding> found = findings_of("U01", subject_of(budget));
+        ASSERT_EQ(found.size(), 1U) << share;
+        EXPECT_EQ(found[0].severity, evaluate(fewest).printed_U == evaluate(budget).printed_U ? FindingSeverity::minor
+                                                                                              : FindingSeverity::major)
+            << share;
+    }
+}
+
 TEST(TypeARules, U02IsMinorWhereNuAndKAccountForFewReadings) {
     AuditedRow one = row_of_readings("repeatability", k_five, k_s_of_five / std::sqrt(5.0));
     ASSERT_EQ(findings_of("U02", subject_of(one)).size(), 1U);

@@ -20,10 +20,12 @@ AuditSubject subject_of_text(const std::string& xml, std::vector<gum::Diagnostic
     return subject_of(reports::parse_dcc(xml, "c.xml"), checks, "c.xml");
 }
 
-std::string uncertainty(const std::string& U, const std::string& k, const std::string& p) {
+std::string uncertainty(const std::string& U, const std::string& k, const std::string& p,
+                        const std::string& distribution = "") {
     return "<si:measurementUncertaintyUnivariate><si:expandedMU><si:valueExpandedMU>" + U +
            "</si:valueExpandedMU><si:coverageFactor>" + k + "</si:coverageFactor>" +
            (p.empty() ? "" : "<si:coverageProbability>" + p + "</si:coverageProbability>") +
+           (distribution.empty() ? "" : "<si:distribution>" + distribution + "</si:distribution>") +
            "</si:expandedMU></si:measurementUncertaintyUnivariate>";
 }
 
@@ -105,10 +107,55 @@ TEST(SubjectOfCertificate, FindsWhatIsWrongWithTheStatementOfUncertainty) {
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.3125", "2.00", "0.9545"))), "R01"));
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.3", "2.00", "0.9545"))), "R02"));
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "2.00", ""))), "R04"));
-    EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "1.80", "0.9545"))), "K03"));
+    EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "1.60", "0.9545"))), "K03"));
     EXPECT_FALSE(finds(subject_of_text(document(uncertainty("0.31", "2.13", "0.9545"))), "K03"))
         << "nobody knows its ν_eff";
     EXPECT_TRUE(finds(subject_of_text(document(uncertainty("0.31", "2.00", "0.9545"), "", "", "")), "R05"));
+}
+
+/// The law: k is accused where the stated distribution cannot have it at its p, and nowhere else.
+TEST(SubjectOfCertificate, HoldsTheFactorAgainstTheStatedDistribution) {
+    const auto is_accused = [](const char* k, const std::string& distribution) {
+        return finds(subject_of_text(document(uncertainty("0.31", k, "0.9545", distribution))), "K03");
+    };
+    for (const char* const k : {"1.50", "1.66", "1.83", "1.91", "1.97", "2.00", "2.13", "2.40"}) {
+        const double number = std::stod(k);
+        EXPECT_EQ(is_accused(k, "normal"), number < 1.98 || number > 2.12) << k;
+        EXPECT_EQ(is_accused(k, "student_t"), number < 1.98 && number != 1.98) << k;
+        EXPECT_EQ(is_accused(k, ""), number < 1.63) << k << ": a rectangular contribution may dominate";
+        for (const char* const name : {"convolution", "Convolution", "monte_carlo", "arcsine"}) {
+            EXPECT_FALSE(is_accused(k, name)) << k << " " << name;
+        }
+    }
+}
+
+TEST(SubjectOfCertificate, TellsAWrongVerdictOrFactorOnce) {
+    const auto check = [](const char* code, const std::string& what) {
+        return gum::Diagnostic{.code = code,
+                               .where = "c.xml:3:4",
+                               .what = what,
+                               .rule = "a rule",
+                               .action = "do it",
+                               .severity = gum::Severity::error};
+    };
+    const auto times = [](const AuditSubject& subject, const std::string& rule) {
+        const std::vector<std::string> found = rules_found(subject);
+        return std::count(found.begin(), found.end(), rule);
+    };
+    const std::string meta =
+        "<dcc:conformity>pass</dcc:conformity><dcc:data>" + limit("basic_toleranceLimitUpper", "9.90") + "</dcc:data>";
+    const gum::Diagnostic beyond =
+        check("GC-DCC-0116", "pass for 10.00 \\micro\\metre, which is outside of a limit beside it");
+    const std::string stated = uncertainty("0.31", "2.00", "0.9545");
+    EXPECT_EQ(times(subject_of_text(document(stated, meta, rule_statement("DR-01")), {beyond}), "D04"), 1);
+    EXPECT_EQ(times(subject_of_text(document(stated, meta, rule_statement("As agreed.")), {beyond}), "D04"), 1)
+        << "where the rule cannot decide, the check says it";
+    const gum::Diagnostic other =
+        check("GC-DCC-0116", "pass for 0.04 \\micro\\metre, which is outside of a limit beside it");
+    EXPECT_EQ(times(subject_of_text(document(stated, meta, rule_statement("DR-01")), {other}), "D04"), 2);
+    const gum::Diagnostic factor =
+        check("GC-DCC-0117", "coverage factor 1.70 and probability 0.9545 of a distribution that is called normal");
+    EXPECT_EQ(times(subject_of_text(document(uncertainty("0.31", "1.70", "0.9545", "normal")), {factor}), "K03"), 1);
 }
 
 TEST(SubjectOfCertificate, AsksForNoFactorOfAnInterval) {

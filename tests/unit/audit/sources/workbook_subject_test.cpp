@@ -12,6 +12,7 @@
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
 #include "tests/support/workbook_of.h"
+#include "text/numbers.h"
 #include "workbook/evaluate.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
@@ -71,6 +72,99 @@ TEST(SubjectOfWorkbook, RowsThatTheSumDoesNotReachAreNotInIt) {
     for (const AuditedRow& row : subject.budgets.front().rows) {
         EXPECT_EQ(row.in_sum, row.quantity != "repeatability") << row.quantity;
     }
+}
+
+/// A budget with ν_eff and a k that is rounded from it, or typed.
+workbook::Workbook budget_with_nu(double scatter, const std::string& k) {
+    workbook::Workbook made = test::workbook_of({{"A1", "quantity"},
+                                                 {"B1", "U or a"},
+                                                 {"C1", "divisor"},
+                                                 {"D1", "distribution"},
+                                                 {"E1", "u"},
+                                                 {"F1", "nu"},
+                                                 {"A2", "standard"},
+                                                 {"B2", "0.05"},
+                                                 {"C2", "2"},
+                                                 {"D2", "normal"},
+                                                 {"E2", "=B2/C2"},
+                                                 {"A3", "repeatability"},
+                                                 {"B3", text::shortest(scatter)},
+                                                 {"C3", "1"},
+                                                 {"D3", "normal"},
+                                                 {"E3", "=B3/C3"},
+                                                 {"F3", "4"},
+                                                 {"A5", "u_c"},
+                                                 {"B5", "=SQRT(SUMSQ(E2:E3))"},
+                                                 {"A6", "nu_eff"},
+                                                 {"B6", "=B5^4/(E3^4/F3)"},
+                                                 {"A7", "k"},
+                                                 {"B7", k},
+                                                 {"A8", "U"},
+                                                 {"B8", "=B7*B5"},
+                                                 {"A9", "coverage probability"},
+                                                 {"B9", "95.45 %"}});
+    const workbook::Evaluation evaluation = workbook::evaluate_workbook(made);
+    for (const workbook::EvaluatedCell& cell : evaluation.cells) {
+        made.sheets[cell.sheet].cells[cell.cell].value = cell.value;
+    }
+    return made;
+}
+
+/// The law: a k whose cell computes with ν_eff follows it, whatever it shows; one that is typed does not.
+TEST(SubjectOfWorkbook, KFollowsNuWhereItsFormulaReadsIt) {
+    for (const double scatter : {0.001, 0.004, 0.01, 0.02, 0.05}) {
+        const AuditSubject following =
+            subject_of(budget_with_nu(scatter, "=ROUND(T.INV.2T(1-0.9545,INT(B6)),2)"), "b.xlsx");
+        ASSERT_EQ(following.budgets.size(), 1U);
+        EXPECT_TRUE(following.budgets[0].claims.k_follows_nu);
+        EXPECT_EQ(following.budgets[0].coverage.kind, CoverageRule::Kind::student_t) << scatter;
+        for (const AuditFinding& finding : audit(following, all_rules()).findings) {
+            EXPECT_FALSE(finding.rule == "K01" || finding.rule == "K02" || finding.rule == "K03")
+                << scatter << " " << finding.what.english();
+        }
+        const AuditSubject typed = subject_of(budget_with_nu(scatter, "2"), "b.xlsx");
+        EXPECT_FALSE(typed.budgets[0].claims.k_follows_nu);
+        EXPECT_EQ(typed.budgets[0].coverage.kind, CoverageRule::Kind::fixed) << scatter;
+    }
+    const AuditSubject chosen = subject_of(budget_with_nu(0.001, "=ROUND(IF(F3<10,2,3),2)"), "b.xlsx");
+    EXPECT_TRUE(chosen.budgets[0].claims.k_follows_nu) << "through the ν of a row";
+}
+
+/// The law: the readings of a row without ν are those of which its cell takes the standard deviation.
+TEST(SubjectOfWorkbook, CountsTheReadingsOfAStandardDeviation) {
+    const auto readings = [](const std::string& formula, const std::string& last) {
+        const workbook::Workbook made = test::workbook_of({{"A1", "quantity"},
+                                                           {"B1", "U or a"},
+                                                           {"C1", "divisor"},
+                                                           {"D1", "distribution"},
+                                                           {"E1", "u"},
+                                                           {"A2", "standard"},
+                                                           {"B2", "0.05"},
+                                                           {"C2", "2"},
+                                                           {"D2", "normal"},
+                                                           {"E2", "=B2/C2"},
+                                                           {"A3", "repeatability"},
+                                                           {"B3", formula},
+                                                           {"C3", "1"},
+                                                           {"D3", "normal"},
+                                                           {"E3", "=B3/C3"},
+                                                           {"A5", "u_c"},
+                                                           {"B5", "=SQRT(SUMSQ(E2:E3))"},
+                                                           {"J2", "1.001"},
+                                                           {"J3", "1.003"},
+                                                           {"J4", "1.002"},
+                                                           {"J5", last},
+                                                           {"K2", "=STDEV(J2:J5)"}});
+        const AuditSubject subject = subject_of(made, "b.xlsx");
+        return subject.budgets.empty() ? std::nullopt : subject.budgets[0].rows.at(1).n;
+    };
+    EXPECT_EQ(readings("=STDEV(J2:J5)", "1.004"), 4U);
+    EXPECT_EQ(readings("=STDEV(J2:J5)", "not read"), 3U);
+    EXPECT_EQ(readings("=STDEV.S(J2:J5)/SQRT(COUNT(J2:J5))", "1.004"), 4U);
+    EXPECT_EQ(readings("=K2", "1.004"), 4U) << "handed on";
+    EXPECT_EQ(readings("=STDEV(J2:J5)*J2", "1.004"), std::nullopt) << "something else is in it";
+    EXPECT_EQ(readings("=MAX(J2:J5)-MIN(J2:J5)", "1.004"), std::nullopt);
+    EXPECT_EQ(readings("0.001", "1.004"), std::nullopt);
 }
 
 /// A small budget with formulas, all of whose computed values are stored.
