@@ -183,7 +183,7 @@ std::vector<std::pair<std::string, std::string>> attributes_of(std::string_view 
 std::string as_text_between_tags(std::string_view text) {
     std::string out;
     for (const char c : without_references(text)) {
-        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
     }
     return out;
 }
