@@ -5,14 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -29,6 +32,8 @@ namespace gumcert::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 3> k_names_of_sqlite = {"-wal", "-shm", "-journal"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what) {
     throw gum::StorageError(gum::Diagnostic{"GC-STORE-0002", path.string(), what,
@@ -531,8 +536,30 @@ void synchronise_folder(const fs::path& folder) {
     }
 }
 
+bool is_beside_an_archive(const fs::path& file) {
+    constexpr std::string_view k_beginning = "SQLite format 3";
+    const std::string name = resolved(file).string();
+    return std::any_of(k_names_of_sqlite.begin(), k_names_of_sqlite.end(), [&](std::string_view ending) {
+        if (!name.ends_with(ending)) {
+            return false;
+        }
+        const std::string archive = name.substr(0, name.size() - ending.size());
+        std::error_code error;
+        std::string beginning(k_beginning.size(), '\0');
+        return fs::is_regular_file(archive, error) &&
+               std::ifstream(archive, std::ios::binary)
+                   .read(beginning.data(), static_cast<std::streamsize>(beginning.size())) &&
+               beginning == k_beginning;
+    });
+}
+
 void require_writable(const fs::path& file) {
     require_replaceable(file);
+    if (is_beside_an_archive(file)) {
+        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0004", file.string(),
+                                                "is the name of a file that SQLite keeps beside the archive",
+                                                "inputs are never changed", "choose another name with -o"});
+    }
     std::error_code error;
     // The first folder upwards that exists decides; what is below it will be made.
     fs::path folder = resolved(folder_of(file));

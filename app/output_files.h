@@ -16,8 +16,12 @@ struct OutputFile {
 
 /// Refuses a place that cannot be written before any work is done: an output is a new file or takes the place of a
 /// regular one, never of a folder, a device, a pipe or a symbolic link. Creates nothing.
-/// \throws gum::StorageError  GC-STORE-0002, -0005
+/// \throws gum::StorageError  GC-STORE-0002, -0004 beside an archive, -0005
 void require_writable(const std::filesystem::path& file);
+
+/// Whether a name is one of a file that SQLite keeps beside an archive that is there ("-wal", "-shm", "-journal"): a file of
+/// another kind would be taken for it, and removed, by the next who opens the archive.
+[[nodiscard]] bool is_beside_an_archive(const std::filesystem::path& file);
 
 /// Refuses an output that is one of the inputs, or lies in a folder of them, however either is spelled: through `..`,
 /// folders that do not exist yet, hard and symbolic links. Inputs that do not exist are none.

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "app/output_files.h"
+
 namespace gumcert::app {
 
 namespace {
@@ -39,6 +41,9 @@ std::string line_of(const Refusal& refusal) {
 }  // namespace
 
 std::string append_refusal(const std::filesystem::path& log, const Refusal& refusal) {
+    if (is_beside_an_archive(log)) {
+        return "its name is that of a file that SQLite keeps beside an archive";
+    }
     const auto reason = [] { return std::generic_category().message(errno); };
     const int file = ::open(log.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0600);
     if (file < 0) {

@@ -145,35 +145,110 @@ bool has_foreign_attribute(const xmlNode* element) {
     return std::any_of(children.begin(), children.end(), has_foreign_attribute);
 }
 
-bool has_own_text(const xmlNode* element) {
-    return pieces_of(element).texts > 0;
+/// An element that may stand within a signature, beside what the signature covers.
+struct OwnPart {
+    const char* name_space;
+    std::string_view name;
+    std::string_view attributes = "Id";  ///< names, with blanks between
+    bool has_base64 = false;             ///< else it has no text
+};
+constexpr std::array<OwnPart, 33> k_own_parts = {{
+    {k_dsig_namespace, "Signature"},
+    {k_dsig_namespace, "SignatureValue", "Id", true},
+    {k_dsig_namespace, "KeyInfo"},
+    {k_dsig_namespace, "X509Data"},
+    {k_dsig_namespace, "X509Certificate", "", true},
+    {k_dsig_namespace, "X509SKI", "", true},
+    {k_dsig_namespace, "X509CRL", "", true},
+    {k_dsig_11_namespace, "X509Digest", "Algorithm", true},
+    {k_dsig_namespace, "KeyValue"},
+    {k_dsig_namespace, "RSAKeyValue"},
+    {k_dsig_namespace, "Modulus", "", true},
+    {k_dsig_namespace, "Exponent", "", true},
+    {k_dsig_11_namespace, "ECKeyValue"},
+    {k_dsig_11_namespace, "NamedCurve", "URI"},
+    {k_dsig_11_namespace, "PublicKey", "", true},
+    {k_dsig_namespace, "Object"},
+    {k_xades_namespace, "QualifyingProperties", "Id Target"},
+    {k_xades_namespace, "UnsignedProperties"},
+    {k_xades_namespace, "UnsignedSignatureProperties"},
+    {k_xades_namespace, "SignatureTimeStamp"},
+    {k_xades_namespace, "SigAndRefsTimeStamp"},
+    {k_xades_namespace, "RefsOnlyTimeStamp"},
+    {k_xades_namespace, "ArchiveTimeStamp"},
+    {k_xades_141_namespace, "ArchiveTimeStamp"},
+    {k_dsig_namespace, "CanonicalizationMethod", "Algorithm"},
+    {k_xades_namespace, "EncapsulatedTimeStamp", "Id Encoding", true},
+    {k_xades_namespace, "CertificateValues"},
+    {k_xades_namespace, "EncapsulatedX509Certificate", "Id Encoding", true},
+    {k_xades_namespace, "RevocationValues"},
+    {k_xades_namespace, "CRLValues"},
+    {k_xades_namespace, "EncapsulatedCRLValue", "Id Encoding", true},
+    {k_xades_namespace, "OCSPValues"},
+    {k_xades_namespace, "EncapsulatedOCSPValue", "Id Encoding", true},
+}};
+
+bool is_base64_or_blank(std::string_view text) {
+    constexpr std::string_view k_characters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/= \t\r\n";
+    return text.find_first_not_of(k_characters) == std::string_view::npos;
 }
 
-/// Whether an element belongs to the vocabulary of signatures.
-bool is_of_signatures(const xmlNode* element) {
-    const std::string_view name_space =
-        element->ns == nullptr ? std::string_view() : reinterpret_cast<const char*>(element->ns->href);
-    return name_space == k_dsig_namespace || name_space == k_dsig_11_namespace || name_space == k_xades_namespace ||
-           name_space == k_xades_141_namespace || name_space == k_exclusive_c14n;
+/// Whether a value is an identifier or an address, and not a sentence.
+bool is_plain_value(std::string_view value) {
+    constexpr std::string_view k_characters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._:/#-";
+    constexpr std::size_t k_longest = 200;
+    return value.size() <= k_longest && value.find_first_not_of(k_characters) == std::string_view::npos;
 }
 
-/// The first element within a signature that is not a signature's, or that has text where a signature has none. The
-/// signature leaves itself out of what it covers, so anything could have been put there later.
+bool is_among(std::string_view list, std::string_view word) {
+    return (' ' + std::string(list) + ' ').find(' ' + std::string(word) + ' ') != std::string::npos;
+}
+
+/// The first part of a signature that is none of a signature's, in words. The signature leaves itself out of what it covers,
+/// so anything could have been put there later: elements and attributes are those of the list, texts are Base64, and there is
+/// no comment and no processing instruction, which canonical XML may leave out of what is covered, too.
 /// \param covered  parts that it covers nevertheless
-/// \return nullptr if there is none
-const xmlNode* foreign_part(const xmlNode* signature, const std::array<const xmlNode*, 2>& covered) {
-    for (const xmlNode* child : children_of(signature)) {
-        if (std::find(covered.begin(), covered.end(), child) != covered.end()) {
-            continue;
-        }
-        if (!is_of_signatures(child) || (is_element(child, k_dsig_namespace, "Object") && has_own_text(child))) {
-            return child;
-        }
-        if (const xmlNode* found = foreign_part(child, covered); found != nullptr) {
-            return found;
+/// \return "" if there is none
+std::string foreign_part(const xmlNode* element, const std::array<const xmlNode*, 2>& covered) {
+    const bool is_covered = std::find(covered.begin(), covered.end(), element) != covered.end() ||
+                            std::any_of(covered.begin(), covered.end(),
+                                        [&](const xmlNode* one) { return one != nullptr && is_inside(element, one); });
+    const auto* const own = std::find_if(k_own_parts.begin(), k_own_parts.end(), [&](const OwnPart& part) {
+        return is_element(element, part.name_space, std::string(part.name).c_str());
+    });
+    if (!is_covered && own == k_own_parts.end()) {
+        return "the element " + name_of(element);
+    }
+    for (const xmlAttr* a = is_covered ? nullptr : element->properties; a != nullptr; a = a->next) {
+        const std::string name = reinterpret_cast<const char*>(a->name);
+        if (a->ns != nullptr || !is_among(own->attributes, name) || !is_plain_value(attribute(element, name.c_str()))) {
+            return "the attribute " + name + " of " + name_of(element);
         }
     }
-    return nullptr;
+    for (const xmlNode* child = element->children; child != nullptr; child = child->next) {
+        switch (child->type) {
+            case XML_ELEMENT_NODE:
+                if (std::string found = foreign_part(child, covered); !found.empty()) {
+                    return found;
+                }
+                break;
+            case XML_TEXT_NODE: {
+                const std::string_view text =
+                    child->content == nullptr ? "" : reinterpret_cast<const char*>(child->content);
+                if (!is_covered && !(own->has_base64 ? is_base64_or_blank(text) : is_blank(text))) {
+                    return "text in " + name_of(element);
+                }
+                break;
+            }
+            default:
+                return std::string(child->type == XML_COMMENT_NODE ? "a comment"
+                                   : child->type == XML_PI_NODE    ? "a processing instruction"
+                                                                   : "text of another form") +
+                       " in " + name_of(element);
+        }
+    }
+    return {};
 }
 
 /// How many elements bear this value as identifier, whatever the spelling of the attribute.
@@ -262,9 +337,9 @@ private:
             error("GC-SIGN-0112", std::to_string(document_references) + " references to the whole document",
                   "exactly one reference has URI=\"\", so that nothing else can be taken for what was signed");
         }
-        if (const xmlNode* foreign = foreign_part(signature_, {info, properties_}); foreign != nullptr) {
+        if (const std::string foreign = foreign_part(signature_, {info, properties_}); !foreign.empty()) {
             error(
-                "GC-SIGN-0120", "the element " + name_of(foreign) + " within the signature is not covered by it",
+                "GC-SIGN-0120", foreign + " within the signature is not covered by it",
                 "a signature holds nothing but its own parts, so that nothing in it can be taken for what was signed");
         }
     }
@@ -486,9 +561,25 @@ private:
             if (qualifying == nullptr || qualifying != properties_parent()) {
                 report_.not_covered.emplace_back("an object within the signature");
             } else if (only_child(qualifying, k_xades_namespace, "UnsignedProperties") != nullptr) {
-                report_.not_covered.emplace_back("unsigned properties within the signature, such as time stamps");
+                report_.not_covered.push_back(
+                    "unsigned properties within the signature:" +
+                    names_in(only_child(qualifying, k_xades_namespace, "UnsignedProperties")));
             }
         }
+    }
+
+    /// Of the properties of a list, "xades:SignatureTimeStamp", each once.
+    static std::string names_in(const xmlNode* unsigned_properties) {
+        std::string names;
+        for (const xmlNode* list : children_of(unsigned_properties)) {
+            for (const xmlNode* property : children_of(list)) {
+                if (const std::string name = ' ' + name_of(property);
+                    (names + ' ').find(name + ' ') == std::string::npos) {
+                    names += name;
+                }
+            }
+        }
+        return names.empty() ? " none" : names;
     }
 
     [[nodiscard]] const xmlNode* properties_parent() const {

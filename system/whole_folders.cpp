@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "system/cleanup.h"
+#include "system/new_file.h"
 
 namespace gumcert::system {
 
@@ -32,24 +33,6 @@ void write_new(const fs::path& file, std::string_view bytes) {
     }
     if (error != 0) {
         fail_whole(error);
-    }
-}
-
-/// Gives a folder its place, where nothing is.
-void rename_new(const fs::path& from, const fs::path& to) {
-    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) {
-        return;
-    }
-    if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) {
-        fail_whole(errno);
-    }
-    // A file system that cannot tell: a folder takes the place of an empty folder alone.
-    struct stat status = {};
-    if (::lstat(to.c_str(), &status) == 0) {
-        fail_whole(EEXIST);
-    }
-    if (::rename(from.c_str(), to.c_str()) != 0) {
-        fail_whole(errno);
     }
 }
 
@@ -119,7 +102,7 @@ void WholeFolders::put_in_place(const std::function<void(const std::string&)>& t
         fail_whole(errno);
     }
     for (const std::string& name : names) {
-        rename_new(work_->path() / name, parent_ / name);
+        rename_to_new(work_->path() / name, parent_ / name);
         if (told) {
             told(name);
         }

@@ -14,6 +14,7 @@ Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the comma
 
 import argparse
 import base64
+import datetime
 import errno
 import hashlib
 import json
@@ -126,6 +127,17 @@ def is_extended(earlier, earlier_root, size, root, proof):
             new = sha256(b"\x01" + new + beside)
         node, last = node >> 1, last >> 1
     return last == 0 and old == earlier_root and new == root
+
+
+def latest_time():
+    """The latest time that has come by this clock or by one that differs from it by five minutes."""
+    return (datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(minutes=5)).strftime("%Y-%m-%dT%H:%M:%SZ").encode()
+
+
+def times_to_come(parts):
+    """Lines for what is of a time that has not come: it cannot have happened."""
+    latest = latest_time()
+    return [f"{what} is of {at.decode('utf-8', 'replace')}, which has not come by the clock of this machine" for what, at in parts if at > latest]
 
 
 # What JSON may be here, beyond RFC 8259: docs/adr/0062-the-statement-of-states.md.
@@ -572,6 +584,8 @@ def verify_head(head, name, heads, public_key, tell):
     tell(f"{head.size} entries, {head.at.decode()}; extends " +
          (f"a head of {head.extends[0]} entries" if head.extends else "no earlier head"))
     tell(signer_in_words(head.signature, public_key, False))
+    for line in times_to_come([("the head", head.at), *(("a given head", one.at) for one in heads)]):
+        tell(line)
 
 
 # Primary result codes of SQLite that say nothing of what stands in the file: PERM, BUSY, LOCKED, NOMEM, READONLY, IOERR, FULL, CANTOPEN.
@@ -580,15 +594,26 @@ NOT_READ = {3, 5, 6, 7, 8, 10, 13, 14}
 
 class Reading:
     """How a file of SQLite is read so that nothing is left beside it: with the write-ahead log where one is there; else as a file
-    that does not change where its folder cannot be written, so that SQLite makes no log; else as one that may be written, by
-    whom the log that was made is taken away again. Nothing is written."""
+    that does not change where it or its folder cannot be written, or where it may have another name, by which writers have
+    another log; else as one that may be written, by whom the log that was made is taken away again. Nothing is written."""
 
     def __init__(self, path):
         self.path = os.path.realpath(path)
         self.before = self.now()
-        has_log = self.before[-1]
-        self.is_immutable = not has_log and not os.access(os.path.dirname(self.path), os.W_OK)
-        self.mode = "mode=ro" if has_log else "mode=ro&immutable=1" if self.is_immutable else "mode=rw"
+        has_log, may_write = self.before[-1], os.access(self.path, os.W_OK)
+        may_leave_nothing = may_write and os.access(os.path.dirname(self.path), os.W_OK) and not self.may_have_another_name()
+        self.is_immutable = not has_log and not may_leave_nothing
+        self.mode = (("mode=ro" if may_write else "mode=ro&readonly_shm=1") if has_log else
+                     "mode=ro&immutable=1" if self.is_immutable else "mode=rw")
+
+    def may_have_another_name(self):
+        """Several links, or mounted by itself."""
+        try:
+            mounts = [line.split(" ")[4] for line in pathlib.Path("/proc/self/mountinfo").read_text("utf-8", "surrogateescape").splitlines()]
+        except (OSError, IndexError):
+            mounts = []
+        places = {re.sub(r"\\([0-7]{3})", lambda octal: chr(int(octal[1], 8)), place) for place in mounts}
+        return os.stat(self.path).st_nlink > 1 or self.path in places
 
     def now(self):
         """What tells whether somebody writes; the last: whether SQLite keeps entries, or what it has to take back, beside the file."""
@@ -601,15 +626,15 @@ class Reading:
             raise OSError(errno.EBUSY, "was written while it was read; try again", self.path)
 
 
-def verify_store(path, heads):
+def verify_store(path, heads, tell=lambda line: None):
     """Findings of an archive in one file of SQLite."""
     reading = Reading(path)
-    found = list(findings_of_store(path, reading, heads))
+    found = list(findings_of_store(path, reading, heads, tell))
     reading.require_unchanged()
     yield from found
 
 
-def findings_of_store(path, reading, heads):
+def findings_of_store(path, reading, heads, tell):
     try:
         database = sqlite3.connect(f"file:{urllib.parse.quote(reading.path)}?{reading.mode}", uri=True)
     except sqlite3.Error as trouble:
@@ -620,7 +645,7 @@ def findings_of_store(path, reading, heads):
         database.execute("PRAGMA cell_size_check = ON")
         database.execute("PRAGMA trusted_schema = OFF")
         database.execute("BEGIN")
-        yield from findings_of(database, heads)
+        yield from findings_of(database, heads, tell)
     except (sqlite3.Error, OverflowError, UnicodeDecodeError) as trouble:
         if getattr(trouble, "sqlite_errorcode", 0) & 0xFF in NOT_READ:
             raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
@@ -629,7 +654,7 @@ def findings_of_store(path, reading, heads):
         database.close()
 
 
-def findings_of(database, heads):
+def findings_of(database, heads, tell):
     if database.execute("PRAGMA application_id").fetchone()[0] != APPLICATION_ID:
         yield "a SQLite file of something else"
         return
@@ -672,6 +697,8 @@ def findings_of(database, heads):
         return
     if rules.due:
         yield f"\"{rules.due[0]}\" {rules.due[1]} is missing at the end of the log"
+    for line in times_to_come([("the last entry", hashes[-1][1]), *(("a given head", one.at) for one in heads)]):
+        tell(line)
     yield from faults_of_list(database, rules.lives)
     roots = Roots(leaves)
     kept = set()
@@ -871,6 +898,8 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
     newest = max(heads, key=lambda one: one.size, default=head)
     if newest.size > head.size:
         yield f"a newer head is given, of {newest.size} entries, {newest.at.decode()}: what came since is not in this evidence"
+    states = [("the statement of states", verdict["states"].at.encode())] if verdict["states"] else []
+    yield from times_to_come([("the head", head.at), *states, *(("a given head", one.at) for one in heads)])
 
 
 def compared_document(file, verdict):
@@ -896,7 +925,7 @@ def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict
     with open(path, "rb") as stream:
         is_store = stream.read(16) == b"SQLite format 3\0"
     if is_store:
-        yield from verify_store(path, heads)
+        yield from verify_store(path, heads, tell)
         if public_key and not heads:
             tell("--public-key says nothing here: an archive is not signed, heads are, and none is given.")
         return
@@ -931,7 +960,8 @@ def main():
         found = list(findings(arguments.file, arguments.head, key, told.append, verdict))
         documents = [compared_document(file, verdict) for file in arguments.document]
     except OSError as trouble:
-        print(f"{trouble.filename}: {trouble.strerror}", file=sys.stderr)
+        name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename))  # an address in place of a file
+        print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
         return 5
     for line in found + [line for is_own, line in documents if not is_own]:
         print(shown(line))

@@ -13,13 +13,16 @@
 #include "app/output_set.h"
 #include "app/read_file.h"
 #include "app/recompute_record.h"
+#include "archive/head.h"
 #include "archive/names.h"
+#include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
+#include "reports/forms/pdf_other_parts.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/render.h"
 #include "reports/printable_text.h"
@@ -68,8 +71,11 @@ private:
     std::vector<gum::Diagnostic> errors_, remarks_;
 };
 
-/// Signatures, as far as they can be judged: without a trust store it is not asked who the signer is.
-void check_pdf_signatures(const signing::Verification& verification, bool trust_named, CheckFindings& findings) {
+/// Signatures, as far as they can be judged: without a trust store it is not asked who the signer is, and said so, as of a
+/// digital certificate.
+void check_pdf_signatures(const fs::path& file, const signing::Verification& verification, bool trust_named,
+                          CheckFindings& findings) {
+    std::vector<gum::Diagnostic> signers;
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
             std::vector<gum::Diagnostic> found = signature.findings;
@@ -79,8 +85,22 @@ void check_pdf_signatures(const signing::Verification& verification, bool trust_
                 });
             }
             findings.take(std::move(found));
+            const std::string signer = signature.signer.empty() ? "a signer that is not stated" : signature.signer;
+            gum::Diagnostic unknown{
+                .code = "GC-DCC-0043",
+                .where = file.string(),
+                .what = "signed by " + signer + "; the document is as it was signed, who the signer is was not checked",
+                .rule = "a signer is known by a certificate that you trust",
+                .action = "name such certificates with --trust",
+                .severity = gum::Severity::warning};
+            const bool is_told = std::any_of(signers.begin(), signers.end(),
+                                             [&](const gum::Diagnostic& one) { return one.what == unknown.what; });
+            if (!trust_named && !is_told) {
+                signers.push_back(std::move(unknown));
+            }
         }
     }
+    findings.take(std::move(signers));
 }
 
 /// Holds documents against the record that they are said to be made of.
@@ -108,9 +128,8 @@ public:
             const std::string text = reports::text_of_html(bytes);
             const PrintedDocument page({text});
             require_agreement(file, page);
-            const bool is_of_templates = reports::has_style_of(bytes, style()) && !page.names_other_templates(words_);
-            if (is_of_templates && !page.has_head_of_archive(words_)) {
-                require_same_text(file, text, reports::languages_of_html(bytes));
+            if (reports::has_style_of(bytes, style()) && !page.names_other_templates(words_)) {
+                require_same_page(file, bytes);
             } else {
                 findings.take({what_was_compared(file)});
             }
@@ -129,13 +148,16 @@ public:
             if (reports::printable(verification.pdf_keywords) != number_) {
                 refuse_as_other(file, verification.pdf_keywords, number_);
             }
-            check_pdf_signatures(verification, checks_.trusted.has_value(), findings);
+            check_pdf_signatures(file, verification, checks_.trusted.has_value(), findings);
+            require_nothing_beside_pages(file, bytes, verification, findings);
         } else {
             document.media_type = "application/xml";
             findings.take(imports::check_certificate(document.bytes, file.string(),
                                                      {.trusted = checks_.trusted, .now = checks_.now}));
         }
-        for (const DocumentIdentity& identity : identities_in(document.bytes, file.string(), verification)) {
+        const std::vector<DocumentIdentity> identities = identities_in(document.bytes, file.string(), verification);
+        findings.take(doubts_about(file.string(), identities, verification));
+        for (const DocumentIdentity& identity : identities) {
             if (identity.number != number_) {
                 refuse_as_other(file, identity.number, number_);
             }
@@ -150,9 +172,12 @@ public:
             signing::Verification alone;
             alone.kind = "dcc";
             for (const signing::Bytes& attachment : verification.attachments) {
-                if (!identities_in(attachment, file.string(), alone).empty()) {
-                    require_agreement_of_dcc(file, attachment);
+                if (identities_in(attachment, file.string(), alone).empty()) {
+                    refuse_document(file, "has an attached file that is no digital certificate",
+                                    "an archive keeps records and the documents that are made of them",
+                                    "make the document anew with gumcert render");
                 }
+                require_agreement_of_dcc(file, attachment);
             }
         } else {
             require_agreement_of_dcc(file, bytes);
@@ -211,6 +236,41 @@ private:
         }
     }
 
+    /// The pages show what they say: nothing lies over them, nothing is done by them, nothing else is with them.
+    static void require_nothing_beside_pages(const fs::path& file, std::string_view pdf,
+                                             const signing::Verification& verification, CheckFindings& findings) {
+        reports::PdfOtherParts parts;
+        try {
+            parts = reports::other_parts_of_pdf(pdf);
+        } catch (const std::bad_alloc&) {
+            throw;  // says nothing of the document
+        } catch (const std::exception& damaged) {
+            refuse_document(file, std::string("its parts cannot be read: ") + damaged.what(),
+                            "an archive keeps records and the documents that are made of them",
+                            "make the document anew");
+        }
+        if (parts.refused.empty() && parts.attached_files > verification.attachments.size()) {
+            parts.refused = "has an attached file that is no digital certificate";
+        }
+        if (!parts.refused.empty()) {
+            throw gum::InputError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0070",
+                .where = file.string(),
+                .what = parts.refused + ", and may show another text than it has",
+                .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
+                .action = "make the PDF anew with gumcert render"});
+        }
+        if (parts.has_drawn_signature) {
+            findings.take({gum::Diagnostic{
+                .code = "GC-ARCHIVE-0071",
+                .where = file.string(),
+                .what = "a signature is drawn on its pages; not compared: what it shows, and what lies below it",
+                .rule = "pages are made with any template and in any language, and what all of them print is compared",
+                .action = "look at the pages when the certificate is reviewed",
+                .severity = gum::Severity::note}});
+        }
+    }
+
     /// Said of each document of which not all was compared, so that nobody takes it for more than it is.
     static gum::Diagnostic what_was_compared(const fs::path& file) {
         return {
@@ -227,10 +287,51 @@ private:
             .severity = gum::Severity::note};
     }
 
-    /// A page that the templates of this program gave is the one that they give now: the record is of this version.
-    void require_same_text(const fs::path& file, const std::string& text, const std::vector<std::string>& languages) {
-        const std::string made = reports::text_of_html(reports::render_html(record_, in_languages(file, languages)));
-        refuse_disagreement(file, difference_of_texts(text, made));
+    /// A page that the templates of this program gave is the one that they give now, in its text and in every element and
+    /// attribute: the record is of this version.
+    void require_same_page(const fs::path& file, std::string_view bytes) {
+        reports::RenderAssets assets = in_languages(file, reports::languages_of_html(bytes));
+        assets.head = head_on_page(bytes, assets);
+        const std::string made = reports::render_html(record_, assets);
+        refuse_disagreement(file, difference_of_texts(reports::text_of_html(bytes), reports::text_of_html(made)));
+        refuse_disagreement(file, difference_of_texts(reports::structure_of_html(bytes),
+                                                      reports::structure_of_html(made), "is made as "));
+    }
+
+    /// The head of an archive as a page prints it, with the place where it can be checked; none where it prints none. Whether
+    /// it is one of this archive, the archive says.
+    [[nodiscard]] std::optional<reports::HeadToPrint> head_on_page(std::string_view bytes,
+                                                                   reports::RenderAssets assets) const {
+        const std::vector<archive::PrintedHead> printed = archive::printed_heads_in(bytes);
+        if (printed.empty()) {
+            return std::nullopt;
+        }
+        archive::Head head;
+        head.size = printed.front().size;
+        head.root = printed.front().root;
+        reports::HeadToPrint asked{.entries = std::to_string(head.size),
+                                   .digits = archive::short_form(head),
+                                   .mark = archive::mark_of(head),
+                                   .check_at = "WHERE-IT-CAN-BE-CHECKED"};
+        // What stands around the place is found on a page that is made with another one.
+        assets.head = asked;
+        const std::string made = reports::render_html(record_, assets);
+        const std::size_t at = made.find(asked.check_at);
+        const std::size_t begin = at == std::string::npos ? at : made.rfind('>', at);
+        const std::size_t end = at == std::string::npos ? at : made.find('<', at);
+        const std::size_t length = asked.check_at.size();
+        asked.check_at.clear();
+        if (begin != std::string::npos && end != std::string::npos) {
+            const std::string before = made.substr(begin, at - begin);
+            const std::string behind = made.substr(at + length, end - at - length);
+            const std::size_t sentence = bytes.find(before);
+            const std::size_t from = sentence == std::string_view::npos ? bytes.size() : sentence + before.size();
+            const std::string_view place = bytes.substr(from, std::min(bytes.find('<', from), bytes.size()) - from);
+            if (place.ends_with(behind)) {
+                asked.check_at = reports::text_of_html(place.substr(0, place.size() - behind.size()));
+            }
+        }
+        return asked;
     }
 
     void require_agreement(const fs::path& file, const PrintedDocument& document) {
@@ -265,6 +366,9 @@ private:
                                   : !on_every_page ? "does not print \"" + number_ + "\" on every page"
                                                    : "");
         const PrintedDocument document(pages);
+        if (!document.names_other_templates(words_)) {
+            refuse_disagreement(file, document.disagreement_with_pages(words_));
+        }
         require_agreement(file, document);
         // Each page was held against its view when it was made. In which language it is, is not said.
         std::string missing = document.disagreement_with_view(reports::view_of_document(record_, assets_));

@@ -94,6 +94,12 @@ std::vector<std::string> tell_documents(const std::string& certificate,
     return lines;
 }
 
+void add_line(std::vector<std::string>& lines, std::string line) {
+    if (!line.empty()) {
+        lines.push_back(std::move(line));
+    }
+}
+
 json shown_findings_of(const std::vector<gum::Diagnostic>& findings) {
     json list = json::array();
     for (const gum::Diagnostic& one : findings) {
@@ -141,8 +147,21 @@ std::string certificate_of_evidence(std::string_view text) {
                : std::string();
 }
 
-TrustedHeads::TrustedHeads(const std::vector<std::string>& files, const std::string& trust)
-    : key_(trust.empty() ? "" : signing::ed25519_public_key(trust)) {
+std::string time_to_come(const std::string& what, const std::string& at, const std::string& latest) {
+    return at > latest ? what + " is of " + text::one_line(at) + ", which has not come by the clock of this machine"
+                       : std::string();
+}
+
+std::vector<std::string> TrustedHeads::times_to_come() const {
+    std::vector<std::string> lines;
+    for (const archive::Head& head : heads_) {
+        add_line(lines, time_to_come("a given head", head.at, latest_));
+    }
+    return lines;
+}
+
+TrustedHeads::TrustedHeads(const std::vector<std::string>& files, const std::string& trust, std::string latest)
+    : key_(trust.empty() ? "" : signing::ed25519_public_key(trust)), latest_(std::move(latest)) {
     for (const std::string& file : files) {
         const archive::Head& head = heads_.emplace_back(archive::head_from_json(read_file(file), file));
         if (auto fault = fault_of_signature(head.signature, archive::signed_bytes(head), key_, file, "head")) {
@@ -190,6 +209,14 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
     const bool is_proved = is_trusted && evidence.states;
     const auto newest = std::max_element(heads.all().begin(), heads.all().end(),
                                          [](const auto& a, const auto& b) { return a.size < b.size; });
+    std::vector<std::string> to_come;
+    add_line(to_come, time_to_come("the head", head.at, heads.latest()));
+    if (evidence.states) {
+        add_line(to_come, time_to_come("the statement of states", evidence.states->at, heads.latest()));
+    }
+    for (std::string& line : heads.times_to_come()) {
+        to_come.push_back(std::move(line));
+    }
     const bool is_outdated = newest != heads.all().end() && newest->size > head.size;
     said.json = {{"schema", k_schema_of_verification},
                  {"sound", said.sound()},
@@ -204,6 +231,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                  {"documents", shown_parts(verdict.parts)},
                  {"entries", evidence.entries.size()},
                  {"contents", evidence.contents.size()},
+                 {"times_to_come", to_come},
                  {"findings", shown_findings_of(said.findings)}};
     const std::string when = ", as the archive stood at " + head.at + " (" + std::to_string(head.size) + " entries)";
     std::vector<std::string> lines = {"certificate " + text::one_line(evidence.certificate) +
@@ -221,6 +249,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
         lines.push_back("a newer head is given, of " + std::to_string(newest->size) + " entries, " + newest->at +
                         ": what came since is not in this evidence");
     }
+    lines.insert(lines.end(), to_come.begin(), to_come.end());
     said.text = text::one_line(file) + ": " + (said.sound() ? "sound" : "NOT SOUND") + "\n";
     for (const std::string& line : lines) {
         said.text += "  " + line + "\n";
@@ -251,9 +280,15 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                 earlier.at);
         }
     }
+    std::vector<std::string> to_come;
+    add_line(to_come, time_to_come("the head", head.at, heads.latest()));
+    for (std::string& line : heads.times_to_come()) {
+        to_come.push_back(std::move(line));
+    }
     said.json = {{"schema", k_schema_of_verification},
                  {"sound", said.sound()},
                  {"entries", head.size},
+                 {"times_to_come", to_come},
                  {"extends", head.extends ? json(head.extends->size) : json()},
                  {"heads", heads.all().size()},
                  {"signed_by", hexadecimal_key(head.signature)},
@@ -264,6 +299,9 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                 (head.extends ? "; extends a head of " + std::to_string(head.extends->size) + " entries"
                               : "; extends no earlier head") +
                 "\n  " + signer_in_words(head.signature, heads.key(), false) + "\n";
+    for (const std::string& line : to_come) {
+        said.text += "  " + line + "\n";
+    }
     return said;
 }
 

@@ -21,21 +21,29 @@ enum class ArchiveFile { head, evidence, other };
 /// The certificate that a file is evidence of; "" where it is no evidence.
 [[nodiscard]] std::string certificate_of_evidence(std::string_view text);
 
+/// "the head is of …, which has not come by the clock of this machine"; "" where it has.
+/// \param latest  the latest time that has come
+[[nodiscard]] std::string time_to_come(const std::string& what, const std::string& at, const std::string& latest);
+
 /// Heads from elsewhere, and the key that they must be signed with.
 class TrustedHeads {
 public:
     /// \param files  of heads
     /// \param trust  PEM file of the public key of the laboratory; "" without
-    TrustedHeads(const std::vector<std::string>& files, const std::string& trust);
+    /// \param latest  the latest time that has come, by the clock of the reader
+    TrustedHeads(const std::vector<std::string>& files, const std::string& trust, std::string latest);
 
     [[nodiscard]] bool has_key() const { return !key_.empty(); }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const std::vector<archive::Head>& all() const { return heads_; }
     /// GC-ARCHIVE-0050, of their signatures.
     [[nodiscard]] const std::vector<gum::Diagnostic>& findings() const { return findings_; }
+    [[nodiscard]] const std::string& latest() const { return latest_; }
+    /// Lines, one for each head of a time that has not come.
+    [[nodiscard]] std::vector<std::string> times_to_come() const;
 
 private:
-    std::string key_;
+    std::string key_, latest_;
     std::vector<archive::Head> heads_;
     std::vector<gum::Diagnostic> findings_;
 };

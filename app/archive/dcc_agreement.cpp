@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "reports/dcc/xml_document.h"
 #include "text/visible_text.h"
@@ -15,9 +16,9 @@ using reports::XmlElement;
 
 constexpr const char* k_made_now = "digital certificate of the record";
 
-/// Left out: a signature is made behind the document, and who wrote a document states nothing of the calibration.
+/// Left out: a signature is made behind the document. That nothing else is in it, its check says (GC-SIGN-0120).
 bool is_of_no_statement(const XmlElement& element) {
-    return element.name == "ds:Signature" || element.name == "dcc:dccSoftware";
+    return element.name == "ds:Signature";
 }
 
 std::vector<const XmlElement*> compared_children(const XmlElement& element) {
@@ -115,7 +116,15 @@ std::string difference_of(const XmlElement& stated, const XmlElement& expected, 
 }  // namespace
 
 std::string disagreement_of_dcc(std::string_view bytes, const std::string& name, std::string_view made_of_record) {
-    return difference_of(reports::read_xml(bytes, name), reports::read_xml(made_of_record, k_made_now), "");
+    std::vector<reports::XmlNote> notes;
+    const XmlElement stated = reports::read_xml(bytes, name, &notes);
+    std::string found = difference_of(stated, reports::read_xml(made_of_record, k_made_now), "");
+    if (found.empty() && !notes.empty()) {
+        found = "has " + shown_part(notes.front().what) +
+                ", which the record does not give, and by which programs may show something else (line " +
+                std::to_string(notes.front().line) + ")";
+    }
+    return found;
 }
 
 std::vector<std::string> languages_of_dcc(std::string_view bytes, const std::string& name) {

@@ -122,6 +122,9 @@ DocumentWords document_words(const std::filesystem::path& templates) {
         const nlohmann::json& of_document = part_of(wording, "document");
         words.other_templates.push_back(parts_of_mark(text_of(of_document, "changed_templates")));
         words.head_of_archive.push_back(parts_of_mark(text_of(of_document, "archive_head")));
+        words.pages.push_back({reports::without_blanks(text_of(of_document, "page")),
+                               reports::without_blanks(text_of(of_document, "of")),
+                               reports::without_blanks(text_of(of_document, "page_end"))});
         for (const auto& [code, word] : verdicts.items()) {
             if (word.is_string()) {
                 words.verdicts.emplace_back(reports::without_blanks(word.get<std::string>()), code);
@@ -611,6 +614,29 @@ std::string PrintedDocument::disagreement_with_facts(const std::vector<DocumentF
     return {};
 }
 
+std::string PrintedDocument::disagreement_with_pages(const DocumentWords& words) const {
+    const auto says_where_it_is = [&](const std::string& page, std::size_t number) {
+        return std::any_of(words.pages.begin(), words.pages.end(), [&](const auto& around) {
+            const std::string wanted = around[0] + std::to_string(number) + around[1] + std::to_string(pages_.size());
+            for (std::size_t at = page.find(wanted); at != std::string::npos; at = page.find(wanted, at + 1)) {
+                const std::size_t end = at + wanted.size();
+                if ((end == page.size() || !is_digit(page[end])) &&
+                    page.compare(end, around[2].size(), around[2]) == 0) {
+                    return true;
+                }
+            }
+            return false;
+        });
+    };
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+        if (!says_where_it_is(pages_[i], i + 1)) {
+            return "has " + std::to_string(pages_.size()) + " pages, and number " + std::to_string(i + 1) +
+                   " of them does not say that it is this one of so many";
+        }
+    }
+    return {};
+}
+
 std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view, const DocumentWords& words) const {
     if (std::string mark = mark_on(words); !mark.empty()) {
         return mark;
@@ -632,7 +658,7 @@ std::string PrintedDocument::disagreement_with_view(const nlohmann::json& view) 
                      " of the record";
 }
 
-std::string difference_of_texts(std::string_view stated, std::string_view expected) {
+std::string difference_of_texts(std::string_view stated, std::string_view expected, std::string_view verb) {
     constexpr std::size_t k_shown = 60;  // bytes around the place
     const auto bare = [](std::string_view text) {
         std::string out;
@@ -659,7 +685,7 @@ std::string difference_of_texts(std::string_view stated, std::string_view expect
         }
         return text::in_quotes(text.substr(begin, end - begin));
     };
-    return "says " + shown(left) + ", and the page that the record gives says " + shown(right);
+    return std::string(verb) + shown(left) + ", and the page that the record gives " + std::string(verb) + shown(right);
 }
 
 bool says_number(std::string_view html, const std::string& number) {

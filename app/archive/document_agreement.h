@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -27,9 +28,10 @@ struct DocumentWords {
     /// What says that a document is no issued certificate, of every kind and state that the wording knows: a draft, a
     /// specimen, superseded, internal, an audit.
     std::vector<Mark> marks;
-    std::vector<Mark> other_templates;   ///< what is printed where the templates were changed
-    std::vector<Mark> head_of_archive;   ///< and where a head of the archive is
-    std::vector<std::string> languages;  ///< "en", "zh-Hant"
+    std::vector<Mark> other_templates;              ///< what is printed where the templates were changed
+    std::vector<Mark> head_of_archive;              ///< and where a head of the archive is
+    std::vector<std::array<std::string, 3>> pages;  ///< what stands around the numbers of "page 1 of 3", without blanks
+    std::vector<std::string> languages;             ///< "en", "zh-Hant"
 };
 /// \throws gum::StorageError  if the wording is missing or damaged
 [[nodiscard]] DocumentWords document_words(const std::filesystem::path& templates);
@@ -55,6 +57,8 @@ public:
     [[nodiscard]] std::string disagreement_with_view(const nlohmann::json& view) const;
     [[nodiscard]] bool names_other_templates(const DocumentWords& words) const;
     [[nodiscard]] bool has_head_of_archive(const DocumentWords& words) const;
+    /// \return which page does not say that it is this page of so many; "" where all do, in some language
+    [[nodiscard]] std::string disagreement_with_pages(const DocumentWords& words) const;
     /// Of texts that say whose certificate it is, those that the document as it is made now prints.
     [[nodiscard]] std::string disagreement_with_facts(const std::vector<DocumentFact>& facts,
                                                       const PrintedDocument& made_now) const;
@@ -88,7 +92,8 @@ private:
 };
 
 /// \return the first words in which two texts differ, for a message; "" where they have the same words
-[[nodiscard]] std::string difference_of_texts(std::string_view stated, std::string_view expected);
+[[nodiscard]] std::string difference_of_texts(std::string_view stated, std::string_view expected,
+                                              std::string_view verb = "says ");
 
 /// Whether a page of HTML says that it is the certificate with this number: as a word of its own, in the head of the pages
 /// where it has one.

@@ -37,12 +37,14 @@
 #include "archive/archive.h"
 #include "archive/evidence.h"
 #include "archive/store/open_store.h"
+#include "archive/store/sqlite_store.h"
 #include "archive/store/work_table.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
 #include "signing/ed25519.h"
 #include "signing/verify.h"
-#include "system/temporary.h"
+#include "system/cleanup.h"
+#include "system/new_file.h"
 #include "system/whole_folders.h"
 #include "text/small_letters.h"
 #include "text/utf8.h"
@@ -85,6 +87,54 @@ bool as_json(const ArchiveOptions& options) {
 void print_json(const json& value) {
     write_to_stdout(value.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
+
+/// Carries out a request for an entry: a signal that comes meanwhile says whether it is in the log.
+template <class Work>
+archive::Written carried_out(const Work& work) {
+    EntryUnderWay under_way;
+    archive::Written written = work();
+    under_way.is_in_the_log(fmt::format("{}{}{}, entry {}", text::one_line(written.entry.certificate),
+                                        written.entry.certificate.empty() ? "" : " ", written.entry.kind,
+                                        written.entry.seq));
+    return written;
+}
+
+/// A new archive: a file under a temporary name until it is whole, or a database, which does so by itself.
+class NewArchive {
+public:
+    /// \throws gum::StorageError  GC-ARCHIVE-0002, -0010, GC-STORE-0002
+    explicit NewArchive(const std::string& address) : address_(address) {
+        if (!archive::is_postgresql(address)) {
+            archive::require_place_of_archive(address);
+            told_as_storage([&] { file_.emplace(address); });
+        }
+    }
+    /// Where it is made.
+    [[nodiscard]] std::string address() const { return file_ ? file_->part().string() : address_; }
+    /// As people know it.
+    [[nodiscard]] std::string name_of(const archive::Store& store) const { return file_ ? address_ : store.name(); }
+    /// Nobody has it open.
+    void put_in_place() {
+        if (file_) {
+            told_as_storage([&] { file_->put_in_place([&] { tell_written(file_->place()); }); });
+            app::synchronise_folder(file_->place().has_parent_path() ? file_->place().parent_path() : ".");
+        }
+    }
+
+private:
+    std::string address_;
+    std::optional<system::NewFile> file_;
+
+    void told_as_storage(const std::function<void()>& work) const {
+        try {
+            work();
+        } catch (const std::system_error& error) {
+            throw gum::StorageError(gum::Diagnostic{
+                "GC-STORE-0002", address_, "cannot be made: " + error.code().message(),
+                "output files appear whole or not at all", "choose another folder with -o, or free the disk"});
+        }
+    }
+};
 
 /// The outcome of an action that writes an entry.
 ExitCode told(const archive::Written& written, const ArchiveOptions& options, const CommonOptions& common) {
@@ -141,24 +191,38 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
     const archive::LogEntry first =
         archive::first_entry(settings_of(options), fmt::format("gumcert {} (commit {})", k_version, k_commit),
                              random_nonce(), request_of(options));
-    const auto store = archive::create_store(options.store, first);
-    if (!common.quiet) {
-        fmt::print("Begun: {}\n", text::one_line(store->name()));
+    NewArchive made(options.store);
+    std::string name;
+    const archive::Written written = carried_out([&] {
+        name = made.name_of(*archive::create_store(made.address(), first));
+        made.put_in_place();
+        return archive::Written{first, false};
+    });
+    if (!common.quiet && !as_json(options)) {
+        fmt::print("Begun: {}\n", text::one_line(name));
     }
-    return told({first, false}, options, common);
+    return told(written, options, common);
 }
 
 ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_and_write);
-    return told(archive::Archive(*store).change_settings(settings_of(options), request_of(options)), options, common);
+    return told(carried_out([&] {
+                    return archive::Archive(*store).change_settings(settings_of(options), request_of(options));
+                }),
+                options, common);
 }
 
 ExitCode take_number(const ArchiveOptions& options, const CommonOptions& common) {
     const auto store = opened(options, archive::Access::read_and_write);
     archive::Archive archive(*store);
-    return told(options.amend.empty() ? archive.take_number(request_of(options))
-                                      : archive.take_amendment_number(options.amend, request_of(options)),
-                options, common);
+    const archive::Written written = carried_out([&] {
+        return options.amend.empty() ? archive.take_number(request_of(options))
+                                     : archive.take_amendment_number(options.amend, request_of(options));
+    });
+    if (common.quiet && !as_json(options)) {  // the number is the answer
+        write_to_stdout(written.entry.certificate + "\n");
+    }
+    return told(written, options, common);
 }
 
 ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, bool is_amendment) {
@@ -190,7 +254,7 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
         }
     }
     print_messages(checked.remarks, common);
-    return told(archive.draft(checked.draft, request), options, common);
+    return told(carried_out([&] { return archive.draft(checked.draft, request); }), options, common);
 }
 
 ExitCode add_certificate(const ArchiveOptions& options, const CommonOptions& common) {
@@ -217,7 +281,8 @@ ExitCode advance(const ArchiveOptions& options, const CommonOptions& common, con
         }
         doubts = app::doubts_about_days(record, number, kind, today());
     };
-    const auto written = archive.advance(number, kind, request_of(options), judge);
+    const archive::Written written =
+        carried_out([&] { return archive.advance(number, kind, request_of(options), judge); });
     print_messages(doubts, common);
     return told(written, options, common);
 }
@@ -359,21 +424,6 @@ std::vector<fs::path> inputs_of(const ArchiveOptions& options) {
     return {options.store, options.sign, options.since};
 }
 
-/// SQLite keeps a log and its index beside an archive: a file of another kind with that name would be taken for them, also
-/// when they are not there now.
-void require_not_beside_the_store(const fs::path& output, const ArchiveOptions& options) {
-    std::error_code error;
-    const fs::path place = fs::weakly_canonical(output, error);
-    for (const char* const ending : {"-wal", "-shm", "-journal"}) {
-        if (!archive::is_postgresql(options.store) &&
-            place == fs::weakly_canonical(options.store, error).concat(ending)) {
-            throw gum::StorageError(gum::Diagnostic{"GC-STORE-0004", output.string(),
-                                                    "is the name of a file that SQLite keeps beside the archive",
-                                                    "inputs are never changed", "choose another name with -o"});
-        }
-    }
-}
-
 /// Output of a reading action: a file, or the terminal.
 class Output {
 public:
@@ -383,7 +433,6 @@ public:
         if (!place_.empty()) {
             app::require_writable(place_);
             app::require_not_an_input(place_, inputs_);
-            require_not_beside_the_store(place_, options);
             at_start_ = begin_outputs({place_}, common);
         }
     }
@@ -412,6 +461,15 @@ archive::Head::Signature signature_of(const std::string& bytes, const std::strin
 
 void sign(archive::Head& head, const std::string& key) {
     if (!key.empty()) {
+        if (head.at > latest_time()) {
+            throw gum::StorageError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0066",
+                .where = "the clock of this machine",
+                .what = "says " + time_now() + ", and the last entry is of " + head.at,
+                .rule = "what is signed speaks of a time that has come",
+                .action =
+                    "look at a calendar: set the clock right, or wait; without --sign the head is written as it is"});
+        }
         head.signature = signature_of(archive::signed_bytes(head), key);
     }
 }
@@ -485,7 +543,7 @@ void print_findings(const std::vector<gum::Diagnostic>& findings, const CommonOp
 
 /// Evidence and heads, each by itself; behind the first evidence also documents that should be of one of them.
 ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
-    const app::TrustedHeads heads(options.heads, options.trust);
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
     std::vector<app::DocumentInHand> documents;
     std::vector<std::string> evidence;
     bool has_evidence = false;
@@ -539,7 +597,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     if (!options.named.empty()) {
         return verify_files(options, common);
     }
-    const app::TrustedHeads heads(options.heads, options.trust);
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
     const auto store = opened(options, archive::Access::read_only);
     ProgressLine progress(!common.quiet);
     archive::Verification verification =
@@ -548,6 +606,13 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
     print_findings(verification.findings, common);
     const bool trust_is_idle = heads.has_key() && heads.all().empty();
+    std::vector<std::string> to_come = heads.times_to_come();
+    if (verification.head) {
+        if (std::string line = app::time_to_come("the last entry", verification.head->at, heads.latest());
+            !line.empty()) {
+            to_come.insert(to_come.begin(), std::move(line));
+        }
+    }
     if (as_json(options)) {
         json head;
         if (verification.head) {
@@ -561,6 +626,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
                     {"heads", heads.all().size()},
                     {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
                     {"head", head},
+                    {"times_to_come", to_come},
                     {"findings", shown_findings(verification.findings)}});
     } else if (!common.quiet) {
         std::string said =
@@ -574,6 +640,9 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
         if (heads.all().empty()) {
             said += "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
         }
+        for (const std::string& line : to_come) {
+            said += "  " + line + "\n";
+        }
         if (trust_is_idle) {
             said += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
         }
@@ -585,21 +654,18 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
 /// The copy is looked at before it gets its name, and noted in the log before anybody relies on it.
 ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     const fs::path file = options.output;
+    app::require_writable(file);
     const auto store = opened(options, archive::Access::read_and_write);
     std::error_code error;
     if (fs::exists(file, error) || error) {
         refuse_usage(file.string(), "is there already", "a backup is a new file", "choose another name");
     }
-    require_not_beside_the_store(file, options);
-    // A folder of a command that was killed goes when the next one is made.
-    const fs::path place = file.has_parent_path() ? file.parent_path() : ".";
-    const system::TemporaryFolder folder(place);
-    const fs::path part = folder.path() / file.filename();
-    store->copy_to(part);
+    NewArchive made(options.output);
+    store->copy_to(made.address());
     ProgressLine progress(!common.quiet);
     archive::Verification verification;
     {
-        const auto copy = archive::open_store(part.string(), archive::Access::read_only);
+        const auto copy = archive::open_store(made.address(), archive::Access::read_only);
         verification =
             archive::verify_store(*copy, {}, [&](const std::string& text) { progress("verifying: " + text); });
     }
@@ -612,11 +678,12 @@ ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
                                                 .rule = "a backup is verified before it counts as one",
                                                 .action = "see what gumcert archive verify says of the archive"});
     }
-    // Where the entry is refused, the copy goes.
-    const archive::Written written =
-        archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options));
-    fs::rename(part, file);
-    app::synchronise_folder(place);
+    // Where the entry is refused, the copy goes; a signal finds both or none of them.
+    const auto both = system::hold_cleanup();
+    const archive::Written written = carried_out([&] {
+        return archive::Archive(*store).note_backup(file.filename().string(), *verification.head, request_of(options));
+    });
+    made.put_in_place();
     return told(written, options, common);
 }
 
@@ -625,7 +692,20 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     const archive::Head head = archive::Archive(*from).head();
     ProgressLine progress(!common.quiet);
     progress("copying " + std::to_string(head.size) + " entries");
-    const auto to = archive::replay_into(*from, options.to, archive::list_again);
+    NewArchive made(options.to);
+    std::unique_ptr<archive::Store> to;
+    std::string name;
+    {
+        std::optional<EntryUnderWay> under_way;  // a file is not there before it is in its place
+        if (archive::is_postgresql(options.to)) {
+            under_way.emplace();
+        }
+        to = archive::replay_into(*from, made.address(), archive::list_again);
+        name = made.name_of(*to);
+        if (under_way) {
+            under_way->is_in_the_log(fmt::format("{} entries in {}", head.size, text::one_line(name)));
+        }
+    }
     const archive::Verification verification =
         archive::verify_store(*to, {head}, [&](const std::string& text) { progress("verifying: " + text); });
     progress.clear();
@@ -633,21 +713,26 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
     if (!verification.sound()) {
         throw gum::StorageError(
             gum::Diagnostic{.code = "GC-ARCHIVE-0011",
-                            .where = to->name(),
-                            .what = "the copy cannot be verified",
+                            .where = name,
+                            .what = archive::is_postgresql(options.to) ? "the copy cannot be verified"
+                                                                       : "the copy cannot be verified, and was removed",
                             .rule = "a copy is verified before it counts as one",
-                            .action = "remove it, and see what gumcert archive verify says of the archive"});
+                            .action = archive::is_postgresql(options.to)
+                                          ? "remove it, and see what gumcert archive verify says of the archive"
+                                          : "see what gumcert archive verify says of the archive"});
     }
+    to.reset();
+    made.put_in_place();
     if (as_json(options)) {
         print_json({{"schema", "gumcert/archive-migration/1"},
                     {"from", from->name()},
-                    {"to", to->name()},
+                    {"to", name},
                     {"entries", verification.entries},
                     {"contents", verification.contents},
                     {"head", json::parse(archive::to_json(*verification.head))}});
     } else if (!common.quiet) {
         fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
-                   text::one_line(to->name()), verification.entries, verification.contents, verification.certificates,
+                   text::one_line(name), verification.entries, verification.contents, verification.certificates,
                    text::one_line(from->name()), encoding::hexadecimal(verification.head->root), verification.head->at);
     }
     return done;
@@ -840,6 +925,10 @@ void require_query(const ArchiveOptions& options) {
             refuse_usage("archive affected", *day + " is no day", "a day is written as 2026-11-21", "correct it");
         }
     }
+    if (!options.until.empty() && options.until < options.since) {
+        refuse_usage("archive affected", "--until " + options.until + " is before --since " + options.since,
+                     "the search is for work from the first of the days to the last", "correct them");
+    }
     if ((!options.output.empty() || options.shared) && options.register_folder.empty()) {
         refuse_usage("archive affected", options.shared ? "--shared without --register" : "-o without --register",
                      "amendments are drafted of certificates that are calculated again",
@@ -971,6 +1060,11 @@ void require_options(const Action& action, const ArchiveOptions& o) {
         refuse_usage(command, o.store.empty() ? "--store is missing" : "--store and files of evidence",
                      "an action has one archive; evidence is verified without any",
                      o.store.empty() ? "name the file of the archive" : "leave one of them out");
+    }
+    if (!o.today.empty() && (!app::is_day(o.today) || o.today != time_now().substr(0, o.today.size()))) {
+        refuse_usage(command, "--today " + o.today + (app::is_day(o.today) ? "" : " is no day"),
+                     "it is the day of the calendar, and the clock of this machine says " + time_now(),
+                     "look at a calendar: set the clock right, or correct the day");
     }
     if (takes("by") && o.by.empty()) {
         refuse_usage(command, "--by is missing", "every entry of the log says who", "name the person who does this");

@@ -9,14 +9,17 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <new>
+#include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "app/cli/terminal.h"
 #include "app/limits.h"
@@ -29,9 +32,12 @@ namespace {
 
 struct Progress {
     std::mutex mutex;
+    std::condition_variable settled;
     std::string stage;
     std::string last_written;
     std::size_t written = 0;
+    std::string last_entry;
+    int entries_under_way = 0;
 };
 
 /// Never destroyed: a signal may come while the program is ending.
@@ -68,23 +74,52 @@ const char* name_of(int signal) {
     }
 }
 
-void say(int signal, bool cleaned, const CommonOptions& common) {
-    std::string stage;
-    std::string written = "nothing was written";
-    Progress& progress = progress_until_now();
-    if (const std::unique_lock lock(progress.mutex, std::try_to_lock); lock.owns_lock()) {
-        stage = progress.stage.empty() ? "" : ", at: " + progress.stage;
-        if (progress.written > 0) {
-            written = "files in their places: " + std::to_string(progress.written) + ", the last one " +
-                      progress.last_written;
-        }
+/// What was written until now, in words.
+struct Written {
+    std::string what = {};
+    bool has_entry = false;
+    bool is_known = false;
+};
+
+/// \param lock  on the mutex of the progress
+Written written_until_now(Progress& progress, std::unique_lock<std::mutex>& lock) {
+    constexpr std::chrono::seconds k_patience{2};  // for an entry that is being written
+    Written written;
+    written.is_known =
+        progress.settled.wait_for(lock, k_patience, [&progress] { return progress.entries_under_way == 0; });
+    written.has_entry = !progress.last_entry.empty();
+    std::vector<std::string> parts;
+    if (!written.is_known) {
+        parts.emplace_back("whether the entry that was asked for is in the archive is not known");
+    } else if (written.has_entry) {
+        parts.push_back("in the archive: " + progress.last_entry);
     }
+    if (progress.written > 0) {
+        parts.push_back("files in their places: " + std::to_string(progress.written) + ", the last one " +
+                        progress.last_written);
+    }
+    written.what = parts.empty() ? "nothing was written" : parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        written.what += "; " + parts[i];
+    }
+    return written;
+}
+
+void say(int signal, bool cleaned, const CommonOptions& common) {
+    Progress& progress = progress_until_now();
+    std::unique_lock lock(progress.mutex);  // held for moments
+    const Written written = written_until_now(progress, lock);
+    const std::string stage = progress.stage.empty() ? "" : ", at: " + progress.stage;
+    lock.unlock();
     print_message({.code = "GC-STORE-0021",
                    .where = "gumcert",
-                   .what = std::string("ended by ") + name_of(signal) + stage + "; " + written,
+                   .what = std::string("ended by ") + name_of(signal) + stage + "; " + written.what,
                    .rule = "outputs of a job appear whole or not at all, and nothing else stays behind",
-                   .action = cleaned ? "give the command again for the rest"
-                                     : "give the command again; it completes what was being written"},
+                   .action = !written.is_known ? "ask again with the same --request-key, or look with gumcert archive "
+                                                 "list and show: without a key it would be another request"
+                             : written.has_entry ? "look with gumcert archive show, and do not ask for it again"
+                             : cleaned           ? "give the command again for the rest"
+                                                 : "give the command again; it completes what was being written"},
                   common);
 }
 
@@ -214,6 +249,26 @@ void tell_stage(const std::string& text) {
     Progress& progress = progress_until_now();
     const std::lock_guard lock(progress.mutex);
     progress.stage = text;
+}
+
+EntryUnderWay::EntryUnderWay() {
+    const system::CleanupLock none_after_a_signal = system::hold_cleanup();
+    Progress& progress = progress_until_now();
+    const std::lock_guard lock(progress.mutex);
+    ++progress.entries_under_way;
+}
+
+EntryUnderWay::~EntryUnderWay() {
+    Progress& progress = progress_until_now();
+    const std::lock_guard lock(progress.mutex);
+    --progress.entries_under_way;
+    progress.settled.notify_all();
+}
+
+void EntryUnderWay::is_in_the_log(const std::string& entry) {
+    Progress& progress = progress_until_now();
+    const std::lock_guard lock(progress.mutex);
+    progress.last_entry = entry;
 }
 
 void tell_written(const std::filesystem::path& file) {

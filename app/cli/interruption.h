@@ -27,4 +27,17 @@ void tell_stage(const std::string& text);
 /// A file that is in its place.
 void tell_written(const std::filesystem::path& file);
 
+/// An entry of an archive that is asked for. While it lives nobody knows whether the entry is in the log; a signal waits a
+/// little for its end. None begins when a signal has been answered.
+class EntryUnderWay {
+public:
+    EntryUnderWay();
+    ~EntryUnderWay();
+    EntryUnderWay(const EntryUnderWay&) = delete;
+    EntryUnderWay& operator=(const EntryUnderWay&) = delete;
+
+    /// \param entry  in words: "N-1 numbered, entry 57"
+    void is_in_the_log(const std::string& entry);
+};
+
 }  // namespace gumcert::cli

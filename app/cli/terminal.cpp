@@ -11,11 +11,25 @@
 #include "app/cli/clock.h"
 #include "app/cli/interruption.h"
 #include "app/refusal_log.h"
+#include "archive/store/open_store.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
 
-void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common) {
+namespace {
+
+/// Words of the command line stand in messages: an address that was given in place of a file has its password in it.
+gum::Diagnostic without_passwords(gum::Diagnostic diagnostic) {
+    for (std::string* const text : {&diagnostic.where, &diagnostic.what, &diagnostic.action}) {
+        archive::hide_passwords(*text);
+    }
+    return diagnostic;
+}
+
+}  // namespace
+
+void print_message(const gum::Diagnostic& found, const CommonOptions& common) {
+    const gum::Diagnostic diagnostic = without_passwords(found);
     if (common.json_messages) {
         const char* const severities[] = {"note", "warning", "error"};
         const nlohmann::json line{

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "archive/store/file_names.h"
 #include "archive/store/sqlite_schema.h"
 #include "archive/store/sqlite_statement.h"
 #include "encoding/sha2.h"
@@ -160,26 +161,43 @@ struct Reading {
     fs::path unlocked = {};    ///< file that is read without a lock; empty else
 };
 
-/// A reader of a file with a write-ahead log makes that log and its index, and only who may write takes them away again. So a
-/// file without entries in a log is opened as one that may be written, and written it is not (query_only). Where the folder
-/// cannot be written, SQLite could not make them: such a file is read as one that does not change, and looked at again
-/// afterwards. With entries in a log, reading stays reading: closing would else bring them into the file.
-Reading reading_of(const fs::path& file) {
-    std::error_code error;
-    const fs::path real = fs::canonical(file, error);
-    if (error || state_of(real).has_log) {
-        return {};
-    }
-    if (faccessat(AT_FDCWD, real.parent_path().c_str(), W_OK, AT_EACCESS) == 0) {
-        return {.flags = SQLITE_OPEN_READWRITE};
-    }
+/// The address of a file with a parameter, as SQLITE_OPEN_URI takes it.
+std::string address_of(const fs::path& real, const char* parameter) {
     constexpr std::string_view k_plain = "/-._~0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     std::string address = "file:";
     for (const char c : real.string()) {
         address += k_plain.find(c) != std::string_view::npos ? std::string(1, c)
                                                              : "%" + encoding::hexadecimal(std::string_view(&c, 1));
     }
-    return {.flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, .address = address + "?immutable=1", .unlocked = real};
+    return address + "?" + parameter;
+}
+
+bool may_write(const fs::path& place) {
+    return faccessat(AT_FDCWD, place.c_str(), W_OK, AT_EACCESS) == 0;
+}
+
+/// A reader of a file with a write-ahead log makes that log and its index, and only who may write takes them away again. So a
+/// file without entries in a log is opened as one that may be written, and written it is not (query_only). Who may not write
+/// the file would leave a log that its owner cannot write; where the folder cannot be written, SQLite could not make one;
+/// writers by another name have another log. Such a file is read as one that does not change, and looked at again afterwards.
+/// With entries in a log, reading stays reading: closing would else bring them into the file; who may not write the file
+/// makes no index, either.
+Reading reading_of(const fs::path& file) {
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    if (error) {
+        return {};
+    }
+    if (state_of(real).has_log) {
+        return may_write(real) ? Reading{}
+                               : Reading{.flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI,
+                                         .address = address_of(real, "readonly_shm=1")};
+    }
+    if (may_write(real) && may_write(real.parent_path()) && !may_have_another_name(real)) {
+        return {.flags = SQLITE_OPEN_READWRITE};
+    }
+    return {
+        .flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, .address = address_of(real, "immutable=1"), .unlocked = real};
 }
 
 std::vector<std::string> schema_lines(sqlite3* database, const std::string& name) {
@@ -234,14 +252,23 @@ public:
     /// \param unlocked  as of Reading
     /// \param before    its state when it was opened
     SqliteStore(fs::path file, Database database, fs::path unlocked = {}, StateOfFile before = {})
-        : file_(std::move(file)), database_(std::move(database)), unlocked_(std::move(unlocked)), before_(before) {}
+        : file_(std::move(file)),
+          opened_(identity_of(file_)),
+          database_(std::move(database)),
+          unlocked_(std::move(unlocked)),
+          before_(before) {}
 
     [[nodiscard]] std::string name() const override { return file_.string(); }
 
     void read(const std::function<void()>& work) override { transact("BEGIN", work); }
     // IMMEDIATE takes the right to write at the beginning: writers queue. A transaction that first reads and then
     // writes could be refused in its middle.
-    void write(const std::function<void()>& work) override { transact("BEGIN IMMEDIATE", work); }
+    void write(const std::function<void()>& work) override {
+        transact("BEGIN IMMEDIATE", [&] {
+            work();
+            require_one_name(file_, opened_);  // somebody may have given it another name since it was opened
+        });
+    }
 
     void append(const LogEntry& e) override {
         Statement insert = statement("INSERT INTO log VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)");
@@ -324,6 +351,7 @@ public:
 
 private:
     fs::path file_;
+    FileIdentity opened_;
     Database database_;
     fs::path unlocked_;
     StateOfFile before_;
@@ -355,7 +383,8 @@ private:
     void require_unchanged() const {
         if (!unlocked_.empty() && state_of(unlocked_) != before_) {
             refuse_store("GC-ARCHIVE-0004", file_, "was written while it was read",
-                         "an archive in a folder that cannot be written is read while nobody writes it", "try again");
+                         "an archive that cannot be written, or has several names, is read while nobody writes it",
+                         "try again");
         }
     }
 };
@@ -430,6 +459,12 @@ void SqliteStore::copy_to(const fs::path& file) {
 void require_archive(sqlite3* database, const fs::path& file) {
     constexpr const char* rule = "an archive of gumcert has its mark and a version that this program knows";
     if (pragma(database, "application_id", file.string()) != std::to_string(k_application_id)) {
+        if (schema_lines(database, file.string()).empty()) {
+            refuse_store(
+                "GC-ARCHIVE-0003", file, "is empty: nothing was ever written into it", rule,
+                "check the name; where a command that began an archive was cut short, remove the file and begin "
+                "again");
+        }
         refuse_store("GC-ARCHIVE-0003", file, "is a SQLite file of something else", rule, "check the name");
     }
     if (const std::string version = pragma(database, "user_version", file.string());
@@ -446,8 +481,21 @@ void close_sqlite_file(const fs::path& file) {
     (void)pragma(database.get(), "journal_mode = DELETE", file.string());
 }
 
-std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
+void require_place_of_archive(const fs::path& file) {
     refuse_network_share(file.parent_path());
+    for (const char* const ending : {"", "-wal", "-shm", "-journal"}) {
+        const fs::path taken = file.string() + ending;
+        struct stat found {};
+        if (lstat(taken.c_str(), &found) == 0) {
+            refuse_store("GC-ARCHIVE-0002", taken, "is there already", "an archive is begun in a new file",
+                         *ending == '\0' ? "choose another name"
+                                         : "choose another name: SQLite would take it for a part of the archive");
+        }
+    }
+}
+
+std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry& first, const Fill& fill) {
+    require_place_of_archive(file);
     const bool made = make_file(file);
     if (!made && errno == EEXIST) {
         refuse_store("GC-ARCHIVE-0002", file, "is there already", "an archive is begun in a new file",
@@ -482,10 +530,16 @@ std::unique_ptr<Store> create_sqlite_store(const fs::path& file, const LogEntry&
 std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) {
-        refuse_store("GC-ARCHIVE-0001", file, "there is no such file", "an archive is begun before it is used",
+        refuse_store("GC-ARCHIVE-0001", file,
+                     fs::exists(file, error) ? "is a folder, a pipe or a device, and no file" : "there is no such file",
+                     "an archive is begun before it is used",
                      "check the name, or begin one with gumcert archive init");
     }
     refuse_network_share(file.parent_path());
+    if (access == Access::read_and_write) {
+        require_one_name(file, identity_of(file));
+        require_rights_to_write(file);
+    }
     const Reading reading = access == Access::read_only ? reading_of(file) : Reading{.flags = SQLITE_OPEN_READWRITE};
     const StateOfFile before = reading.unlocked.empty() ? StateOfFile{} : state_of(reading.unlocked);
     Database database = open_database(file, reading.flags, reading.address);

@@ -9,6 +9,11 @@
 
 namespace gumcert::archive {
 
+/// Before an archive is made anywhere that gets a name.
+/// \throws gum::StorageError  GC-ARCHIVE-0002 where the name is taken, or one of a file that SQLite keeps beside it; -0010 on
+///                            a network share
+void require_place_of_archive(const std::filesystem::path& file);
+
 /// A new archive in one file of SQLite, with its first entry.
 /// \param fill  adds more to it; all of it or nothing
 /// \throws gum::StorageError  GC-ARCHIVE-0002 where the file is there already, -0010 on a network share, and others

@@ -63,6 +63,7 @@ struct Reading {
     bool has_root = false;
     std::vector<XmlElement*> open;  ///< from the root to the innermost; children of an open element do not move
     std::size_t elements = 0;
+    std::vector<XmlNote>* notes = nullptr;
     std::optional<gum::Diagnostic> refusal;
 
     void refuse(gum::Diagnostic diagnostic) {
@@ -130,6 +131,21 @@ void on_text(void* data, const xmlChar* text, int length) {
     }
 }
 
+void note(Reading& reading, std::string what) {
+    if (!reading.refusal && reading.notes != nullptr) {
+        const int line = xmlSAX2GetLineNumber(reading.parser);
+        reading.notes->push_back({std::move(what), static_cast<std::size_t>(std::max(line, 0))});
+    }
+}
+
+void on_comment(void* data, const xmlChar*) {
+    note(reading_of(data), "a comment");
+}
+
+void on_instruction(void* data, const xmlChar* target, const xmlChar*) {
+    note(reading_of(data), "a processing instruction " + std::string(bytes_of(target)));
+}
+
 void on_doctype(void* data, const xmlChar*, const xmlChar*, const xmlChar*) {
     Reading& reading = reading_of(data);
     reading.refuse(
@@ -171,6 +187,8 @@ xmlSAXHandler handler() {
     sax.endElementNs = on_end;
     sax.characters = on_text;
     sax.cdataBlock = on_text;
+    sax.comment = on_comment;
+    sax.processingInstruction = on_instruction;
     sax.internalSubset = on_doctype;
     sax.getEntity = on_entity;
     sax.resolveEntity = on_external;
@@ -261,7 +279,7 @@ std::string XmlElement::trimmed() const {
     return without_outer_blanks(text);
 }
 
-XmlElement read_xml(std::string_view bytes, const std::string& file) {
+XmlElement read_xml(std::string_view bytes, const std::string& file, std::vector<XmlNote>* notes) {
     if (bytes.size() > k_largest_document) {
         throw too_large(file, bytes.size());
     }
@@ -284,6 +302,7 @@ XmlElement read_xml(std::string_view bytes, const std::string& file) {
     Reading reading;
     reading.parser = parser.get();
     reading.file = file;
+    reading.notes = notes;
     // Set before the callbacks: the parser changes some of them by its options. Never NOENT, DTDLOAD, DTDATTR, XINCLUDE
     // or HUGE.
     xmlCtxtUseOptions(parser.get(), XML_PARSE_NONET);

@@ -27,13 +27,22 @@ struct XmlElement {
     [[nodiscard]] std::string trimmed() const;
 };
 
+/// A comment or a processing instruction. Programs that show a document may follow it (`<?xml-stylesheet …?>`), and no
+/// element tells of it.
+struct XmlNote {
+    std::string what;  ///< "a comment", or "a processing instruction xml-stylesheet"
+    std::size_t line = 0;
+};
+
 /// Reads an XML document that may come from anywhere. Nothing outside of the bytes is ever read: a DOCTYPE is refused,
 /// so that there are no entities but the five of XML, and no network or file is asked for anything.
 /// Limits: 64 MiB, depth 64, one million elements, 10 MB of text in one piece.
-/// \param file  for messages
+/// \param file   for messages
+/// \param notes  where they are wanted: all of them, also before and behind the root
 /// \throws gum::InputError  GC-DCC-0001 not well-formed (with line and column), -0002 a DOCTYPE, -0003 too deep, -0004
 ///                          too large
-[[nodiscard]] XmlElement read_xml(std::string_view bytes, const std::string& file);
+[[nodiscard]] XmlElement read_xml(std::string_view bytes, const std::string& file,
+                                  std::vector<XmlNote>* notes = nullptr);
 
 /// "file:line:column"
 [[nodiscard]] std::string place_of(const XmlElement& element, const std::string& file);

@@ -179,6 +179,15 @@ std::vector<std::pair<std::string, std::string>> attributes_of(std::string_view 
     return all;
 }
 
+/// Texts as structure_of_html() has them: '<' and '>' stand for tags alone.
+std::string as_text_between_tags(std::string_view text) {
+    std::string out;
+    for (const char c : without_references(text)) {
+        out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+    }
+    return out;
+}
+
 /// Elements that show what stands in them, and nothing else.
 bool is_plain_element(std::string_view name) {
     static constexpr std::array<std::string_view, 49> k_names = {
@@ -311,6 +320,8 @@ private:
     std::vector<std::string> known_;
     std::string found_;
     bool in_head_ = false;
+    std::string line_;              // what was read of it, since the last element that stands not within it
+    bool joins_digits_ = false;     // what comes next is raised, lowered, or behind such a part
     std::size_t unseen_depth_ = 0;  // of elements within the heads of printed pages, which a screen does not show
 
     void tell(const std::string& what) {
@@ -319,7 +330,31 @@ private:
         }
     }
 
+    static bool is_digit_of_html(char c) { return c >= '0' && c <= '9'; }
+
+    /// "5000<sup>0838</sup>" is read as 50000838 and shown as a power: only a power of ten is one number.
+    void look_at_raised(std::string_view name, bool closes) {
+        const bool is_behind_digit = !line_.empty() && is_digit_of_html(line_.back());
+        const bool is_power = name == "sup" && (line_.ends_with("\u00D710") || line_.ends_with("\u00B710") ||
+                                                line_.ends_with("\u22C510"));
+        const bool is_behind_sign = line_.ends_with("\u2212") || line_.ends_with('-') || line_.ends_with('+');
+        joins_digits_ = closes ? is_behind_digit || is_behind_sign : is_behind_digit && !is_power;
+    }
+
+    void take_line(std::string_view text) {
+        const std::string written = without_references(text);
+        if (joins_digits_ && !written.empty() && is_digit_of_html(written.front())) {
+            tell("has digits that are raised or lowered beside others");
+        }
+        joins_digits_ = joins_digits_ && written.empty();
+        constexpr std::size_t k_kept = 8;  // bytes
+        line_ += without_any_blanks(written);
+        line_ += !written.empty() && written.back() == ' ' && !line_.ends_with("\u00D7") ? " " : "";
+        line_.erase(0, line_.size() > k_kept ? line_.size() - k_kept : 0U);
+    }
+
     void look_at_text(std::string_view text) {
+        take_line(text);
         if (const std::string reference = unknown_reference(text); !reference.empty()) {
             tell("refers to a character as \"" + reference + '"');
         }
@@ -348,6 +383,12 @@ private:
         const bool is_doctype = small_.compare(tag, 9, "<!doctype") == 0;
         const std::string name = is_doctype ? "!doctype" : name_of_tag(whole);
         const bool closes = whole.starts_with("</");
+        if (name == "sup" || name == "sub") {
+            look_at_raised(name, closes);
+        } else if (!is_within_a_line(name)) {
+            line_.clear();
+            joins_digits_ = false;
+        }
         if (!is_plain_element(name)) {
             tell("has an element \"" + (name.empty() ? std::string(whole.substr(0, 2)) : name) + '"');
             return end;
@@ -430,6 +471,37 @@ private:
 };
 
 }  // namespace
+
+std::string structure_of_html(std::string_view html) {
+    std::string structure;
+    for (std::size_t at = 0; at < html.size();) {
+        const std::size_t tag = std::min(html.find('<', at), html.size());
+        structure += as_text_between_tags(html.substr(at, tag - at));
+        if (tag == html.size()) {
+            break;
+        }
+        if (html.substr(tag).starts_with("<!--")) {
+            const std::size_t end = html.find("-->", tag);
+            at = end == std::string_view::npos ? html.size() : end + 3;
+            continue;
+        }
+        at = end_of_tag(html, tag);
+        const std::string_view whole = html.substr(tag, at - tag);
+        const std::string name = name_of_tag(whole);
+        const bool closes = whole.starts_with("</");
+        structure += closes ? "</" + name : '<' + (name.empty() ? as_text_between_tags(whole.substr(1)) : name);
+        if (!closes && !name.empty()) {
+            for (const auto& [attribute, value] : attributes_of(whole)) {
+                std::string written = as_text_between_tags(value);
+                std::replace_if(
+                    written.begin(), written.end(), [](char c) { return c == ' ' || c == '\n' || c == '\t'; }, '~');
+                structure += ' ' + attribute + "=\"" + written + '"';
+            }
+        }
+        structure += '>';
+    }
+    return structure;
+}
 
 std::string hidden_part_of_html(std::string_view html, std::string_view style) {
     return HiddenParts(html, style).first();

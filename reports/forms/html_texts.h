@@ -11,9 +11,14 @@ namespace gumcert::reports {
 /// on the page are left out. Of a page that hidden_part_of_html() finds nothing in.
 [[nodiscard]] std::string text_of_html(std::string_view html);
 
+/// What a page is made of, as one text: its tags with all attributes, and its texts, also those of head, style and drawings.
+/// Pages that have the same show the same. Left out: comments, blanks between words and tags, and how quotes and
+/// characters are written.
+[[nodiscard]] std::string structure_of_html(std::string_view html);
+
 /// The first thing in a page of HTML that may show a reader something else than text_of_html() has: attributes and style
 /// sheets that hide or cover, elements that do more than to show their contents, texts that only a style sheet shows,
-/// characters that are not seen. "" where nothing was found. Pictures are not looked at.
+/// raised and lowered digits that stand behind digits as if they were one number, characters that are not seen. "" where nothing was found. Pictures are not looked at.
 /// \param style  sheet of the templates, of which every block is known
 [[nodiscard]] std::string hidden_part_of_html(std::string_view html, std::string_view style);
 

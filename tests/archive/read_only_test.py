@@ -4,6 +4,8 @@
     read_only_test.py --driver archive_driver --program gumcert
 
 - in a folder that cannot be written both verifiers read an archive, and every action that reads does
+- who may write the folder and not the archive leaves nothing that its owner could not write
+- an archive with several names is read by each of them, and written by none
 - an action that reads, and the second verifier, leave no file beside an archive, and the archive with its bytes
 - entries that stand in the write-ahead log are read, and stay there
 - what cannot be read is exit code 5 for both, not an archive that is not sound
@@ -76,6 +78,23 @@ def main():
             expect(ended.returncode in (0, 1), f"{reader}: {ended.returncode} {ended.stderr}")
             expect("NOT SOUND" not in ended.stdout, f"{reader}: {ended.stdout}")
             expect(files_in(folder) == before, f"{reader} leaves {sorted(files_in(folder))}, or another archive")
+
+        folder.chmod(0o777)
+        archive.chmod(0o644)
+        for reader, ended in readers.all(archive, number, unprivileged=True):
+            expect(ended.returncode in (0, 1), f"{reader}, a folder of everybody: {ended.returncode} {ended.stderr}")
+            expect(files_in(folder) == before, f"{reader}, a folder of everybody: leaves {sorted(files_in(folder))}")
+
+        link = folder / "link.archive"
+        os.link(archive, link)
+        for reader, ended in readers.all(link, number):
+            expect(ended.returncode in (0, 1), f"{reader}, a link: {ended.returncode} {ended.stderr}")
+            expect(len(files_in(folder)) == 2, f"{reader}, a link: leaves {sorted(files_in(folder))}")
+        for one in (archive, link):
+            ended = readers.run([readers.program, "archive", "settings", "--store", one, "--by", "K", "--why", "w"], False)
+            expect(ended.returncode == 5 and "GC-ARCHIVE-0014" in ended.stderr, f"written by one of two names: {ended.returncode} {ended.stderr}")
+        link.unlink()
+        expect(files_in(folder) == before, "an archive with two names was written")
 
         folder.chmod(0o555)
         archive.chmod(0o444)

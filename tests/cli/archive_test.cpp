@@ -274,6 +274,12 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     EXPECT_TRUE(tells(edited("Example Customer", "Another Customer"), "[GC-ARCHIVE-0038]"));
     EXPECT_TRUE(
         tells(edited("reproduced only in full", "reproduced in part"), "and the page that the record gives says"));
+    // What its text does not tell: drawings, numbers of lists, titles, elements and attributes of other kinds.
+    for (const char* const more :
+         {"<svg viewBox=\"0 0 90 9\"><text>l = 50 001 234 nm, PASS</text></svg>", "<ol start=\"51\"></ol>",
+          "<p title=\"U = 1 nm, PASS\"></p>", "<p class=\"end\"></p>", "<b></b>"}) {
+        EXPECT_TRUE(tells(edited("<main>", "<main>" + std::string(more)), "[GC-ARCHIVE-0038]")) << more;
+    }
     // What was written together stays together.
     const fs::path manifest = folder() / ".gumcert-set.json";
     const json set{{"name", "later.html"}, {"sha256", std::string(64, 'a')}};
@@ -532,6 +538,103 @@ TEST_F(ArchiveOfALaboratory, WritesOverNothingThatItReads) {
         }
     }
     EXPECT_EQ(archive({"backup", "-o", path("lab.archive-journal")}, "K. Keeper").code, 5);
+    for (const std::string ending : {"-wal", "-shm", "-journal"}) {
+        for (const std::string place : {"", "./", "x/../"}) {
+            for (const std::string action : {"backup", "head"}) {
+                std::vector<std::string> words{"archive",     action, "--store",
+                                               "lab.archive", "-o",   place + "lab.archive" + ending};
+                if (action == "backup") {
+                    words.insert(words.end(), {"--by", "K. Keeper"});
+                }
+                const auto before = state();
+                const Ended ended = gumcert(words, {.working_folder = folder()});
+                EXPECT_EQ(ended.code, 5) << action << " -o " << place << ending;
+                EXPECT_TRUE(tells(ended, "GC-STORE-0004")) << ended.err;
+                EXPECT_EQ(state(), before) << action << " -o " << place << ending;
+            }
+        }
+    }
+}
+
+/// SQLite would take what stands there for a part of the new archive.
+TEST_F(ArchiveOfALaboratory, BeginsNoneWhereAPartOfOneSeemsToBe) {
+    write_bytes(path("lab.archive-wal"), "of somebody");
+    const Ended ended = archive({"init"}, "K. Keeper");
+    EXPECT_EQ(ended.code, 5);
+    EXPECT_TRUE(tells(ended, "GC-ARCHIVE-0002")) << ended.err;
+    EXPECT_EQ(bytes_of(path("lab.archive-wal")), "of somebody");
+    EXPECT_FALSE(fs::exists(store()));
+}
+
+TEST_F(ArchiveOfALaboratory, SaysThatAFileIsEmpty) {
+    write_bytes(store(), "");
+    EXPECT_TRUE(tells(archive({"list"}), "is empty"));
+}
+
+TEST_F(ArchiveOfALaboratory, AnswersWithTheNumberAloneWhenQuiet) {
+    begin({"--numbering", "N-###"});
+    EXPECT_EQ(archive({"number", "-q"}, "K. Keeper").out, "N-001\n");
+    EXPECT_EQ(json::parse(archive({"number", "-q", "--format", "json"}, "K. Keeper").out)["certificate"], "N-002");
+}
+
+/// A day by hand is compared with the clock, always; days of a search are in their order.
+TEST_F(ArchiveOfALaboratory, LooksAtDaysThatAreGiven) {
+    begin({"--numbering", "N-###"});
+    for (const char* const day : {"xyz", "2026-02-30", "2020-01-01", "2026-2-3", "2991-01-01", " "}) {
+        const Ended ended = archive({"number", "--today", day}, "K. Keeper");
+        EXPECT_EQ(ended.code, 2) << day;
+        EXPECT_TRUE(tells(ended, "GC-USAGE-0001")) << ended.err;
+    }
+    const Ended ended = archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2025-01-01"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(tells(ended, "is before --since")) << ended.err;
+    EXPECT_EQ(archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2026-01-01"}).code, 0);
+}
+
+/// An address stands in a message where a file was wanted; its password does not.
+TEST_F(ArchiveOfALaboratory, NeverShowsAPassword) {
+    begin();
+    const std::string address = "postgresql://u:S3cret@h/db";
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"archive", "verify", address},
+                                                  {"archive", "add", address, "--store", store(), "--by", "K. Keeper"},
+                                                  {"archive", "show", address, "--store", store()},
+                                                  {"archive", "export", address, "--store", store()},
+                                                  {"archive", "verify", "--store", store(), "--head", address},
+                                                  {"check", address},
+                                                  {"run", address, "--json-messages"}}) {
+        std::vector<std::string> logged = words;
+        logged.insert(logged.end(), {"--refusal-log", path("refusals.jsonl")});
+        const Ended ended = gumcert(logged);
+        EXPECT_NE(ended.code, 0) << words[1];
+        EXPECT_FALSE(tells(ended, "S3cret")) << ended.err;
+    }
+    EXPECT_EQ(bytes_of(path("refusals.jsonl")).find("S3cret"), std::string::npos);
+    EXPECT_EQ(verified_elsewhere({address}).err.find("S3cret"), std::string::npos);
+}
+
+TEST_F(ArchiveOfALaboratory, ExportsNothingOfANumberAlone) {
+    begin({"--numbering", "N-###"});
+    ASSERT_EQ(archive({"number"}, "K. Keeper").code, 0);
+    const Ended ended = archive({"export", "N-001", "-o", path("evidence.json")});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_TRUE(tells(ended, "has no record")) << ended.err;
+    EXPECT_FALSE(fs::exists(path("evidence.json")));
+}
+
+TEST_F(ArchiveOfALaboratory, SecondVerifierReadsFilesAlone) {
+    ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    const Ended ended = verified_elsewhere({path("pipe")});
+    EXPECT_EQ(ended.code, 5) << ended.out << ended.err;
+}
+
+TEST_F(ArchiveOfALaboratory, AFolderThatIsMissingIsNoDefect) {
+    begin();
+    const std::string nowhere = path("nofolder") + "/b.archive";
+    for (const Ended& ended : {archive({"backup", "-o", nowhere}, "K. Keeper"), archive({"migrate", "--to", nowhere}),
+                               gumcert({"archive", "init", "--store", nowhere, "--by", "K. Keeper"})}) {
+        EXPECT_EQ(ended.code, 5) << ended.err;
+        EXPECT_TRUE(tells(ended, "GC-STORE-0002")) << ended.err;
+    }
 }
 
 /// "N/1" and "N_1" have one name of a file: evidence of the one does not take the place of that of the other.

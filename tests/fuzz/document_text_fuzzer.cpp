@@ -23,5 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         written += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&#62;" : std::string(1, c);
     }
     fuzz::demand(reports::text_of_html(written) == bytes, "words that are read as others");
+    (void)reports::structure_of_html(bytes);
+    fuzz::demand(reports::structure_of_html(written).find('<') == std::string::npos, "words that are read as elements");
     return 0;
 }

@@ -157,6 +157,27 @@ TEST_F(OutputFilesTest, NoSpellingMakesAnOutputOfAnInput) {
     EXPECT_EQ(code_of([&] { write_files({{folder_ / "jobs/record.json", "x"}}, inputs); }), "");
 }
 
+/// The next who opens the archive would take it for a part of it, and remove it.
+TEST_F(OutputFilesTest, NoSpellingPutsAnOutputBesideAnArchive) {
+    put("lab.archive", std::string("SQLite format 3\0", 16) + "and more");
+    put("text", "no archive");
+    fs::create_symlink(folder_, folder_ / "link");
+    const fs::path was_at = fs::current_path();
+    fs::current_path(folder_);
+    for (const char* const ending : {"-wal", "-shm", "-journal"}) {
+        for (const fs::path& place : {fs::path(), fs::path("."), folder_, folder_ / "link", fs::path("link/.")}) {
+            EXPECT_TRUE(is_beside_an_archive(place / ("lab.archive" + std::string(ending)))) << place << ending;
+            EXPECT_EQ(code_of([&] { require_writable(place / ("lab.archive" + std::string(ending))); }),
+                      "GC-STORE-0004")
+                << place << ending;
+            EXPECT_FALSE(is_beside_an_archive(place / ("text" + std::string(ending))));
+            EXPECT_FALSE(is_beside_an_archive(place / ("other.archive" + std::string(ending))));
+        }
+    }
+    EXPECT_EQ(code_of([] { require_writable("lab.archive-head.json"); }), "");
+    fs::current_path(was_at);
+}
+
 TEST_F(OutputFilesTest, RefusesTwoOutputsInOnePlace) {
     EXPECT_NE(code_of([&] { write_files({{folder_ / "a", "1"}, {folder_ / "new/../a", "2"}}); }), "");
     EXPECT_FALSE(fs::exists(folder_ / "a"));

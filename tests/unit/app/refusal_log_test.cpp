@@ -29,6 +29,15 @@ protected:
         (std::string("gumcert-") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".jsonl");
 };
 
+TEST_F(RefusalLog, IsNoFileBesideAnArchive) {
+    std::ofstream(log_, std::ios::binary) << std::string("SQLite format 3\0", 16);
+    for (const char* const ending : {"-wal", "-shm", "-journal"}) {
+        const fs::path beside = log_.string() + ending;
+        EXPECT_NE(append_refusal(beside, {"2026-11-27T20:00:00Z", "run", "GC-INPUT-0023", "job.json"}), "");
+        EXPECT_FALSE(fs::exists(beside));
+    }
+}
+
 TEST_F(RefusalLog, ALineIsAnObjectForItsUserOnly) {
     EXPECT_EQ(append_refusal(log_, {"2026-11-27T20:00:00Z", "run", "GC-INPUT-0023", "job.json#/a\n\xff"}), "");
     const nlohmann::json line = nlohmann::json::parse(text());

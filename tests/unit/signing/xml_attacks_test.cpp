@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,40 @@ TEST_F(XmlAttack, AnotherRootStandsWithinTheSignature) {
     EXPECT_EQ(error_of(in_signature("<ds:Object>U = 99</ds:Object>")), "GC-SIGN-0120");
 }
 
+// Law: at no place within a signature text, an attribute, an element, a comment or a processing instruction can be added.
+TEST_F(XmlAttack, NothingCanBeAddedWithinTheSignature) {
+    const std::size_t from = good_.find("<ds:Signature ");
+    const std::size_t end = good_.find("</ds:Signature>");
+    ASSERT_NE(from, std::string::npos);
+    int added = 0;
+    const auto is_refused = [&](std::size_t at, const std::string& more) {
+        ++added;
+        EXPECT_NE(error_of(Bytes(good_).insert(at, more)), "valid")
+            << more << " behind " << good_.substr(at - std::min<std::size_t>(at, 60), 60);
+    };
+    for (std::size_t at = good_.find('>', from); at != std::string::npos && at < end; at = good_.find('>', at + 1)) {
+        for (const char* const more :
+             {"U = 1 nm, PASS", "<!-- U = 1 nm -->", "<?xml-stylesheet type=\"text/css\" href=\"x\"?>",
+              "<![CDATA[U = 1 nm]]>", "<ds:MgmtData>U = 1 nm</ds:MgmtData>", "<ds:KeyName>U = 1 nm</ds:KeyName>",
+              "<ds:X509SubjectName>U = 1 nm</ds:X509SubjectName>", "<p xmlns=\"http://www.w3.org/1999/xhtml\">U</p>"}) {
+            is_refused(at + 1, more);
+        }
+        if (good_[at - 1] != '/' && good_.rfind("</", at) < good_.rfind('<', at)) {
+            is_refused(at, " note=\"U = 1 nm\"");
+            is_refused(at, " xml:lang=\"U = 1 nm\"");
+        }
+    }
+    EXPECT_GT(added, 100);
+    EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo Id=\"U = 1 nm\">")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo Id=\"key-1\">")), "valid");
+    EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo>U = 1 nm")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(replaced(good_, "</xades:QualifyingProperties>",
+                                "<xades:UnsignedProperties><xades:UnsignedSignatureProperties><xades:CounterSignature>"
+                                "U = 1 nm</xades:CounterSignature></xades:UnsignedSignatureProperties>"
+                                "</xades:UnsignedProperties></xades:QualifyingProperties>")),
+              "GC-SIGN-0120");
+}
+
 TEST_F(XmlAttack, UnsignedPropertiesOfXadesAreSaidNotToBeCovered) {
     const Bytes stamped = replaced(good_, "</xades:QualifyingProperties>",
                                    "<xades:UnsignedProperties><xades:UnsignedSignatureProperties>"
@@ -112,7 +147,8 @@ TEST_F(XmlAttack, UnsignedPropertiesOfXadesAreSaidNotToBeCovered) {
                                    "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>"
                                    "</xades:QualifyingProperties>");
     EXPECT_EQ(error_of(stamped), "valid");
-    EXPECT_THAT(verify(stamped).signatures.at(0).not_covered, Contains(HasSubstr("unsigned properties")));
+    EXPECT_THAT(verify(stamped).signatures.at(0).not_covered,
+                Contains(HasSubstr("unsigned properties within the signature: xades:SignatureTimeStamp")));
     EXPECT_THAT(verify(good_).signatures.at(0).not_covered, testing::IsEmpty());
 }
 

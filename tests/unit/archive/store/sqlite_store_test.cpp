@@ -118,6 +118,94 @@ TEST(SqliteStore, IsReadWhereNothingCanBeWritten) {
     std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
 }
 
+std::size_t files_beside(const std::filesystem::path& file) {
+    const std::filesystem::directory_iterator files(file.parent_path());
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+/// Writers by two names of one file have two logs: two requests would get one number.
+TEST(SqliteStore, IsNotWrittenByOneOfSeveralNames) {
+    const StoreFolder folder;
+    const LogEntry first = next_entry();
+    (void)create_sqlite_store(folder.file(), first);
+    const auto early = open_sqlite_store(folder.file(), Access::read_and_write);
+    std::filesystem::create_hard_link(folder.file(), folder.file("b.archive"));
+    for (const char* const name : {"a.archive", "b.archive"}) {
+        const std::filesystem::path file = folder.file(name);
+        EXPECT_EQ(code_of([&] { (void)open_sqlite_store(file, Access::read_and_write); }), "GC-ARCHIVE-0014") << name;
+        EXPECT_EQ(open_sqlite_store(file, Access::read_only)->last_entry(), first) << name;
+    }
+    // One that was opened before the other name was there.
+    EXPECT_EQ(code_of([&] { early->write([&] { early->append(next_entry(&first)); }); }), "GC-ARCHIVE-0014");
+    EXPECT_EQ(early->last_entry(), first);
+    std::filesystem::remove(folder.file("b.archive"));
+    early->write([&] { early->append(next_entry(&first)); });
+}
+
+TEST(SqliteStore, IsNotWrittenWhereItsNameLeadsElsewhereMeanwhile) {
+    const StoreFolder folder;
+    const LogEntry first = next_entry();
+    (void)create_sqlite_store(folder.file(), first);
+    const auto store = open_sqlite_store(folder.file(), Access::read_and_write);
+    std::filesystem::rename(folder.file(), folder.file("moved"));
+    EXPECT_EQ(code_of([&] { store->write([&] { store->append(next_entry(&first)); }); }), "GC-ARCHIVE-0014");
+    (void)create_sqlite_store(folder.file("new"), next_entry());
+    std::filesystem::rename(folder.file("new"), folder.file());
+    EXPECT_EQ(code_of([&] { store->write([&] { store->append(next_entry(&first)); }); }), "GC-ARCHIVE-0014");
+}
+
+/// Whatever the rights and the names: who may only read leaves nothing that would stop the owner.
+TEST(SqliteStore, ReadersOfEveryKindLeaveTheOwnerToWrite) {
+    if (geteuid() != 0) {
+        GTEST_SKIP() << "only root can be another user";
+    }
+    using Rights = std::filesystem::perms;
+    for (const Rights of_file : {Rights(0644), Rights(0666), Rights(0444)}) {
+        for (const Rights of_folder : {Rights(0755), Rights(0777), Rights(0555)}) {
+            for (const bool has_link : {false, true}) {
+                const StoreFolder folder;
+                const LogEntry first = next_entry();
+                (void)create_sqlite_store(folder.file(), first);
+                if (has_link) {
+                    std::filesystem::create_hard_link(folder.file(), folder.file("b.archive"));
+                }
+                std::filesystem::permissions(folder.file(), of_file);
+                std::filesystem::permissions(folder.file().parent_path(), of_folder);
+                const std::size_t before = files_beside(folder.file());
+                EXPECT_TRUE(is_done_without_rights([&] {
+                    const auto store = open_sqlite_store(folder.file(), Access::read_only);
+                    std::optional<LogEntry> read;
+                    store->read([&] { read = store->last_entry(); });
+                    return read == first;
+                }));
+                EXPECT_EQ(files_beside(folder.file()), before)
+                    << std::oct << static_cast<unsigned>(of_file) << " in " << static_cast<unsigned>(of_folder);
+                if (!has_link) {
+                    EXPECT_EQ(code_of([&] { (void)open_sqlite_store(folder.file(), Access::read_and_write); }), "");
+                }
+            }
+        }
+    }
+}
+
+TEST(SqliteStore, NamesTheFileThatBarsWriting) {
+    const StoreFolder folder;
+    (void)create_sqlite_store(folder.file(), next_entry());
+    std::filesystem::permissions(folder.file(), std::filesystem::perms(0666));
+    std::filesystem::permissions(folder.file().parent_path(), std::filesystem::perms(0777));
+    const std::string index = folder.file().string() + "-shm";
+    std::ofstream{index};
+    std::filesystem::permissions(index, std::filesystem::perms(0600));
+    EXPECT_TRUE(is_done_without_rights([&] {
+        try {
+            (void)open_sqlite_store(folder.file(), Access::read_and_write);
+        } catch (const gum::StorageError& error) {
+            return geteuid() == 0 || error.diagnostics().front().where == index;
+        }
+        return false;
+    }));
+}
+
 TEST(SqliteStore, LeavesNothingBehindWhenItWasRead) {
     const StoreFolder folder;
     (void)create_sqlite_store(folder.file(), next_entry());

@@ -46,7 +46,9 @@ TEST(TextsOfHtml, HideNothing) {
           "<img class=\"symbol\" style=\"max-width: 20rem; margin-left: 0\" src=\"data:image/png;base64,AA==\" "
           "alt=\"a\">",
           "<div class=\"page-head\"><div><span data-text=\"x\"></span></div></div><p>y</p>",
-          "<svg viewBox=\"0 0 1 1\"><g><text>1</text></g></svg>", "<!-- remark -->x", "a &lt; b & c", ""}) {
+          "<svg viewBox=\"0 0 1 1\"><g><text>1</text></g></svg>", "<!-- remark -->x", "a &lt; b & c",
+          "4.9 \u00D7 10<sup>\u22123</sup>", "4.9\u00B710<sup>3</sup>", "m<sup>2</sup>", "<i>R</i><sub>0</sub> = 5",
+          "4.9 <sup>1</sup>", "<p>5</p><sup>2</sup>", ""}) {
         EXPECT_EQ(hidden_part_of_html(page, k_sheet), "") << page;
     }
 }
@@ -93,8 +95,35 @@ TEST(TextsOfHtml, TellWhatMayBeHidden) {
                                    "\u202E9.4",
                                    "\xFF",
                                    "<meta http-equiv=\"refresh\" content=\"0; url=x\">",
+                                   "5000<sup>0838</sup>",
+                                   "5000<sub>0838</sub>",
+                                   "5000<b></b><sup><i>0838</i></sup>",
+                                   "10<sup>0838</sup>",
+                                   "<sup>\u2212</sup>4.9",
+                                   "<sub>5</sub>4.9",
                                    "<ol><s>4.9</s></ol>"}) {
         EXPECT_NE(hidden_part_of_html(page, k_sheet), "") << page;
+    }
+}
+
+TEST(StructureOfHtml, IsTheSameForPagesThatAreWrittenOtherwise) {
+    for (const auto& [one, other] : {std::pair<std::string, std::string>{"<P Class='a'>x</P>", "<p class=\"a\">x</p>"},
+                                     {"<p>&#120;<!-- remark --></p>", "<p>x</p>"},
+                                     {"<p >x</p >", "<p>x</p>"}}) {
+        EXPECT_EQ(without_blanks(structure_of_html(one)), without_blanks(structure_of_html(other))) << one;
+    }
+}
+
+TEST(StructureOfHtml, IsAnotherForWhateverIsShownOtherwise) {
+    for (const auto& [one, other] : {std::pair<std::string, std::string>{"<svg><text>9</text></svg>", "<svg></svg>"},
+                                     {"<ol><li>x</li></ol>", "<ol start=51><li>x</li></ol>"},
+                                     {"<p>x</p>", "<p title=\"PASS\">x</p>"},
+                                     {"<img alt=\"a\">", "<img alt=\"b\">"},
+                                     {"<img src=\"a\">", "<img src=\"b\">"},
+                                     {"<p>50</p>", "<p>5<sup>0</sup></p>"},
+                                     {"<p>&lt;b&gt;x</p>", "<p><b>x</p>"},
+                                     {"<title>a</title>", "<title>b</title>"}}) {
+        EXPECT_NE(without_blanks(structure_of_html(one)), without_blanks(structure_of_html(other))) << other;
     }
 }
 

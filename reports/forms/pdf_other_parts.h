@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace gumcert::reports {
+
+/// What a PDF has beside the contents of its pages.
+struct PdfOtherParts {
+    std::string refused;  ///< the first thing by which it may show something else than they say; "" without one
+    std::size_t attached_files = 0;    ///< by name
+    bool has_drawn_signature = false;  ///< a signature has a picture, which may lie over contents
+};
+
+/// Annotations other than links, actions, fields other than those of signatures, layers, and files that are attached to a place.
+/// \throws std::exception of the reader if the file is no PDF, or damaged
+[[nodiscard]] PdfOtherParts other_parts_of_pdf(std::string_view pdf);
+
+}  // namespace gumcert::reports
