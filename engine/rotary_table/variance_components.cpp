@@ -75,17 +75,16 @@ void whitened_roots(const JointAdjustment& adjustment, const NormalEquations& no
     }
     // The derivatives by the pose are in the equations already, but where it is held (at home).
     const Eigen::Index column = normal.column(block, 0);
+    Eigen::MatrixXd pose;
     if (column >= 0) {
         const auto at = std::ranges::find(group.columns, column) - group.columns.begin();
-        for (std::size_t c = 0; c < 6; ++c) {
-            roots.col(to[c]) = group.jacobian.col(at + static_cast<std::ptrdiff_t>(c));
-        }
+        pose.noalias() = group.jacobian.middleCols<6>(at) * adjustment.pose_of_deviation();
     } else {
-        Eigen::MatrixXd pose = adjustment.pose_jacobian(visit);
+        pose = adjustment.repeatability_jacobian(visit);
         lower.solveInPlace(pose);
-        for (std::size_t c = 0; c < 6; ++c) {
-            roots.col(to[c]) = pose.col(static_cast<Eigen::Index>(c));
-        }
+    }
+    for (std::size_t c = 0; c < 6; ++c) {
+        roots.col(to[c]) = pose.col(static_cast<Eigen::Index>(c));
     }
     roots.middleCols<3>(n) *= std::sqrt(k_linear_scale);
     roots.rightCols<3>() *= std::sqrt(k_angular_scale);
