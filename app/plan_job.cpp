@@ -21,6 +21,7 @@ reports::StudyDocument plan_job(const jobs::RotaryTableJob& job, const std::stri
     gum::WorkerThreads workers(threads);
     report("expected uncertainties");
     const gum::plan::Expected now = gum::plan::expect(setting, setting.layout);
+    gum::plan::note_undetermined_repeatability(setting);
     report("budget by source");
     const gum::plan::SourceShares shares = gum::plan::source_shares(setting, now.motions);
     report("one thing changed at a time");

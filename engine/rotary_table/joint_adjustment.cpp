@@ -12,7 +12,7 @@ namespace gumcert::engine {
 // l = s |E(θ) R(θ) T_s p (1 + α ΔT) − q| − l0, with exact rotations: linearised rows would be off by 0.19 µm at set-up
 // errors of 193 µm and 109″, as much as the noise of the lengths (design note rotary-table.md, 1).
 // A group of observations is one visit of the table, because its distances share the pose that the table had:
-// V = diag(u²) + A Σ Aᵀ, A = ∂l/∂pose, Σ the repeatability of the table (ADR 0008).
+// V = diag(u²) + A Σ Aᵀ, A = ∂l/∂deviation, Σ the repeatability of the table (ADR 0008) at `repeatability_point`.
 // What is known beforehand (fixture, expansion, scale, temperature) is a pseudo-observation of its parameter. What is
 // stated as exact is held, for a variance of 0 has no weight. Distances do not tell E(θ) from a motion of the world and
 // from the set-up of the fixture: E(home) is held at zero, T_s at a preliminary value (ADR 0006).
@@ -155,6 +155,23 @@ Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std:
                          measurement.angles[angle] - measurement.angles[measurement.home]);
 }
 
+Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up) {
+    const int axial = axial_coordinate(measurement.axis);
+    Eigen::Vector3d point = measurement.fixture.colwise().mean().transpose();
+    point[axial] = measurement.table_repeatability.axial_position.value_or(point[axial]);
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    foot[axial] = (set_up * point)[axial];
+    return foot;
+}
+
+Eigen::Matrix<double, 6, 6> pose_by_deviation(const Eigen::Vector3d& point) {
+    Eigen::Matrix<double, 6, 6> result = Eigen::Matrix<double, 6, 6>::Identity();
+    for (int k = 0; k < 3; ++k) {
+        result.block<3, 1>(0, 3 + k) = point.cross(Eigen::Vector3d::Unit(k));
+    }
+    return result;
+}
+
 std::vector<Visit> visits_of(const RotaryTableMeasurement& measurement, const std::vector<bool>& active) {
     std::vector<Visit> visits;
     // By pass and angle: within a pass the table comes to each angle once, and what it is off by is in all distances of
@@ -179,6 +196,7 @@ JointAdjustment::JointAdjustment(const RotaryTableMeasurement& measurement, std:
     : measurement_(&measurement),
       active_(std::move(active)),
       set_up_(set_up),
+      pose_of_deviation_(pose_by_deviation(repeatability_point(measurement, set_up))),
       visits_(visits_of(measurement, active_)) {
     const std::size_t stations = measurement.stations.size();
     const std::size_t reflectors = measurement.reflectors.size();
@@ -319,6 +337,10 @@ Eigen::MatrixXd JointAdjustment::pose_jacobian(std::size_t visit) const {
     return adjustment_.jacobian(visit, pose_blocks_[visits_[visit].angle]).leftCols<6>();
 }
 
+Eigen::MatrixXd JointAdjustment::repeatability_jacobian(std::size_t visit) const {
+    return pose_jacobian(visit) * pose_of_deviation_;
+}
+
 Eigen::VectorXd JointAdjustment::stated_variance(std::size_t visit) const {
     const LengthUncertainty& u = measurement_->length_uncertainty;
     const std::vector<std::size_t>& observations = visits_[visit].observations;
@@ -348,7 +370,7 @@ Eigen::MatrixXd JointAdjustment::visit_covariance(std::size_t visit, const Stoch
     repeatability[3 + axial_coordinate(measurement_->axis)] = stochastic.variance_axial;
     if (repeatability.maxCoeff() > 0.0) {
         // Left out, it would make the stated uncertainties about three times too small (ADR 0008).
-        const Eigen::MatrixXd pose = pose_jacobian(visit);
+        const Eigen::MatrixXd pose = repeatability_jacobian(visit);
         covariance.noalias() += pose * repeatability.asDiagonal() * pose.transpose();
     }
     return covariance;

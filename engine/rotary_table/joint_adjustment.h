@@ -80,6 +80,11 @@ public:
     /// Derivatives of the lengths of a visit with respect to the pose that the table had (x, y, z, a, b, c), n×6, [1]
     /// and [m/rad].
     [[nodiscard]] Eigen::MatrixXd pose_jacobian(std::size_t visit) const;
+    /// The same with respect to what the table deviates by at a visit, n×6: translations of `repeatability_point` and
+    /// rotations about it, in the order of a pose.
+    [[nodiscard]] Eigen::MatrixXd repeatability_jacobian(std::size_t visit) const;
+    /// Pose by the deviation of the table, 6×6 (`pose_by_deviation`).
+    [[nodiscard]] const Eigen::Matrix<double, 6, 6>& pose_of_deviation() const { return pose_of_deviation_; }
     /// Stated variance of each length of a visit, n, [m²], without the factor.
     [[nodiscard]] Eigen::VectorXd stated_variance(std::size_t visit) const;
     /// Covariance of the lengths of a visit: length noise, resolution and the shared repeatability of the table, n×n,
@@ -103,6 +108,7 @@ private:
     const RotaryTableMeasurement* measurement_;
     std::vector<bool> active_;
     RigidMotion set_up_;
+    Eigen::Matrix<double, 6, 6> pose_of_deviation_;
     bool has_reversal_ = false, reversal_by_angle_ = false;
     std::vector<Visit> visits_;
     Adjustment adjustment_;
@@ -111,6 +117,15 @@ private:
     std::size_t fixture_prior_ = k_none, expansion_prior_ = k_none;
     std::vector<std::size_t> scale_priors_, temperature_priors_;
 };
+
+/// Where the repeatability of the table acts: the foot, on the rotary axis, of the centroid of the reflectors, or the point
+/// of the axis that is stated, in the frame of the table, [m]. A translation of "the table" is one of a point, and the same deviation seen from another point of
+/// the axis has other translations. The origin of the fixture coordinates is where a CMM happened to put it; the centroid
+/// moves with the reflectors (ADR 0071).
+[[nodiscard]] Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up);
+
+/// Pose (of the origin) by a deviation whose translations are those of a point, 6×6: d = d_c + ω × (0 − c).
+[[nodiscard]] Eigen::Matrix<double, 6, 6> pose_by_deviation(const Eigen::Vector3d& point);
 
 /// Visits of the active distances, in the order of their first distance.
 [[nodiscard]] std::vector<Visit> visits_of(const RotaryTableMeasurement& measurement, const std::vector<bool>& active);

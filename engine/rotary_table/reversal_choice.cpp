@@ -1,9 +1,11 @@
 #include "engine/rotary_table/reversal_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
@@ -133,24 +135,37 @@ Drifts drifts_of(const JointAdjustment& adjustment, const NormalEquations& norma
 /// of the table adds to it by the visits of each sense, and of the rest, which is noise of the lengths.
 double residual_degrees_of_freedom(const JointAdjustment& by_angle, const std::vector<VarianceComponent>& components,
                                    int motion, const VectorXd& own) {
-    const RotaryAxis axis = by_angle.measurement().axis;
-    const VarianceComponent& table = components[motion < 3                             ? table_linear
-                                                : motion == 3 + axial_coordinate(axis) ? table_axial
-                                                                                       : table_tilt];
+    const int axial = 3 + axial_coordinate(by_angle.measurement().axis);
     const VarianceComponent& noise = components[length_noise];
     MatrixXd visits = MatrixXd::Zero(own.size(), 2);
     for (const Visit& visit : by_angle.visits()) {
         visits(static_cast<Index>(visit.angle), visit.approach == Approach::positive ? 0 : 1) += 1.0;
     }
     // The reversal is the difference of the means of both senses: σ² (1/n₊ + 1/n₋) of the table.
-    const VectorXd of_table = table.value * table.value * visits.cwiseInverse().rowwise().sum();
-    const double share = std::min(1.0, of_table.cwiseQuotient(own).mean());
+    const double by_variance = visits.cwiseInverse().rowwise().sum().cwiseQuotient(own).mean();
+    // A translation of the origin across the axis holds the tilt of the table about the point that it acts at.
+    const Eigen::Matrix<double, 1, 6> by_deviation = by_angle.pose_of_deviation().row(motion).cwiseAbs2();
+    const std::array<std::pair<std::size_t, double>, 3> parts{
+        {{table_linear, by_deviation.head<3>().sum()},
+         {table_axial, by_deviation[axial]},
+         {table_tilt, by_deviation.tail<3>().sum() - by_deviation[axial]}}};
+    std::array<double, 3> shares{};
+    double share = 0.0;  // of the table
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const double value = components[parts[k].first].value;
+        shares[k] = parts[k].second * value * value * by_variance;
+        share += shares[k];
+    }
+    const double most = std::max(1.0, share);
     double inverse = 0.0;
-    if (table.estimated && table.value > 0.0) {
-        inverse += share * share / table.degrees_of_freedom;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const VarianceComponent& table = components[parts[k].first];
+        if (table.estimated && shares[k] > 0.0) {
+            inverse += std::pow(shares[k] / most, 2) / table.degrees_of_freedom;
+        }
     }
     if (noise.estimated) {
-        inverse += (1.0 - share) * (1.0 - share) / noise.degrees_of_freedom;
+        inverse += std::pow(1.0 - share / most, 2) / noise.degrees_of_freedom;
     }
     return inverse > 0.0 ? 1.0 / inverse : std::numeric_limits<double>::infinity();
 }

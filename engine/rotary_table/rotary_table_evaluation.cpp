@@ -27,8 +27,8 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-std::string micrometres(double length) {
-    return text::significant(length / gum::k_micrometre, 3) + " µm";
+std::string micrometres(double length, int digits = 3) {
+    return text::significant(length / gum::k_micrometre, digits) + " µm";
 }
 
 /// Probability that at least `least` of `all` distances are wrong when each is with probability `share`, independently.
@@ -220,6 +220,30 @@ bool has_whole_visits(const RotaryTableMeasurement& measurement, const std::vect
            }) >= static_cast<std::ptrdiff_t>(k_fewest);
 }
 
+std::string size_of(const VarianceComponent& component, double value) {
+    return component.angular ? text::significant(value / gum::k_arcsecond, 2) + "″" : micrometres(value, 2);
+}
+
+/// Nothing can be stated where the distances leave a table plausible that nobody has.
+void require_determined_components(const std::vector<VarianceComponent>& components) {
+    std::vector<gum::Diagnostic> problems;
+    for (const VarianceComponent& component : components) {
+        if (!component.determined) {
+            problems.push_back({"GC-VARIANCE-0008", "variance components, " + component.name,
+                                "the distances do not determine it: they leave up to " +
+                                    size_of(component, component.value) + " plausible",
+                                "an uncertainty is stated of components that are given, or that the distances bound",
+                                "state the repeatability of the table in table_repeatability with \"mode\": \"given\", "
+                                "or measure more "
+                                "stations, reflectors or passes",
+                                gum::Severity::error});
+        }
+    }
+    if (!problems.empty()) {
+        throw gum::NoResultError(std::move(problems));
+    }
+}
+
 /// Adjustment and weights that agree with each other.
 class Iteration {
 public:
@@ -277,10 +301,25 @@ public:
             settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
                    options.solver);
         }
+        take_plausible(stochastic);
         adjustment.set_weights(stochastic);
         solve(adjustment, options.solver);
         normal.emplace(adjustment.adjustment().linearise());
         covariance = normal->bordered_covariance();
+    }
+
+    /// What the residuals leave plausible of components that they hardly determine, instead of their estimates.
+    void take_plausible(StochasticModel& stochastic) {
+        take_plausible_components(step);
+        require_determined_components(step.components);
+        for (std::size_t k = table_linear; k <= table_tilt; ++k) {
+            if (step.components[k].residuals_give) {
+                double& to = k == table_linear  ? stochastic.variance_linear
+                             : k == table_axial ? stochastic.variance_axial
+                                                : stochastic.variance_tilt;
+                to = step.components[k].value * step.components[k].value;
+            }
+        }
     }
 
     void report(const std::string& text) const {
@@ -415,6 +454,7 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     solver.step_tolerance = std::max(solver.step_tolerance, k_step_of_a_check);
     iteration.settle(without, stochastic, options.max_component_iterations,
                      std::max(options.component_tolerance, k_component_of_a_check), solver);
+    iteration.take_plausible(stochastic);
     return stochastic;
 }
 
@@ -611,6 +651,27 @@ void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMea
                  "an angle that is stated wrongly at all stations is taken for an error motion of the table",
                  "see whether the angle is mistyped, and correct the lengths file", gum::Severity::warning});
         }
+    }
+}
+
+/// Components that enter with clearly more than the residuals give.
+void note_undetermined_components(RotaryTableSolution& solution) {
+    constexpr double k_clearly = 1.1;  // a standard deviation that is a tenth larger
+    for (const VarianceComponent& component : solution.components) {
+        if (!component.used || !component.residuals_give || component.value < k_clearly * *component.residuals_give) {
+            continue;
+        }
+        solution.notes.push_back(
+            {"GC-VARIANCE-0007", "variance components, " + component.name,
+             "the residuals give " + size_of(component, *component.residuals_give) +
+                 ", and hardly determine it: taken is " + size_of(component, component.value) + " with " +
+                 text::significant(component.degrees_of_freedom, 2) + " degrees of freedom",
+             "a variance below its own uncertainty is not known to be 0: it enters with the mean of what the residuals "
+             "leave plausible",
+             "state the repeatability of the table where it is known from earlier work (\"mode\": \"given\"), or "
+             "measure "
+             "more stations, reflectors or passes; either makes U smaller",
+             gum::Severity::warning});
     }
 }
 
@@ -953,6 +1014,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
              "the stated uncertainties rest on the last values",
              "give the repeatability of the table instead of estimating it", gum::Severity::warning});
     }
+    note_undetermined_components(solution);
     if (iteration.estimated().length && !iteration.step.length_separable) {
         solution.notes.push_back({"GC-VARIANCE-0002", "variance components",
                                   "one distance a visit of the table: the length noise is kept as stated",

@@ -51,6 +51,9 @@ struct TableRepeatability {
     double u_linear = 0.0;  ///< each of the three translations, [m]
     double u_axial = 0.0;   ///< rotation about the axis, [rad]
     double u_tilt = 0.0;    ///< rotation about each of the other two, [rad]
+    /// Coordinate along the axis, in the frame of the fixture, of the point that it acts at; none: that of the centroid of
+    /// the reflectors. [m]
+    std::optional<double> axial_position = {};
 };
 
 struct OutlierOptions {

@@ -151,7 +151,7 @@ RotaryTableModel::RotaryTableModel(RotaryTableMeasurement measurement, const Joi
     const auto visit_count = static_cast<Eigen::Index>(visits.size());
     Eigen::Index length_count = 0;
     for (std::size_t v = 0; v < visits.size(); ++v) {
-        visit_pose_.push_back(nominal_.pose_jacobian(v));
+        visit_pose_.push_back(nominal_.repeatability_jacobian(v));
         length_count += visit_pose_.back().rows();
     }
     gum::InputGroup lengths{"length noise", "length noise", "m", gum::Evaluation::type_b, "normal", {}, {}};

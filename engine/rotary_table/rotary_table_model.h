@@ -77,7 +77,7 @@ void require_evaluable_size(const RotaryTableMeasurement& measurement);
 /// every station, the dead paths, the CMM coordinates of the fixture, its temperature at every station, its expansion,
 /// and what the resolution of the display takes from every length (zero). Outputs: `ReportedQuantities`.
 ///
-/// The lengths are corrected for their inputs: l - A δ + r with the deviation δ of the visit (A = ∂l/∂pose) and the
+/// The lengths are corrected for their inputs: l - A δ + r with the deviation δ of the visit (A = ∂l/∂δ) and the
 /// part r that the display rounded away.
 ///
 /// The dead paths are inputs with the values and the covariance that the adjustment finds for them, and the estimator
@@ -102,7 +102,8 @@ public:
     /// `linearise()` of `solved()`, and the covariance of its parameters.
     [[nodiscard]] const NormalEquations& equations() const { return equations_; }
     [[nodiscard]] const BorderedCovariance& parameter_covariance() const { return parameter_covariance_; }
-    /// ∂length/∂pose of a visit at the nominal solution, n×6.
+    /// ∂length/∂deviation of the table at a visit, at the nominal solution, n×6
+    /// (JointAdjustment::repeatability_jacobian).
     [[nodiscard]] const Eigen::MatrixXd& visit_pose(std::size_t visit) const { return visit_pose_[visit]; }
     [[nodiscard]] const RotaryTableMeasurement& measurement() const { return measurement_; }
     [[nodiscard]] const StochasticModel& stochastic() const { return stochastic_; }
@@ -132,7 +133,7 @@ private:
     JointAdjustment nominal_;
     NormalEquations equations_;
     BorderedCovariance parameter_covariance_;
-    std::vector<Eigen::MatrixXd> visit_pose_;  ///< ∂length/∂pose of every visit at the nominal solution
+    std::vector<Eigen::MatrixXd> visit_pose_;  ///< ∂length/∂deviation of every visit, as `visit_pose`
     std::vector<gum::InputGroup> inputs_;
     RotaryTableInputs layout_;
     ReportedQuantities quantities_;

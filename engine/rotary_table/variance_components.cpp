@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "engine/fixed_parts.h"
@@ -23,6 +24,12 @@ constexpr std::size_t k_components = 5;
 // Scale of each component, so that the four columns of the Fisher matrix are comparable: (0.1 µm)² and (0.1″)².
 constexpr double k_linear_scale = 1e-14;
 constexpr double k_angular_scale = 2.350443e-13;
+// An estimated variance of the table that is less than this many of its standard uncertainties is not taken at its word:
+// above, what is plausible differs from it by less than 4e-5 of it.
+constexpr double k_determined = 4.0;
+// No table, but what an estimate comes to that the distances do not determine at all.
+constexpr double k_most_linear = 1e-4;   // [m]
+constexpr double k_most_angular = 1e-3;  // [rad]
 // A factor below these would leave nothing to weight by.
 constexpr double k_least_length_factor = 1e-6;
 constexpr double k_least_fixture_factor = 1e-4;
@@ -31,6 +38,22 @@ using Vector4 = Eigen::Matrix<double, 4, 1>;
 using Matrix4 = Eigen::Matrix<double, 4, 4>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
+
+/// What is plausible of a variance θ ≥ 0.
+struct PlausibleVariance {
+    double mean, spread;  ///< expectation, and the standard deviation about it
+};
+
+/// An estimate θ̂ ≥ 0 with the standard uncertainty u leaves of θ a normal distribution that is cut off at zero: with
+/// x = θ̂/u and λ = φ(x)/Φ(x) it has the mean u (x + λ) and the variance u² (1 − λ (x + λ)). For an estimate of 0 that is
+/// 0.80 u, with ν = 2 mean²/variance = 3.5, the fewest that there are (ADR 0071).
+PlausibleVariance plausible_variance(double estimate, double u) {
+    const double x = estimate / u;
+    const double density = std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
+    const double ratio = density / (0.5 * std::erfc(-x / std::numbers::sqrt2));
+    const double mean = x + ratio;
+    return {u * mean, u * std::sqrt(1.0 - ratio * mean)};
+}
 
 /// L⁻¹ B_k of the roots of the derivatives V_k = B_k B_kᵀ of the covariance L Lᵀ of a visit, in the scales of the
 /// components, side by side: n×(n + 6).
@@ -52,17 +75,16 @@ void whitened_roots(const JointAdjustment& adjustment, const NormalEquations& no
     }
     // The derivatives by the pose are in the equations already, but where it is held (at home).
     const Eigen::Index column = normal.column(block, 0);
+    Eigen::MatrixXd pose;
     if (column >= 0) {
         const auto at = std::ranges::find(group.columns, column) - group.columns.begin();
-        for (std::size_t c = 0; c < 6; ++c) {
-            roots.col(to[c]) = group.jacobian.col(at + static_cast<std::ptrdiff_t>(c));
-        }
+        pose.noalias() = group.jacobian.middleCols<6>(at) * adjustment.pose_of_deviation();
     } else {
-        Eigen::MatrixXd pose = adjustment.pose_jacobian(visit);
+        pose = adjustment.repeatability_jacobian(visit);
         lower.solveInPlace(pose);
-        for (std::size_t c = 0; c < 6; ++c) {
-            roots.col(to[c]) = pose.col(static_cast<Eigen::Index>(c));
-        }
+    }
+    for (std::size_t c = 0; c < 6; ++c) {
+        roots.col(to[c]) = pose.col(static_cast<Eigen::Index>(c));
     }
     roots.middleCols<3>(n) *= std::sqrt(k_linear_scale);
     roots.rightCols<3>() *= std::sqrt(k_angular_scale);
@@ -379,6 +401,21 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                  k_least_fixture_factor};
     const std::array<bool, k_components> wanted{estimated.length && any_shared_visit, estimated.table, estimated.table,
                                                 estimated.table, estimated.fixture};
+    step.expected_degrees_of_freedom.assign(k_components, std::numeric_limits<double>::infinity());
+    std::vector<Eigen::Index> asked;
+    for (std::size_t k = 0; k < k_components; ++k) {
+        if (wanted[k]) {
+            asked.push_back(static_cast<Eigen::Index>(k));
+        }
+    }
+    if (!asked.empty()) {
+        const auto n = static_cast<Eigen::Index>(asked.size());
+        const Eigen::MatrixXd all = Eigen::MatrixXd(fisher(asked, asked)).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const Eigen::Index at = asked[static_cast<std::size_t>(i)];
+            step.expected_degrees_of_freedom[static_cast<std::size_t>(at)] = theta[at] * theta[at] / all(i, i);
+        }
+    }
     // A component that stands at its bound and whose likelihood falls from there stays at it.
     std::array<bool, k_components> active = wanted;
     for (std::size_t k = 0; k < k_components; ++k) {
@@ -491,6 +528,32 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
     step.stochastic.variance_tilt = next[3] * k_angular_scale;
     step.stochastic.fixture_factor = next[4];
     return step;
+}
+
+void take_plausible_components(VarianceComponentStep& step) {
+    const std::array<double*, 3> variances{&step.stochastic.variance_linear, &step.stochastic.variance_axial,
+                                           &step.stochastic.variance_tilt};
+    for (std::size_t k = table_linear; k <= table_tilt; ++k) {
+        VarianceComponent& component = step.components[k];
+        if (!component.estimated || component.residuals_give) {
+            continue;
+        }
+        const double variance = component.value * component.value;
+        // Var(θ) = 2 θ²/ν; at zero, `u` is the root of the standard uncertainty of the variance.
+        const double u = std::isfinite(component.degrees_of_freedom)
+                             ? variance * std::sqrt(2.0 / component.degrees_of_freedom)
+                             : component.u * component.u;
+        if (!(variance < k_determined * u)) {
+            continue;
+        }
+        const PlausibleVariance plausible = plausible_variance(variance, u);
+        component.residuals_give = component.value;
+        component.value = std::sqrt(plausible.mean);
+        component.u = 0.5 * plausible.spread / component.value;
+        component.degrees_of_freedom = 2.0 * std::pow(plausible.mean / plausible.spread, 2);
+        component.determined = component.value < (component.angular ? k_most_angular : k_most_linear);
+        *variances[k - table_linear] = plausible.mean;
+    }
 }
 
 double fixture_redundancy(const JointAdjustment& adjustment, const NormalEquations& normal,

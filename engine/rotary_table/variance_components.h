@@ -24,8 +24,12 @@ struct VarianceComponent {
     double redundancy = 0.0;          ///< θ tr(R V): share of the redundancy of the adjustment
     bool estimated = false;
     std::optional<double> stated = {};  ///< what the job states, in the unit of `value`
-    bool used = true;       ///< in the weights; false: estimated only as a check of the stated value, which they use
-    bool separable = true;  ///< false: it was to be estimated, but too little of the redundancy depends on it
+    bool used = true;  ///< in the weights; false: estimated only as a check of the stated value, which they use
+    /// Where the residuals say too little of the component to be taken at their word: what they give. `value`, `u` and ν
+    /// are then those of what they leave plausible (`take_plausible_components`).
+    std::optional<double> residuals_give = {};
+    bool determined = true;  ///< false: what the residuals leave plausible is no table
+    bool separable = true;   ///< false: it was to be estimated, but too little of the redundancy depends on it
 };
 
 /// Which components are estimated from the residuals.
@@ -55,6 +59,9 @@ struct VarianceComponentStep {
     bool length_separable = true;               ///< false: one distance a visit, length noise kept as stated
     bool fixture_at_bound = false;              ///< true: the fixture's factor would fall below what is sensible
     std::vector<VarianceComponent> components;  ///< one a ComponentRow
+    /// θ²/(S⁻¹)_kk of what is estimated, at the weights taken: the degrees of freedom that its estimate will have if these
+    /// weights are true; infinite for what is held. One a ComponentRow.
+    std::vector<double> expected_degrees_of_freedom;
 };
 
 /// One step of restricted maximum likelihood (Fisher scoring; the same fixed point as the iterated estimates of Helmert
@@ -74,6 +81,13 @@ struct VarianceComponentStep {
                                                                  const BorderedCovariance& covariance,
                                                                  const StochasticModel& present,
                                                                  const EstimatedComponents& estimated);
+
+/// Components of the table that are less than four of their standard uncertainties (of variances), and above all those
+/// that are estimated as 0: they are not known to be so small. In their place comes the mean of what the estimate leaves
+/// plausible of a variance θ ≥ 0, with the degrees of freedom of that, 3.5 at least (ADR 0071). Others stay as they are.
+///
+/// \param step  at its fixed point; its weights and its components are changed
+void take_plausible_components(VarianceComponentStep& step);
 
 /// Redundancy of the coordinates of the fixture, Σ (Q_v V⁻¹)_ii.
 [[nodiscard]] double fixture_redundancy(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -214,6 +214,8 @@ struct VarianceComponent {
     Shown<std::optional<double>> stated = {};       ///< what the job states, in `unit`; for the fixture 1 (a factor)
     std::optional<double> degrees_of_freedom = {};  ///< of the estimate; none where it is given
     bool used = true;  ///< in the weights; false: estimated as a check of the stated value only
+    /// What the residuals give, in `unit`, where they hardly determine it: `value` is then what they leave plausible.
+    std::optional<double> residuals_give = {};
 };
 
 struct ReliabilityRow {

@@ -462,6 +462,7 @@ void describe(Archive& a, Struct& r) {
     a.added("degrees_of_freedom", r.degrees_of_freedom, NumberRule::not_negative);
     a.added("used", r.used);
     a.added("printed_stated", r.stated.text);
+    a.added("residuals_give", r.residuals_give, NumberRule::not_negative);
 }
 
 template <class Archive, certificate::Described<ReliabilityRow> Struct>

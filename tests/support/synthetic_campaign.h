@@ -89,10 +89,11 @@ struct CampaignPlan {
     double temperature_difference = 0.0, u_temperature = 0.0;        ///< of the fixture; rises by 0.1 K a station, [K]
     double expansion = 0.0, u_expansion = 0.0;                       ///< [1/K]
     double table_linear = 0.0, table_axial = 0.0, table_tilt = 0.0;  ///< true repeatability, [m], [rad], [rad]
-    double missing_share = 0.0;                                      ///< share of the distances that were lost
-    std::size_t outliers = 0;                                        ///< number of distances that are wrong
-    double outlier_size = 3.0 * k_um;                                ///< by this much, in either sense
-    double noise = 1.0;                                              ///< factor on everything random; 0: exact data
+    double repeatability_off = 0.0;    ///< acts this far along the axis from the reflectors' centroid, [m]
+    double missing_share = 0.0;        ///< share of the distances that were lost
+    std::size_t outliers = 0;          ///< number of distances that are wrong
+    double outlier_size = 3.0 * k_um;  ///< by this much, in either sense
+    double noise = 1.0;                ///< factor on everything random; 0: exact data
     std::uint64_t seed = 1;
 };
 
@@ -289,6 +290,9 @@ inline Campaign simulate(const CampaignPlan& plan) {
     measurement.table_repeatability = {RepeatabilityMode::given, plan.table_linear, plan.table_axial, plan.table_tilt};
     measurement.estimate_length_noise = false;
     measurement.outliers.test = OutlierTest::none;
+    // The table deviates about the foot of the centroid of the reflectors on the axis.
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    foot[a] = truth.fixture.col(a).mean() + plan.repeatability_off;
     Vector6 spread;
     spread << Eigen::Vector3d::Constant(plan.table_linear), Eigen::Vector3d::Constant(plan.table_tilt);
     spread[3 + a] = plan.table_axial;
@@ -308,9 +312,12 @@ inline Campaign simulate(const CampaignPlan& plan) {
                 }
                 const Eigen::Index i = down ? angles - 1 - step % angles : step % angles;
                 Vector6 pose = truth.errors.col(i) + (down ? -0.5 : 0.5) * truth.reversals.col(i);
+                Vector6 deviation;
                 for (int c = 0; c < 6; ++c) {
-                    pose[c] += plan.noise * spread[c] * noise.normal();
+                    deviation[c] = plan.noise * spread[c] * noise.normal();
                 }
+                pose += deviation;
+                pose.head<3>() -= deviation.tail<3>().cross(foot);
                 for (Eigen::Index m = 0; m < reflectors; ++m) {
                     if (plan.one_reflector_a_pass && static_cast<std::size_t>(m) != group) {
                         continue;

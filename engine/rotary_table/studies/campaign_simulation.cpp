@@ -15,6 +15,7 @@ Eigen::VectorXd distances(const RotaryTableMeasurement& layout, const CampaignTr
                           const Eigen::MatrixXd& table) {
     Eigen::VectorXd result(static_cast<Eigen::Index>(layout.lengths.size()));
     const RigidMotion set_up = rigid_motion(truth.set_up);
+    const Eigen::Matrix<double, 6, 6> of_deviation = pose_by_deviation(repeatability_point(layout, set_up));
     const std::vector<Visit> visits = visits_of(layout, std::vector<bool>(layout.lengths.size(), true));
     for (std::size_t v = 0; v < visits.size(); ++v) {
         const Visit& visit = visits[v];
@@ -22,7 +23,7 @@ Eigen::VectorXd distances(const RotaryTableMeasurement& layout, const CampaignTr
         const double sense = visit.approach == Approach::positive ? 0.5 : -0.5;
         Vector6 pose = truth.errors.col(static_cast<Eigen::Index>(visit.angle)) + sense * truth.reversal;
         if (table.size() > 0) {
-            pose += table.col(static_cast<Eigen::Index>(v));
+            pose += of_deviation * table.col(static_cast<Eigen::Index>(v));
         }
         const RigidMotion turn{nominal_rotation(layout, visit.angle), Eigen::Vector3d::Zero()};
         const RigidMotion table_from_fixture = rigid_motion(pose) * turn * set_up;

@@ -31,8 +31,8 @@ struct PlantedOutlier {
 
 /// What differs from visit to visit and from length to length. Whoever simulates draws it; nothing here is random.
 struct CampaignNoise {
-    /// 6×visits: deviation of the table from its mean pose at each visit, in the order of `visits_of` with all lengths
-    /// active, [m] and [rad]; empty: none.
+    /// 6×visits: deviation of the table from its mean pose at each visit, about `repeatability_point`, in the order of
+    /// `visits_of` with all lengths active, [m] and [rad]; empty: none.
     Eigen::MatrixXd table;
     Eigen::VectorXd lengths;  ///< per length, [m]; empty: none
     std::vector<PlantedOutlier> outliers;

@@ -171,7 +171,7 @@ void TrialNetwork::take_visits(const JointAdjustment& solved, const NormalEquati
         weights.insert(weights.end(), weight.data(), weight.data() + weight.size());  // symmetric
         // A visit without repeatability of the table has independent distances.
         plan.is_diagonal = weight.isDiagonal(0.0);
-        const Eigen::MatrixXd by_pose = solved.pose_jacobian(v);
+        const Eigen::MatrixXd by_pose = solved.repeatability_jacobian(v);
         for (Index k = 0; k < plan.count; ++k) {
             for (const int component : order) {
                 // A table that deviates shows lengths that are longer by this much; taken off, they are those of the

@@ -248,6 +248,36 @@ Setting setting_of(RotaryTableRequest request, const PlanRequest& plan, const Pr
     return setting;
 }
 
+void note_undetermined_repeatability(Setting& setting) {
+    // An estimate with fewer is less than about two of its standard uncertainties: what is plausible beside it counts.
+    constexpr double k_hardly_determined = 8.0;
+    const RotaryTableMeasurement& layout = setting.layout;
+    if (layout.table_repeatability.mode != engine::RepeatabilityMode::estimate) {
+        return;
+    }
+    const engine::JointAdjustment adjustment = engine::planned_adjustment(layout, setting.stochastic);
+    const engine::NormalEquations normal = adjustment.adjustment().linearise();
+    const engine::VarianceComponentStep step = engine::estimate_variance_components(
+        adjustment, normal, normal.bordered_covariance(), setting.stochastic,
+        {layout.estimate_length_noise, true, layout.fixture_component == engine::FixtureComponent::estimate});
+    std::string names;
+    for (const std::size_t k : {engine::table_linear, engine::table_axial, engine::table_tilt}) {
+        const double nu = step.expected_degrees_of_freedom[k];
+        if (nu < k_hardly_determined) {
+            names += (names.empty() ? "" : ", ") + step.components[k].name + " (" + round_significant(nu, 2) + ")";
+        }
+    }
+    if (!names.empty()) {
+        setting.notes.push_back(
+            "The distances will hardly determine these components of the repeatability, by their expected degrees of "
+            "freedom: " +
+            names +
+            ". The evaluation then takes what they leave plausible, and its U may be several times that of this plan. "
+            "State the repeatability where it is known (\"mode\": \"given\"), or plan more stations, reflectors or "
+            "passes.");
+    }
+}
+
 Expected expect(const Setting& setting, const RotaryTableMeasurement& layout) {
     Expected expected;
     expected.uncertainty = engine::expected_uncertainty(layout, setting.stochastic, evaluation_options(setting.layout));

@@ -56,6 +56,11 @@ struct Motion {
 /// Example: examples/api/rotary_table.cpp
 [[nodiscard]] Setting setting_of(RotaryTableRequest request, const PlanRequest& plan, const Progress& progress);
 
+/// Says in the notes which components of the repeatability an evaluation of this layout will hardly determine, where it
+/// estimates them: its U is then larger than that of the plan.
+/// \param setting  of a layout that determines its parameters
+void note_undetermined_repeatability(Setting& setting);
+
 struct Expected {
     engine::ExpectedUncertainty uncertainty;
     std::array<Motion, 6> motions;

@@ -50,7 +50,7 @@ RotaryTableMeasurement with_findings(const RotaryTableMeasurement& measurement,
     const bool perfect = found.variance_linear <= 0.0 && found.variance_axial <= 0.0 && found.variance_tilt <= 0.0;
     result.table_repeatability = {perfect ? engine::RepeatabilityMode::none : engine::RepeatabilityMode::given,
                                   std::sqrt(found.variance_linear), std::sqrt(found.variance_axial),
-                                  std::sqrt(found.variance_tilt)};
+                                  std::sqrt(found.variance_tilt), result.table_repeatability.axial_position};
     result.outliers.test = engine::OutlierTest::none;
     result.method = AdjustmentMethod::sequential;
     result.datum = Datum::home;

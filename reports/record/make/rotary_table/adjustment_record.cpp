@@ -177,6 +177,9 @@ void fill_components(reports::RotaryTable& rotary, const RotaryTableSolution& so
         if (from.estimated) {
             component.degrees_of_freedom = finite_or_none(from.degrees_of_freedom);
         }
+        if (from.residuals_give) {
+            component.residuals_give = *from.residuals_give / unit.si;
+        }
         rotary.variance_components.push_back(std::move(component));
     }
 }

@@ -153,6 +153,11 @@ std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
     return remarks;
 }
 
+/// A component in the weights with more than the residuals give: chi-square is small because of it.
+bool takes_plausible(const reports::VarianceComponent& component) {
+    return component.used && component.residuals_give.has_value();
+}
+
 std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     std::vector<Remark> remarks;
     if (!record.rotary) {
@@ -163,7 +168,7 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     const auto degrees = static_cast<double>(a.degrees_of_freedom);
     if (a.degrees_of_freedom > 0 && a.p_value.number < k_refuting_probability) {
         remarks.push_back(refuted(a));
-    } else if (a.degrees_of_freedom > 0 &&
+    } else if (a.degrees_of_freedom > 0 && std::ranges::none_of(rotary.variance_components, takes_plausible) &&
                1.0 - gum::chi_square_upper_tail(a.chi_square.number, degrees) < k_refuting_probability) {
         remarks.push_back(overstated(a));
     }

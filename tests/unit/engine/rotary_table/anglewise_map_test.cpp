@@ -312,7 +312,7 @@ TEST_P(LinearGrowth, VarianceComponentsAreThoseOfTheDenseTraces) {
         residual.segment(first, n) = group.residual;
         if (g < adjustment.visits().size()) {
             derivatives[0].block(first, first, n, n) = adjustment.stated_variance(g).asDiagonal();
-            const Eigen::MatrixXd pose = adjustment.pose_jacobian(g);
+            const Eigen::MatrixXd pose = adjustment.repeatability_jacobian(g);
             for (int c = 0; c < 6; ++c) {
                 const std::size_t k = c < 3 ? 1 : c == axial ? 2 : 3;
                 derivatives[k].block(first, first, n, n) += pose.col(c) * pose.col(c).transpose();

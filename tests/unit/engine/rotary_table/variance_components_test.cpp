@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/sequential_evaluation.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {
@@ -136,13 +138,244 @@ TEST(VarianceComponents, PerfectTableHasNoRepeatabilityToSpeakOf) {
         for (std::size_t c = 1; c < 4; ++c) {
             const VarianceComponent& component = solution.components[c];
             EXPECT_GE(component.value, 0.0);
-            EXPECT_LT(component.value, component.angular ? 0.8e-6 : 0.1e-6) << component.name << ", seed " << seed;
+            EXPECT_LT(component.value, component.angular ? 1.2e-6 : 0.1e-6) << component.name << ", seed " << seed;
             EXPECT_GT(component.u, 0.0);
-            EXPECT_LT(component.value, 4.0 * component.u) << component.name << ", seed " << seed;
+            EXPECT_LT(component.value, 6.0 * component.u) << component.name << ", seed " << seed;
             EXPECT_TRUE(std::isfinite(component.u));
         }
         EXPECT_TRUE(solution.covariance.diagonal().allFinite());
     }
+}
+
+/// A step with one component of the table, θ̂ = `variance` with the standard uncertainty `u`.
+VarianceComponentStep step_with(std::size_t row, double variance, double u) {
+    VarianceComponentStep step;
+    step.components.resize(5);
+    VarianceComponent& component = step.components[row];
+    component.angular = row != table_linear;
+    component.estimated = true;
+    component.value = std::sqrt(variance);
+    component.u = variance > 0.0 ? std::min(0.5 * u / component.value, std::sqrt(u)) : std::sqrt(u);
+    component.degrees_of_freedom = variance > 0.0 ? 2.0 * variance * variance / (u * u) : static_cast<double>(INFINITY);
+    return step;
+}
+
+// Law: whatever the estimate and its uncertainty, what is taken is at least the estimate, has a u and finite degrees of
+// freedom, rises with the estimate without a leap, scales with the unit, and is the estimate where it is determined.
+TEST(VarianceComponents, WhatIsPlausibleIsNeverLessThanTheEstimateAndNeverKnown) {
+    for (const std::size_t row : {table_linear, table_axial, table_tilt}) {
+        for (const double u : {1e-18, 1e-15, 3e-13}) {
+            double last = 0.0;
+            for (int i = 0; i <= 1000; ++i) {
+                const double variance = 0.01 * i * u;
+                VarianceComponentStep step = step_with(row, variance, u);
+                take_plausible_components(step);
+                const VarianceComponent& taken = step.components[row];
+                const double square = taken.value * taken.value;
+                EXPECT_GE(square, variance * (1.0 - 1e-12)) << i;
+                EXPECT_GT(square, 0.75 * u) << i;
+                EXPECT_GT(square, last) << i;
+                EXPECT_LT(square - last, i == 0 ? u : 0.0102 * u) << i;
+                last = square;
+                EXPECT_GT(taken.u, 0.0);
+                EXPECT_GT(taken.degrees_of_freedom, 3.5) << i;
+                EXPECT_TRUE(std::isfinite(taken.degrees_of_freedom));
+                // u of a standard deviation with ν degrees of freedom: s/√(2ν).
+                EXPECT_NEAR(taken.u / taken.value * std::sqrt(2.0 * taken.degrees_of_freedom), 1.0, 1e-9) << i;
+                if (i != 400) {  // the very limit, up to rounding
+                    EXPECT_EQ(taken.residuals_give.has_value(), i < 400) << i;
+                }
+                EXPECT_TRUE(taken.determined);
+                if (taken.residuals_give) {
+                    EXPECT_EQ(*taken.residuals_give, std::sqrt(variance));
+                    const double in_weights = row == table_linear  ? step.stochastic.variance_linear
+                                              : row == table_axial ? step.stochastic.variance_axial
+                                                                   : step.stochastic.variance_tilt;
+                    EXPECT_DOUBLE_EQ(in_weights, square);
+                } else {
+                    EXPECT_EQ(taken.value, std::sqrt(variance));
+                }
+            }
+        }
+        // Half of a standard normal distribution: mean √(2/π), variance 1 − 2/π.
+        VarianceComponentStep half = step_with(row, 0.0, 1e-14);
+        take_plausible_components(half);
+        EXPECT_NEAR(std::pow(half.components[row].value, 2) / 1e-14, std::sqrt(2.0 / std::numbers::pi), 1e-12);
+        EXPECT_NEAR(half.components[row].degrees_of_freedom, 4.0 / std::numbers::pi / (1.0 - 2.0 / std::numbers::pi),
+                    1e-9);
+        for (const double u : {1e-5, 1e300, static_cast<double>(INFINITY)}) {
+            VarianceComponentStep open = step_with(row, 0.0, u);
+            take_plausible_components(open);
+            EXPECT_FALSE(open.components[row].determined) << u;
+        }
+        VarianceComponentStep given = step_with(row, 1e-20, 1e-14);
+        given.components[row].estimated = false;
+        take_plausible_components(given);
+        EXPECT_EQ(given.components[row].value, 1e-10);
+    }
+}
+
+// Three stations in one pass hardly determine the repeatability: components came out 0 and counted as known (67 % of the
+// truth within U), or nearly 0 with ν near 0 (U of 1E+69 µm).
+TEST(VarianceComponents, HardlyDeterminedComponentsAreInTheUncertainty) {
+    std::size_t within = 0;
+    std::size_t all = 0;
+    std::size_t told = 0;
+    for (std::uint64_t seed = 700; seed < 712; ++seed) {
+        CampaignPlan plan;
+        plan.angles_deg = synthetic::full_turn(12);
+        plan.stations.resize(3);
+        plan.u_constant = 0.1e-6;
+        plan.u_proportional = 0.0;
+        plan.table_linear = 0.15e-6;
+        plan.table_axial = plan.table_tilt = 1e-6;
+        plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[seed % 3];
+        plan.seed = seed;
+        Campaign campaign = to_estimate(plan);
+        campaign.measurement.estimate_length_noise = false;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        for (std::size_t c = table_linear; c <= table_tilt; ++c) {
+            EXPECT_GT(solution.components[c].value, 0.0) << solution.components[c].name << ", seed " << seed;
+            EXPECT_GT(solution.components[c].degrees_of_freedom, 3.5) << solution.components[c].name;
+            EXPECT_TRUE(std::isfinite(solution.components[c].degrees_of_freedom)) << solution.components[c].name;
+        }
+        EXPECT_DOUBLE_EQ(solution.stochastic.variance_linear, std::pow(solution.components[table_linear].value, 2));
+        told += has_note(solution, "GC-VARIANCE-0007") ? 1U : 0U;
+        const Eigen::VectorXd deviation = solution.values - campaign.true_values(false);
+        for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+            const double u = std::sqrt(solution.covariance.diagonal()[i]);
+            all += u > 0.0 ? 1U : 0U;
+            within += u > 0.0 && std::abs(deviation[i]) <= 2.0 * u ? 1U : 0U;
+        }
+    }
+    EXPECT_GE(told, 8U);
+    EXPECT_GT(static_cast<double>(within), 0.95 * static_cast<double>(all)) << within << " of " << all;
+}
+
+/// The same distances, and the coordinates of the fixture in a frame that is turned about the axis and shifted along it.
+struct OtherFrame {
+    int axial;
+    double shift, angle;
+
+    [[nodiscard]] Eigen::Vector3d point(const Eigen::Vector3d& p) const {
+        return synthetic::turn(axial, angle) * p + shift * Eigen::Vector3d::Unit(axial);
+    }
+    [[nodiscard]] RotaryTableMeasurement measurement(RotaryTableMeasurement result) const {
+        for (Eigen::Index m = 0; m < result.fixture.rows(); ++m) {
+            result.fixture.row(m) = point(result.fixture.row(m).transpose()).transpose();
+        }
+        if (result.table_repeatability.axial_position) {
+            *result.table_repeatability.axial_position += shift;
+        }
+        return result;
+    }
+    /// Motions of the new origin in the directions of the new frame.
+    void carry(Eigen::Ref<Eigen::VectorXd> translation, Eigen::Ref<Eigen::VectorXd> rotation) const {
+        const Eigen::Matrix3d to = synthetic::turn(axial, angle);
+        const Eigen::Vector3d turned = to * Eigen::Vector3d(rotation);
+        const Eigen::Vector3d at_old = to * Eigen::Vector3d(translation);
+        rotation = turned;
+        translation = at_old - turned.cross(shift * Eigen::Vector3d::Unit(axial));
+    }
+    /// Reported quantities, which it takes to first order.
+    [[nodiscard]] Eigen::VectorXd carried(Eigen::VectorXd values, std::size_t angles, bool has_reversal) const {
+        const auto errors = 6 * static_cast<Eigen::Index>(angles);
+        for (Eigen::Index i = 0; i < errors; i += 6) {
+            carry(values.segment(i, 3), values.segment(i + 3, 3));
+        }
+        Eigen::VectorXd set_up = Eigen::VectorXd::Zero(6);
+        for (int c = 0; c < 2; ++c) {
+            set_up[(axial + 1 + c) % 3] = values[errors + c];
+            set_up[3 + (axial + 1 + c) % 3] = values[errors + 2 + c];
+        }
+        carry(set_up.head(3), set_up.tail(3));
+        for (int c = 0; c < 2; ++c) {
+            values[errors + c] = set_up[(axial + 1 + c) % 3];
+            values[errors + 2 + c] = set_up[3 + (axial + 1 + c) % 3];
+        }
+        if (has_reversal) {
+            carry(values.segment(errors + 4, 3), values.segment(errors + 7, 3));
+        }
+        return values;
+    }
+};
+
+// Law: where a CMM put the origin of its coordinates along the axis, and how it turned them about it, changes no
+// uncertainty. The repeatability of the table acted at the origin: at half a metre U of the tilts was a quarter smaller.
+TEST(VarianceComponents, OriginAlongTheAxisIsACoordinate) {
+    for (int k = 0; k < 8; ++k) {
+        CampaignPlan plan = table_with_repeatability();
+        plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[static_cast<std::size_t>(k % 3)];
+        plan.angles_deg = synthetic::full_turn(12);
+        plan.both_senses = k % 4 >= 2;
+        plan.reversal << 0.3e-6, -0.2e-6, 0.1e-6, 4e-6, -2e-6, 3e-6;
+        plan.seed = 40 + static_cast<std::uint64_t>(k);
+        const bool is_given = k % 2 == 0;
+        Campaign campaign = is_given ? simulate(plan) : to_estimate(plan);
+        if (k >= 4) {
+            campaign.measurement.table_repeatability.axial_position = -0.03;
+        }
+        const OtherFrame frame{axial_coordinate(plan.axis),
+                               std::array{0.5, -0.2, 0.0, 1.0}[static_cast<std::size_t>(k / 2)], 0.4 * k};
+        const auto solve = [&](const RotaryTableMeasurement& measurement) {
+            // The sequential method takes the components of the joint one, and one sense of approach.
+            return k % 4 == 0 ? evaluate_sequentially(measurement, EvaluationOptions{})
+                              : evaluate_jointly(measurement, EvaluationOptions{});
+        };
+        const RotaryTableSolution here = solve(campaign.measurement);
+        const RotaryTableSolution there = solve(frame.measurement(campaign.measurement));
+        for (std::size_t c = table_linear; c <= table_tilt; ++c) {
+            EXPECT_NEAR(there.components[c].value / here.components[c].value, 1.0, 1e-3)
+                << k << here.components[c].name;
+        }
+        EXPECT_NEAR(there.chi_square / here.chi_square, 1.0, 1e-4) << k;
+        const Eigen::Index n = here.values.size();
+        const auto carried = [&](const Eigen::MatrixXd& columns) {
+            Eigen::MatrixXd result = columns;
+            for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+                result.col(j) = frame.carried(columns.col(j), plan.angles_deg.size(), here.quantities.has_reversal);
+            }
+            return result;
+        };
+        const Eigen::MatrixXd map = carried(Eigen::MatrixXd::Identity(n, n));
+        const Eigen::MatrixXd covariance = map * here.covariance.dense() * map.transpose();
+        const Eigen::VectorXd values = map * here.values;
+        const Eigen::VectorXd there_variance = there.covariance.diagonal();
+        for (Eigen::Index i = 0; i < n; ++i) {
+            EXPECT_NEAR(std::sqrt(there_variance[i] / covariance(i, i)), 1.0, 2e-3) << k << ", quantity " << i;
+            if (k % 4 !=
+                0) {  // the model of the sequential method is linear in set-up errors, and not the same elsewhere
+                EXPECT_NEAR((there.values[i] - values[i]) / std::sqrt(covariance(i, i)), 0.0, 0.05)
+                    << k << ", quantity " << i;
+            }
+        }
+    }
+}
+
+// A table whose tilts are about a point far below the reflectors: where that is stated, its repeatability is found there.
+TEST(VarianceComponents, StatedPointIsWhereTheTableDeviates) {
+    CampaignPlan plan = table_with_repeatability();
+    plan.table_linear = 0.05e-6;
+    plan.repeatability_off = -0.4;
+    plan.seed = 77;
+    Campaign campaign = to_estimate(plan);
+    const RotaryTableSolution at_centroid = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    EXPECT_GT(at_centroid.components[table_linear].value, 0.3e-6);  // 0.4 m of 1.7 µrad
+    campaign.measurement.table_repeatability.axial_position =
+        campaign.truth.fixture.col(axial_coordinate(plan.axis)).mean() - 0.4;
+    const RotaryTableSolution at_point = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+    EXPECT_LT(at_point.components[table_linear].value, 0.2e-6);
+    EXPECT_NEAR(at_point.components[table_tilt].value / plan.table_tilt, 1.0, 0.3);
+}
+
+TEST(JointAdjustment, DeviationMovesItsPointByItsTranslation) {
+    const Eigen::Vector3d point(0.0, 0.3, 0.0);
+    Eigen::Matrix<double, 6, 1> deviation;
+    deviation << 1e-7, -2e-7, 3e-7, 1e-6, 2e-6, -3e-6;
+    const Eigen::Matrix<double, 6, 1> pose = pose_by_deviation(point) * deviation;
+    const Eigen::Vector3d moved = pose.head<3>() + Eigen::Vector3d(pose.tail<3>()).cross(point);
+    EXPECT_NEAR((moved - deviation.head<3>()).norm(), 0.0, 1e-20);
+    EXPECT_EQ(Eigen::Vector3d(pose.tail<3>()), Eigen::Vector3d(deviation.tail<3>()));
 }
 
 TEST(VarianceComponents, SingleDistanceAVisitKeepsTheLengthNoiseAsStated) {

@@ -706,7 +706,8 @@ TEST(RotaryTableJob, ReadsEveryOption) {
     replace(files["job.json"], "\"coordinates\"", "\"reference_temperature_degC\": 20.5, \"coordinates\"");
     with_key(R"("home_angle_deg": 90, "datum": "home", "method": "sequential", "coverage_probability": 0.99,
         "notes": "free text\nof two lines", "certificate": {"customer": {"name": "A"}},
-        "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1},
+        "table_repeatability": {"mode": "given", "u_linear_um": 0.3, "u_axial_arcsec": 0.2, "u_tilt_arcsec": 0.1,
+            "at_mm": -120},
         "variance_components": "fixed", "outliers": {"test": "none", "alpha": 0.001, "action": "report"})")(files);
     const RotaryTableJob job = read(files);
     const engine::RotaryTableMeasurement& m = job.measurement;
@@ -721,6 +722,8 @@ TEST(RotaryTableJob, ReadsEveryOption) {
     EXPECT_DOUBLE_EQ(m.table_repeatability.u_linear, 3e-7);
     EXPECT_DOUBLE_EQ(m.table_repeatability.u_axial, 0.2 * std::numbers::pi / 648000.0);
     EXPECT_DOUBLE_EQ(m.table_repeatability.u_tilt, 0.1 * std::numbers::pi / 648000.0);
+    ASSERT_TRUE(m.table_repeatability.axial_position.has_value());
+    EXPECT_DOUBLE_EQ(*m.table_repeatability.axial_position, -0.12);
     EXPECT_EQ(m.outliers.test, engine::OutlierTest::none);
     EXPECT_EQ(m.outliers.alpha, 0.001);
     EXPECT_EQ(m.outliers.action, engine::OutlierAction::report);

@@ -129,7 +129,7 @@ Eigen::VectorXd solve_again(const Solved& solved, const gum::MeasurementModel& m
         for (int c = 0; c < 2 && tilt.size() > 0; ++c) {
             deviation[order[static_cast<std::size_t>(4 + c)]] = tilt[2 * at + c];
         }
-        Eigen::VectorXd observed = -(solved.joint->pose_jacobian(v) * deviation);
+        Eigen::VectorXd observed = -(solved.joint->repeatability_jacobian(v) * deviation);
         for (Eigen::Index k = 0; k < observed.size(); ++k, ++next) {
             observed[k] += measurement.lengths[observations[static_cast<std::size_t>(k)]].length + noise[next];
             observed[k] += resolution.size() > 0 ? resolution[next] : 0.0;

@@ -54,6 +54,27 @@ TEST(PlanStudy, HalfOfEveryUncertaintyIsHalfOfEveryResult) {
     }
 }
 
+TEST(PlanStudy, TellsComponentsThatALayoutHardlyDetermines) {
+    const auto notes = [](std::size_t stations, engine::RepeatabilityMode mode) {
+        engine::synthetic::CampaignPlan plan;
+        plan.angles_deg = engine::synthetic::full_turn(stations > 3 ? 24 : 12);
+        plan.stations.resize(stations);
+        plan.u_constant = 0.1e-6;
+        plan.u_proportional = 0.0;
+        RotaryTableRequest request;
+        request.measurement = engine::planned::layout_of(plan);
+        request.measurement.table_repeatability = {mode, 0.3e-6, 2e-6, 2e-6};
+        Setting setting = setting_of(std::move(request), {}, {});
+        setting.notes.clear();
+        note_undetermined_repeatability(setting);
+        return setting.notes;
+    };
+    EXPECT_THAT(notes(3, engine::RepeatabilityMode::estimate),
+                testing::ElementsAre(testing::HasSubstr("degrees of freedom: table linear (")));
+    EXPECT_THAT(notes(6, engine::RepeatabilityMode::estimate), testing::IsEmpty());
+    EXPECT_THAT(notes(3, engine::RepeatabilityMode::given), testing::IsEmpty());
+}
+
 TEST(PlanStudy, SharesOfTheSourcesAddUp) {
     const Setting setting = setting_of(layout_to_plan(), {}, {});
     const Expected expected = expect(setting, setting.layout);
