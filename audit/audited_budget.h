@@ -49,6 +49,13 @@ enum class Contributor {
 /// What a relative uncertainty is a part of.
 enum class RelativeTo { not_stated, reading, full_scale };
 
+/// What a correction has multiplied the standard uncertainty of a row by.
+struct FactorOfU {
+    double factor = 1.0;
+    double tolerance = 0.01;   ///< relative: of a u that was set, what the digits of the former u leave open is in it
+    bool of_rounding = false;  ///< from a printed u to the one that it was rounded from
+};
+
 /// One row of an uncertainty budget as somebody states it. Numbers of a row are in its own unit.
 struct AuditedRow {
     std::string quantity, unit, source, comment;
@@ -92,7 +99,7 @@ struct AuditedRow {
     double used_nu = std::numeric_limits<double>::infinity();
     double u_half_step = 0.0, sensitivity_half_step = 0.0;  ///< what the printed digits of both leave open
     /// What corrections have multiplied `used_u` by, so that one error which several rules see is corrected once.
-    std::vector<double> factors_of_u = {};
+    std::vector<FactorOfU> factors_of_u = {};
 
     // What only some rows say. Texts are read by audit/row_facts.h; a reader of columns or jobs may know them itself.
     std::optional<double> relative_uncertainty;  ///< "0.5 % of full scale": 0.005

@@ -95,16 +95,15 @@ void places_differ(const AuditSubject& subject, FindingCollector& findings) {
 /// R03: the rows were rounded before they were added up.
 void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings) {
     const auto unrounded = [](AuditedBudget& budget) {
-        for (AuditedRow& row : budget.rows) {
+        for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+            const AuditedRow& row = budget.rows[r];
             if (!row.stated || !row.divisor || !row.u || !(row.divisor->value > 0.0)) {
                 continue;
             }
             const double u = std::abs(row.stated->value / row.divisor->value);
             // A printed u that is not the rounded quotient has another cause than rounding, and other rules tell it.
             if (row.u->interval().contains(u)) {
-                row.used_u = u;
-                row.u_half_step = 0.0;
-                row.contribution.reset();
+                unround_u(r, u)(budget);
             }
         }
     };
