@@ -23,6 +23,32 @@ double size_of(const Effect& effect) {
     return std::max(size_of_change(effect.claimed.U, effect.alone.U), size_of_change(effect.last.U, effect.audited.U));
 }
 
+/// One unit of the last digit of a number that is stated; 0 of one without a text.
+double stated_step_of(const StatedNumber& number) {
+    return 2.0 * (number.half_step > 0.0 ? number.half_step : printed_half_step(number));
+}
+
+void note_uncorrected_U(AuditedBudget& budget) {
+    budget.uncorrected_U.reset();
+    if (!budget.claims.U || !(budget.claims.U->value > 0.0) || !budget.claims.broken.U.empty()) {
+        return;
+    }
+    const StatedNumber& U = *budget.claims.U;
+    try {
+        const UncorrectedU found{.stated = U.value,
+                                 .evaluated = evaluate(budget).U,
+                                 .step = U.text.empty() ? 0.0 : stated_step_of(U),
+                                 .text = U.text.empty() ? "" : text_of_claim(U)};
+        // u_c and k that were rounded on the way move U by two units at most.
+        const double step = std::max(found.step, std::pow(10.0, std::floor(std::log10(U.value)) - budget.digits + 1));
+        if (found.evaluated > 0.0 && std::abs(found.stated - found.evaluated) <= 2.0 * step) {
+            budget.uncorrected_U = found;
+        }
+    } catch (const gum::DiagnosedError&) {
+        return;  // told where the budget is evaluated
+    }
+}
+
 /// Claims as they are stated; where a number is not stated, what the rows give.
 BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& evaluated) {
     BudgetOutcome outcome = evaluated;
@@ -42,7 +68,7 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     }
     if (claims.U && !claims.U->text.empty()) {
         outcome.printed_U = text_of_claim(*claims.U);
-        outcome.stated_step = 2.0 * (claims.U->half_step > 0.0 ? claims.U->half_step : printed_half_step(*claims.U));
+        outcome.stated_step = stated_step_of(*claims.U);
     } else if (claims.U && claims.U->value > 0.0) {
         outcome.printed_U =
             gum::round_to_uncertainty(outcome.value.value_or(0.0), claims.U->value, budget.digits, budget.rounding).U;
@@ -196,6 +222,9 @@ const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<cons
 
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
     AuditReport report;
+    for (AuditedBudget& budget : subject.budgets) {
+        note_uncorrected_U(budget);
+    }
     std::vector<SeverityPolicy> policies;
     std::vector<const Rule*> concluding, of_rest;
     const auto take = [&report, &policies](const Rule& rule, FindingCollector& collector) {

@@ -182,6 +182,13 @@ struct Claims {
     BrokenClaims broken;
 };
 
+/// U of a budget that nothing has corrected: as it is stated, and as it is evaluated, from which it was rounded.
+struct UncorrectedU {
+    double stated = 0.0, evaluated = 0.0;  ///< > 0
+    double step = 0.0;                     ///< one unit of the last digit of the former; 0: known to all digits
+    std::string text;                      ///< of the former; "" without
+};
+
 /// Of a workbook that shows other results than its formulas give: what these give, and what it has beyond the rows.
 struct ComputedClaims {
     Claims claims;
@@ -231,6 +238,8 @@ struct AuditedBudget {
     gum::RoundingMode rounding = gum::RoundingMode::half_even;
     Claims claims;
     std::optional<ComputedClaims> computed_claims;  ///< `claims` has what is shown
+    /// So that all copies of the budget print U alike: one that is not corrected as it is stated.
+    std::optional<UncorrectedU> uncorrected_U = {};
     std::optional<StatedMonteCarlo> monte_carlo;
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };

@@ -222,7 +222,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
         cut.truncate = true;
         const BudgetOutcome whole = evaluate(budget, as_it_is), lower = evaluate(budget, cut);
         // Told only where a reader would see it, or where one file does both.
-        if (whole.printed_U == lower.printed_U && !some_truncate) {
+        if (whole.rounded_U == lower.rounded_U && !some_truncate) {
             return;
         }
         if (is_about(whole.k, lower.k, 1e-9)) {
@@ -237,7 +237,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
                       "printed otherwise",
                       in_words(outcome.nu_eff)));
         finding.evidence = {say("k = {k:number}, cut {cut:number}", in_words(whole.k), in_words(lower.k)),
-                            say("U = {U:number}, cut {cut:number}", whole.printed_U, lower.printed_U)};
+                            say("U = {U:number}, cut {cut:number}", whole.rounded_U, lower.rounded_U)};
         if (some_truncate) {
             finding.correct = [](AuditedBudget& corrected) {
                 if (corrected.coverage.kind == CoverageRule::Kind::student_t) {

@@ -112,15 +112,15 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
         const std::optional<BudgetOutcome> rounded = outcome_or_none(exact);
         unrounded(exact);
         const std::optional<BudgetOutcome> outcome = outcome_or_none(exact);
-        if (!rounded || !outcome || rounded->printed_U == outcome->printed_U) {
+        if (!rounded || !outcome || rounded->rounded_U == outcome->rounded_U) {
             continue;
         }
         AuditFinding finding = finding_of(subject, i,
                                           say("U follows from rounded standard uncertainties: {rounded:number}, and "
                                               "{unrounded:number} from the numbers that they were rounded from",
-                                              rounded->printed_U, outcome->printed_U));
-        finding.expected = say_number(outcome->printed_U);
-        finding.actual = say_number(rounded->printed_U);
+                                              rounded->rounded_U, outcome->rounded_U));
+        finding.expected = say_number(outcome->rounded_U);
+        finding.actual = say_number(rounded->rounded_U);
         finding.correct = unrounded;
         findings.add(std::move(finding));
     }

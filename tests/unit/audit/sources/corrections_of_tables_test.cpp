@@ -104,5 +104,78 @@ TEST(CorrectionsOfTables, GiveTheOneRightU) {
     EXPECT_GT(twice, 20U);
 }
 
+TEST(CorrectionsOfTables, PrintWhatWasRoundedOnTheWayAsItIsStated) {
+    const std::string rows =
+        "quantity,u,unit,sensitivity,nu,comment\nResolution,5.77,µm,1,,\nAbbe offset,12.7,µm,1,,\n"
+        "Temperature,1.33,µm,1,,\nRepeatability,6.0,µm,1,40,\n";
+    const std::string claims = "u_c,15.3,µm\nk,2\nU,31,µm\ncoverage probability,95 %\n";
+    const AuditReport sound = report_of_table(rows + "Gauge block,0.40,µm,1,,\n" + claims);
+    ASSERT_EQ(sound.results.size(), 1U);
+    EXPECT_NEAR(sound.results[0].recomputed.U, 30.496675, 1e-5);
+    EXPECT_EQ(sound.results[0].recomputed.printed_U, "31");
+    EXPECT_EQ(sound.results[0].audited.printed_U, "31");
+    const AuditFinding* const missing = finding_in(sound, "B05");
+    ASSERT_NE(missing, nullptr);
+    ASSERT_TRUE(missing->missing_term);
+    EXPECT_NEAR(missing->missing_term->u_for_digit, 3.9434, 1e-3);  // √((31.5/2)² − 15.24834²)
+    // A U of a certificate that was divided by 4 makes 30.488 µm of 30.512 µm: both are the 31 µm of the file.
+    const AuditReport halved =
+        report_of_table(rows + "Gauge block,0.30,µm,1,,\"U = 1.2 µm, k = 2, certificate 77\"\n" + claims);
+    const AuditFinding* const quarter = finding_in(halved, "U13");
+    ASSERT_NE(quarter, nullptr);
+    ASSERT_TRUE(quarter->effect);
+    EXPECT_EQ(quarter->severity, FindingSeverity::minor);
+    EXPECT_EQ(quarter->effect->claimed.printed_U, "31");
+    EXPECT_EQ(quarter->effect->alone.printed_U, "31");
+}
+
+/// However a laboratory rounds on the way to its U, what nobody corrects has one printed text, and is changed only by what
+/// changes that.
+TEST(CorrectionsOfTables, HaveOneTextOfAnUncorrectedU) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> size(0.5, 9.0), share(0.1, 1.0);
+    std::size_t apart = 0, seen = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double u[] = {size(random), share(random), share(random)};
+        const double u_c = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+        std::string table = "quantity,u,unit,sensitivity,nu\n";
+        for (const double one : u) {
+            table += "contribution " + text::significant(one, 6) + "," + text::significant(one, 12) + ",µm,1,\n";
+        }
+        const int digits = 1 + i % 4;
+        const std::string of_sum = text::significant(u_c, 3);
+        const double U = 2.0 * std::stod(of_sum);
+        const std::string stated = text::significant(U, digits);
+        table += "u_c," + of_sum + ",µm\nk,2\nU," + stated + ",µm\n";
+        SCOPED_TRACE(table);
+        const AuditReport report = report_of_table(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        if (finding_in(report, "K01") != nullptr) {
+            continue;
+        }
+        ++seen;
+        const AuditedResult& result = report.results[0];
+        EXPECT_EQ(result.claimed.printed_U, stated);
+        EXPECT_EQ(result.recomputed.printed_U, stated);
+        EXPECT_EQ(result.audited.printed_U, stated);
+        apart += gum::round_to_uncertainty(0.0, 2.0 * u_c).U != gum::round_to_uncertainty(0.0, std::stod(stated)).U
+                     ? 1U
+                     : 0U;
+        for (const AuditFinding& finding : report.findings) {
+            if (finding.effect) {
+                EXPECT_EQ(finding.effect->claimed.printed_U, stated) << finding.rule;
+            }
+            if (finding.missing_term && digits == 2) {
+                const double step = std::stod(stated) < 9.95 ? 0.1 : 1.0;
+                const double next = 0.5 * (std::stod(stated) + 0.5 * step);
+                const double least = std::sqrt(std::max(0.0, next * next - u_c * u_c));
+                EXPECT_GE(finding.missing_term->u_for_digit, least * (1.0 - 1e-4)) << finding.rule;
+            }
+        }
+    }
+    EXPECT_GT(seen, 150U);
+    EXPECT_GT(apart, 5U);
+}
+
 }  // namespace
 }  // namespace gumcert::audit
