@@ -129,6 +129,9 @@ private:
         }
         const std::string of_head = heads_.units.at(column), of_column = unit_of_column(column);
         const std::string& beside = of_head.empty() ? of_column : of_head;
+        if (read->unit.empty() && of_column.empty() && (column == Column::u || column == Column::stated)) {
+            ask_for_unit(*cell, of_head);
+        }
         // Words behind a number that are no unit that we know count where no other place states one.
         const bool cell_first = !read->unit.empty() && (beside.empty() || known_unit(read->unit));
         unit = cell_first ? read->unit : beside;
@@ -144,6 +147,17 @@ private:
         return std::nullopt;
     }
 
+    /// The head of a column of uncertainties and the column of units may state units of different kinds.
+    void ask_for_unit(const Cell& cell, const std::string& of_head) {
+        const std::string of_row = words(Column::unit);
+        const std::optional<gum::Unit> head = known_unit(of_head), row = known_unit(of_row);
+        if (head && row && !(head->dimension() == row->dimension())) {
+            not_read_.push_back(
+                say("{cell}: the head states {head}, and the column of units {unit}; the former is "
+                    "used; in which unit is the number?",
+                    sheet_.place(cell.address), text::in_quotes(of_head), text::in_quotes(of_row)));
+        }
+    }
     [[nodiscard]] std::string unit_of_column(Column column) const {
         const auto position = heads_.unit_columns.find(column);
         const Cell* cell = position == heads_.unit_columns.end() ? nullptr : cell_in(row_, position->second);
@@ -200,6 +214,9 @@ private:
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
+        if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
+            return;
+        }
         if (!is_row(row) && take_line(row)) {
             in_rows_ = false;
             return;
@@ -225,6 +242,36 @@ private:
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
+    }
+
+    /// A line of units alone below heads: each column of numbers that has one there has it for all its rows.
+    [[nodiscard]] bool take_units(const SheetView::Row& row) {
+        std::map<Column, std::string> units;
+        for (const Cell* cell : row) {
+            const std::string held = sheet_.words(*cell);
+            const auto head = std::find_if(heads_->columns.begin(), heads_->columns.end(), [cell](const auto& column) {
+                return column.second == cell->address.column;
+            });
+            if (says_nothing(held) || held == "1" || head == heads_->columns.end()) {
+                continue;
+            }
+            if (!has_numbers_with_units(head->first)) {
+                if (column_of(held) == Column::unit) {
+                    continue;  // "unit" below "quantity"
+                }
+                return false;
+            }
+            if (sheet_.number_with_unit(*cell) || !known_unit(held)) {
+                return false;
+            }
+            units.emplace(head->first, unit_in_rest(held));
+        }
+        for (const auto& [column, unit] : units) {
+            std::string& of_head = heads_->units[column];
+            of_head = of_head.empty() ? unit : of_head;
+            heads_->all_units[heads_->columns.at(column)] = of_head;
+        }
+        return !units.empty();
     }
 
     /// Whether a line below heads is a row of the table. A quantity may be named "p" or "k", and a line of a result may have several
@@ -643,9 +690,9 @@ private:
     AuditedBudget budget_;
     std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
-    std::optional<NumbersUnderHeads> result_line_;  ///< states the value, and more
-    std::size_t looks_ = 0;                         ///< at sums of the rows, for lines that look like rows
-    std::optional<std::uint32_t> last_unread_;      ///< line that was named as not read, or follows such
+    std::optional<NumbersUnderHeads> result_line_;          ///< states the value, and more
+    std::size_t looks_ = 0;                                 ///< at sums of the rows, for lines that look like rows
+    std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
 };
 
 }  // namespace

@@ -1,0 +1,84 @@
+// Tables whose layout says more than words of heads: points in heads, results without a name, deviations, columns and
+// correlations that nobody expects. What is not understood is named, and accuses nobody.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/budget_words.h"
+#include "audit/sources/table_units.h"
+#include "audit/sources/workbook_subject.h"
+#include "text/numbers.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+AuditReport audit_of(const std::string& table) {
+    return audit(subject_of(workbook::read_csv(table, "budget.csv", "budget"), "budget.csv"), all_rules());
+}
+const AuditFinding* finding_of(const AuditReport& report, std::string_view rule) {
+    const auto found = std::find_if(report.findings.begin(), report.findings.end(),
+                                    [rule](const AuditFinding& finding) { return finding.rule == rule; });
+    return found == report.findings.end() ? nullptr : &*found;
+}
+bool is_named(const AuditReport& report, const std::string& text) {
+    return std::any_of(
+        report.subject.not_read.begin(), report.subject.not_read.end(),
+        [&text](const Sentence& sentence) { return sentence.english().find(text) != std::string::npos; });
+}
+
+TEST(WhatTablesSay, APointInAHeadIsNoUnit) {
+    for (const char* unit : {"V", "mV", "µm", "°C", "Pa", "kg", "m", "%", "N·m"}) {
+        const std::string name = unit;
+        EXPECT_EQ(unit_in_head("u / " + name), name);
+        EXPECT_EQ(unit_in_head("u [" + name + "]"), name);
+        EXPECT_EQ(unit_in_head("Beitrag in " + name), name);
+        for (const char* number : {"1", "10", "100", "0.5", "0,5", "20.000"}) {
+            for (const char* blank : {"", " "}) {
+                const std::string point = std::string(number) + blank + name;
+                EXPECT_EQ(unit_in_head("u (" + point + ")"), "") << point;
+                EXPECT_EQ(unit_in_head("u [" + point + "]"), "") << point;
+                EXPECT_EQ(unit_in_head("u / " + point), "") << point;
+            }
+        }
+    }
+    EXPECT_EQ(unit_in_head("c [1/K]"), "1/K");
+    EXPECT_EQ(unit_in_head("Half-width / U"), "");
+    const AuditReport report = audit_of(
+        "Quantity,Unit,u (1 V),u (10 V)\nCalibrator,µV,3,20\nLeads,µV,1,1\nRepeatability,µV,1.5,6\nu_c,µV,3.5,21\n"
+        "k,2,2\nU,µV,7.0,42\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.results[0].unit, "µV");
+    EXPECT_NEAR(report.results[0].audited.U, 7.0, 1e-9);
+    EXPECT_EQ(finding_of(report, "K01"), nullptr);
+    EXPECT_TRUE(is_named(report, "u (10 V)"));
+}
+
+TEST(WhatTablesSay, AHeadAndAColumnOfUnitsThatContradictAreAsked) {
+    const AuditReport report = audit_of("Quantity,Unit,u [µm],Sensitivity\nLength,µm,3,1\nTemperature,K,0.5,1\n");
+    EXPECT_TRUE(is_named(report, "in which unit is the number?"));
+    EXPECT_FALSE(is_named(audit_of("Quantity,Unit,u [µm],Sensitivity\nLength,mm,3,1\nForm,nm,0.5,1\n"),
+                          "in which unit is the number?"));
+}
+
+TEST(WhatTablesSay, ALineOfUnitsBelowTheHeads) {
+    const AuditReport report = audit_of(
+        "Quantity,Estimate,Standard uncertainty,Sensitivity coefficient,Contribution\n,g,mg,,mg\n"
+        "Reference weight,1000,2.5,1,2.5\nDrift of the reference,0,1.2,1,1.2\nAir "
+        "buoyancy,0,0.9,1,0.9\nu_c,,,,2.9\nk,2\nU,,,,5.8\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.results[0].unit, "mg");
+    EXPECT_EQ(finding_of(report, "R05"), nullptr);
+    EXPECT_FALSE(is_named(report, "is no number"));
+}
+
+}  // namespace
+}  // namespace gumcert::audit
