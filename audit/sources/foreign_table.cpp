@@ -576,6 +576,24 @@ private:
         return std::nullopt;
     }
 
+    /// Whether a number is the u_c, or the U over k, that is stated elsewhere, within the digits of both.
+    [[nodiscard]] bool is_stated_u_c(const StatedResult& of) const {
+        const auto is = [&](Statement statement, double k) {
+            const auto found = statements_.numbers.find(statement);
+            const std::optional<double> factor =
+                found == statements_.numbers.end() ? std::nullopt : factor_between(of.unit, found->second.unit);
+            if (!factor || !(k > 0.0)) {
+                return false;
+            }
+            const StatedNumber& number = found->second.number;
+            const double size = std::abs(number.value) / k;
+            const double half = printed_half_step(number) / k + *factor * printed_half_step(of.number) + 1e-6 * size;
+            return std::abs(size - *factor * std::abs(of.number.value)) <= half;
+        };
+        const std::optional<StatedNumber> k = stated(Statement::k);
+        return is(Statement::u_c, 1.0) || (k && (is(Statement::U, k->value) || is(Statement::reported_U, k->value)));
+    }
+
     /// The last row of a table may be its result: u_c under u or the contributions, without anything that is divided, a distribution
     /// or a coefficient (the layout of EA-4/02, chapter 4 and its examples).
     void settle_last_row() {
@@ -592,8 +610,15 @@ private:
         const auto head = heads_->columns.find(by_u ? Column::u : Column::contribution);
         const StatedResult result{
             .number = *amount, .unit = by_u ? units_.back().u : units_.back().contribution, .column = head->second};
+        // A row that is named as an influence is one, whatever its number.
+        const bool is_result = last.estimate && last.estimate->value != 0.0 &&
+                               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other &&
+                               is_stated_u_c(result);
         const std::optional<Interval> above = sum_above(result, true), all = sum_above(result);
         if (!above || !all) {
+            if (is_result) {
+                take_last_row(result);
+            }
             return;
         }
         const bool is_distinct = std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
@@ -604,7 +629,7 @@ private:
         if (is_stated && *with) {
             return;
         }
-        if (is_sum && (is_distinct || (is_stated && *without))) {
+        if (is_result || (is_sum && (is_distinct || (is_stated && *without)))) {
             take_last_row(result);
             return;
         }

@@ -80,5 +80,33 @@ TEST(WhatTablesSay, ALineOfUnitsBelowTheHeads) {
     EXPECT_FALSE(is_named(report, "is no number"));
 }
 
+/// A last row whose u is the u_c, or the U over k, that is stated is the result, whatever the rows above it give.
+TEST(WhatTablesSay, AResultRowIsNoContribution) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> size(0.05, 0.4), off(0.7, 1.3);
+    for (int i = 0; i < 60; ++i) {
+        std::string table = "Quantity,Value,Unit,Standard uncertainty,Degrees of freedom\n";
+        double squares = 0.0;
+        for (const char* name : {"Weighing", "Water density and temperature", "Evaporation", "Resolution"}) {
+            const std::string u = text::significant(size(random), 3);
+            squares += std::stod(u) * std::stod(u);
+            table += std::string(name) + ",0,µL," + u + ",\n";
+        }
+        const double factor = i % 2 == 0 ? 1.0 : off(random);
+        const std::string u_c = text::significant(std::sqrt(squares) * factor, 4);
+        table += "Volume V20,998.7,µL," + u_c + ",\n";
+        table += i % 3 == 0 ? "u_c," + u_c + ",µL\n" : "";
+        table += "k,2\nU," + text::significant(2.0 * std::stod(u_c), 4) + ",µL\n";
+        SCOPED_TRACE(table);
+        const AuditReport report = audit_of(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, std::sqrt(squares), 1e-9);
+        EXPECT_EQ(finding_of(report, "K01") != nullptr, std::abs(factor - 1.0) > 0.003 && std::abs(factor - 1.0) > 0.0);
+        ASSERT_TRUE(report.subject.budgets[0].value);
+        EXPECT_EQ(*report.subject.budgets[0].value, 998.7);
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit
