@@ -294,6 +294,32 @@ constexpr std::array k_statement_words = {
     Word{U"modellgleichung", Statement::equation},
 };
 
+/// Names of the value of a result that is a deviation. An input quantity may be called so as well.
+constexpr std::array k_deviation_words = {
+    Word{U"deviation", Statement::value},
+    Word{U"measureddeviation", Statement::value},
+    Word{U"error", Statement::value},
+    Word{U"errorofindication", Statement::value},
+    Word{U"indicationerror", Statement::value},
+    Word{U"errorofmeasurement", Statement::value},
+    Word{U"measurementerror", Statement::value},
+    Word{U"correction", Statement::value},
+    Word{U"abweichung", Statement::value},
+    Word{U"anzeigeabweichung", Statement::value},
+    Word{U"messabweichung", Statement::value},
+    Word{U"korrektion", Statement::value},
+    Word{U"korrektur", Statement::value},
+    Word{U"desviacion", Statement::value},
+    Word{U"errordeindicacion", Statement::value},
+    Word{U"errordemedicion", Statement::value},
+    Word{U"correccion", Statement::value},
+    Word{U"偏差", Statement::value},
+    Word{U"示值誤差", Statement::value},
+    Word{U"示值误差", Statement::value},
+    Word{U"器差", Statement::value},
+    Word{U"修正值", Statement::value},
+};
+
 /// Names of the value of a result that no input quantity has: a reading may be called "measured value".
 constexpr std::array k_result_words = {
     Word{U"y", Statement::value},
@@ -464,6 +490,8 @@ std::optional<NamedStatement> whole_statement(std::string_view name) {
             named = NamedStatement{.statement = Statement::u_c};
         } else if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
             named = NamedStatement{.statement = *statement, .may_be_quantity = may_be_quantity(*statement, text)};
+        } else if (meaning_of(k_deviation_words, text)) {
+            named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
         }
         if (named) {
             const std::size_t end = static_cast<std::size_t>(text.data() - name.data()) + text.size();

@@ -58,6 +58,8 @@ struct NamedStatement {
     Statement statement = Statement::value;
     /// Some quantity may be called so as well: "U" is a voltage, "p" a pressure, "tolerance" a contribution.
     bool may_be_quantity = false;
+    /// A constant of a table may be called so, as "correction"; what is the value stands last.
+    bool may_be_constant = false;
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
 };

@@ -217,6 +217,9 @@ private:
         if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
             return;
         }
+        if (note_constant(row)) {
+            return;
+        }
         if (!is_row(row) && take_line(row)) {
             in_rows_ = false;
             return;
@@ -239,6 +242,7 @@ private:
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
+            last_constants_.clear();
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
@@ -272,6 +276,44 @@ private:
             heads_->all_units[heads_->columns.at(column)] = of_head;
         }
         return !units.empty();
+    }
+
+    /// A constant among the rows, or below the last of them, where it may be what the table is of: that is known when no more row
+    /// follows.
+    [[nodiscard]] bool note_constant(const SheetView::Row& row) {
+        if (!in_rows_ || !heads_ || is_row(row) || !is_constant(row)) {
+            return false;
+        }
+        const std::optional<NamedLine> line = name_of_line(sheet_, row, &*heads_);
+        if (line && !line->named.may_be_constant) {
+            return false;
+        }
+        const Cell* name = cell_in(row, heads_->columns.at(Column::quantity));
+        const bool has_other_words = std::any_of(row.begin(), row.end(), [this](const Cell* cell) {
+            const auto is_headed = [this, cell](Column column) {
+                const auto head = heads_->columns.find(column);
+                return head != heads_->columns.end() && head->second == cell->address.column;
+            };
+            return (is_headed(Column::u) || is_headed(Column::stated) || is_headed(Column::contribution)) &&
+                   !says_nothing(sheet_.words(*cell));
+        });
+        if (name == nullptr || sheet_.words(*name).empty() || has_other_words || has_formula_of_uncertainty(row)) {
+            return false;
+        }
+        last_constants_.push_back(&row);
+        return true;
+    }
+    void settle_constants() {
+        const bool has_value = statements_.numbers.contains(Statement::value);
+        last_unread_.reset();
+        for (const SheetView::Row* row : last_constants_) {
+            const std::optional<NamedLine> line = name_of_line(sheet_, *row, &*heads_);
+            const bool is_value = line && line->named.statement == Statement::value && !has_value;
+            if (!is_value || !take_line(*row)) {
+                note_unread(*row);
+            }
+        }
+        last_constants_.clear();
     }
 
     /// Whether a line below heads is a row of the table. A quantity may be named "p" or "k", and a line of a result may have several
@@ -453,6 +495,7 @@ private:
                     budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
+            settle_constants();
             settle_last_row();
             settle_result_line();
             if (is_open_) {
@@ -497,6 +540,7 @@ private:
         is_too_long_ = is_unusable_ = is_open_ = false;
         result_line_.reset();
         last_unread_.reset();
+        last_constants_.clear();
         looks_ = 0;
     }
 
@@ -718,6 +762,7 @@ private:
     std::optional<NumbersUnderHeads> result_line_;          ///< states the value, and more
     std::size_t looks_ = 0;                                 ///< at sums of the rows, for lines that look like rows
     std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
+    std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
 };
 
 }  // namespace

@@ -108,5 +108,42 @@ TEST(WhatTablesSay, AResultRowIsNoContribution) {
     }
 }
 
+constexpr const char* k_gauge =
+    "Quantity,Estimate,Unit,u,Sensitivity,Contribution\nPressure standard,10.0000,bar,0.0030,1,0.0030\n"
+    "Hysteresis,0,bar,0.0058,1,0.0058\nRepeatability,0,bar,0.0070,1,0.0070\n";
+constexpr const char* k_limits =
+    "k,2\nU,0.019,bar\nlower limit,-0.050,bar\nupper limit,0.050,bar\ndecision rule,DR-03\nverdict,pass\n";
+
+TEST(WhatTablesSay, ADeviationBelowTheRowsIsTheValue) {
+    for (const char* name :
+         {"Deviation", "Error", "Error of indication", "Error of indication E", "Measurement error", "Correction",
+          "Abweichung", "Anzeigeabweichung", "Messabweichung", "Korrektion", "Desviación", "Error de indicación",
+          "Corrección", "偏差", "示值誤差", "示值误差", "器差", "修正值"}) {
+        for (const bool directly : {true, false}) {
+            const std::string line = std::string(name) + ",0.0600,bar\n", u_c = "u_c,0.0096,bar\n";
+            const AuditReport report = audit_of(k_gauge + (directly ? line + u_c : u_c + line) + k_limits);
+            SCOPED_TRACE(name);
+            ASSERT_EQ(report.results.size(), 1U);
+            EXPECT_EQ(report.results[0].audited.verdict, "fail");
+            EXPECT_NE(finding_of(report, "D04"), nullptr);
+        }
+    }
+}
+
+TEST(WhatTablesSay, AConstantThatStandsLastIsUsedOrNamed) {
+    for (const char* name : {"l_X", "Something", "Steilheit", "Difference of both"}) {
+        const AuditReport report = audit_of(std::string(k_gauge) + name + ",0.0600,bar\nu_c,0.0096,bar\n" + k_limits);
+        EXPECT_TRUE(is_named(report, name)) << name;
+    }
+    // Among the rows it is a constant, as every number without an uncertainty is.
+    const AuditReport report = audit_of(
+        "Quantity,Estimate,Unit,u,Sensitivity\nStandard,10,bar,0.003,1\nCorrection,0.02,bar,,\nLength,100,mm,,\n"
+        "Hysteresis,0,bar,0.004,1\nvalue,0.03,bar\nu_c,0.005,bar\nk,2\nU,0.010,bar\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.subject.budgets[0].rows.size(), 2U);
+    EXPECT_EQ(report.subject.budgets[0].value.value_or(0.0), 0.03);
+    EXPECT_FALSE(is_named(report, "Length"));
+}
+
 }  // namespace
 }  // namespace gumcert::audit
