@@ -14,6 +14,7 @@
 #include "audit/severity.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
+#include "text/visible_text.h"
 
 namespace gumcert::audit {
 namespace {
@@ -172,6 +173,22 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
     }
 }
 
+/// Where columns of numbers were not understood, what does not follow from the others may follow from these: it is asked, and
+/// nobody is accused of a grave error.
+void limit_by_unread_columns(AuditFinding& finding, const AuditSubject& subject) {
+    const bool needs_all_columns = finding.rule == "S01" || finding.rule == "K01" || finding.rule == "K09";
+    if (!needs_all_columns || finding.budgets.empty()) {
+        return;
+    }
+    const std::vector<std::string>& unread = subject.budgets[finding.budgets.front()].unread_columns;
+    for (const std::string& head : unread) {
+        finding.evidence.push_back(say("the column {head} has numbers that were not read", text::in_quotes(head)));
+    }
+    if (!unread.empty()) {
+        finding.severity = std::min(finding.severity, FindingSeverity::major);
+    }
+}
+
 /// The same as gum::message().
 Sentence message_in_words(const gum::Diagnostic& diagnostic) {
     Sentence said = diagnostic.where;
@@ -310,6 +327,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (finding.effect && finding.effect_on_score && finding.effect->budget == finding.effect_on_score->budget) {
             finding.effect_on_score.reset();
         }
+        limit_by_unread_columns(finding, subject);
         // A term that is not there has no size that could be corrected: told is how large it would have to be to be
         // seen.
         if (finding.contribution_missing && !finding.budgets.empty()) {

@@ -241,6 +241,8 @@ struct AuditedBudget {
     /// So that all copies of the budget print U alike: one that is not corrected as it is stated.
     std::optional<UncorrectedU> uncorrected_U = {};
     std::optional<StatedMonteCarlo> monte_carlo;
+    /// Of a table: heads of columns of numbers that nobody understood. What does not follow may follow from them.
+    std::vector<std::string> unread_columns = {};
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };
 

@@ -25,8 +25,12 @@ enum class Column {
 inline constexpr int k_columns = 13;
 
 /// The column that a head names, English or German, with its synonyms: "Std. uncertainty u(xi)" is u. Single letters
-/// count as they are written: "u" is a standard and "U" an expanded uncertainty.
+/// count as they are written: "u" is a standard and "U" an expanded uncertainty. A unit and a symbol behind the word are of it:
+/// "Contribution / nm", "Beitrag in µm", "Quantity X_i", "Sensitivity dT/dx".
 [[nodiscard]] std::optional<Column> column_of(std::string_view head);
+
+/// Whether a head that names none of these columns is known all the same: shares, squares, numbers of rows.
+[[nodiscard]] bool is_unused_column(std::string_view head);
 
 /// What a row beside or below the table says of the result, of its limits, or of how it is compared.
 enum class Statement {

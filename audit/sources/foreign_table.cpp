@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -243,6 +244,7 @@ private:
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
             last_constants_.clear();
+            note_numbers_of_unknown(row);
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
@@ -459,6 +461,44 @@ private:
         });
         return numbers == 1 && numbers_under(sheet_, *heads_, row).contains(Column::estimate);
     }
+    void note_numbers_of_unknown(const SheetView::Row& row) {
+        for (const Cell* head : heads_->unknown) {
+            const Cell* cell = cell_in(row, head->address.column);
+            if (cell != nullptr && sheet_.number_with_unit(*cell)) {
+                with_numbers_.insert(head);
+            }
+        }
+    }
+    void tell_unknown_columns() {
+        for (const Cell* head : heads_->unknown) {
+            if (with_numbers_.contains(head)) {
+                const std::string named = sheet_.words(*head);
+                budget_.unread_columns.push_back(named);
+                tables_.not_read.push_back(
+                    say("{cell}: the column {head} has numbers and is not read; what does it have?",
+                        sheet_.place(head->address), text::in_quotes(named)));
+            }
+        }
+    }
+    /// Whether a row has another unit than the result and nothing that brings it there, and a column is not read: what a budget in which
+    /// it is added as it stands would say, nobody wants to know.
+    [[nodiscard]] bool needs_unread_column() {
+        if (budget_.unread_columns.empty() || budget_.unit.empty()) {
+            return false;
+        }
+        const auto row = std::find_if(budget_.rows.begin(), budget_.rows.end(), [this](const AuditedRow& one) {
+            return !one.sensitivity && !one.contribution && !one.unit.empty() && known_unit(one.unit) &&
+                   known_unit(budget_.unit) && !factor_between(one.unit, budget_.unit);
+        });
+        if (row == budget_.rows.end()) {
+            return false;
+        }
+        tables_.not_read.push_back(
+            say("{cell}: {text} has another unit than the result and no coefficient that is read; the "
+                "table is not looked at; is it in the column {head}?",
+                row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
+        return true;
+    }
     /// Names a line with a number of which nothing is used, and the first of several together.
     void note_unread(const SheetView::Row& row) {
         const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
@@ -496,6 +536,7 @@ private:
         } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
             settle_constants();
+            tell_unknown_columns();
             settle_last_row();
             settle_result_line();
             if (is_open_) {
@@ -504,6 +545,11 @@ private:
                 return;
             }
             settle_statements();
+            if (needs_unread_column()) {
+                tables_.has_unusable = true;
+                clear();
+                return;
+            }
             if (is_unusable_) {
                 tables_.not_read.push_back(
                     say("{table}: the table is not looked at; a row has numbers that could not be read, and the others "
@@ -541,6 +587,7 @@ private:
         result_line_.reset();
         last_unread_.reset();
         last_constants_.clear();
+        with_numbers_.clear();
         looks_ = 0;
     }
 
@@ -763,6 +810,7 @@ private:
     std::size_t looks_ = 0;                                 ///< at sums of the rows, for lines that look like rows
     std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
     std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
+    std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
 };
 
 }  // namespace
@@ -782,10 +830,12 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         }
     }
     if (tables.budgets.empty() && !tables.has_unusable) {
-        tables.not_read.push_back(say(
-            "{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
-            "quantities and one u, what is divided, or the contributions — name the columns so, in English or German",
-            file));
+        tables.not_read.push_back(
+            say("{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
+                "quantities and one u, the contributions, or, beside a third column, what is divided — name the "
+                "columns so, "
+                "in English or German",
+                file));
     }
     return tables;
 }

@@ -145,5 +145,99 @@ TEST(WhatTablesSay, AConstantThatStandsLastIsUsedOrNamed) {
     EXPECT_FALSE(is_named(report, "Length"));
 }
 
+/// A unit, an explanation or a symbol behind the word of a head changes nothing of its meaning.
+TEST(WhatTablesSay, AHeadKeepsItsMeaningBeforeUnitAndSymbol) {
+    struct Head {
+        const char* word;
+        Column column;
+        const char* symbol;
+    };
+    const Head heads[] = {{"Quantity", Column::quantity, "X_i"},
+                          {"Größe", Column::quantity, "X_i"},
+                          {"Estimate", Column::estimate, "x_i"},
+                          {"Value", Column::estimate, "x"},
+                          {"Half-width", Column::stated, "a"},
+                          {"Halbweite", Column::stated, "a"},
+                          {"Standard uncertainty", Column::u, "u(x)"},
+                          {"Std. uncertainty", Column::u, "u(x_i)"},
+                          {"Standardunsicherheit", Column::u, "u"},
+                          {"Uncertainty", Column::u, "u(x)"},
+                          {"Sensitivity", Column::sensitivity, "dT/dx"},
+                          {"Sensitivity coefficient", Column::sensitivity, "c_i"},
+                          {"Sens.", Column::sensitivity, "c_i"},
+                          {"Sensitivity factor", Column::sensitivity, "∂f/∂x"},
+                          {"Empfindlichkeitskoeffizient", Column::sensitivity, "c"},
+                          {"Contribution", Column::contribution, "u_i(y)"},
+                          {"Contrib.", Column::contribution, "c·u"},
+                          {"Unsicherheitsbeitrag", Column::contribution, "u_i(y)"},
+                          {"Degrees of freedom", Column::nu, "ν_i"}};
+    for (const Head& head : heads) {
+        const std::string word = head.word, symbol = std::string(" ") + head.symbol;
+        const bool says_it_alone = word != "Uncertainty";
+        for (const char* unit : {"", " / nm", " [µm]", " (mm)", " in µm"}) {
+            if (says_it_alone) {
+                EXPECT_EQ(column_of(word + unit), head.column) << word << unit;
+            }
+            EXPECT_EQ(column_of(word + symbol + unit), head.column) << word << symbol << unit;
+        }
+    }
+    EXPECT_EQ(column_of("Half-width / U"), Column::stated);
+    EXPECT_EQ(column_of("U/k"), Column::u);
+    EXPECT_EQ(column_of("Half-width a or U"), Column::stated);
+    EXPECT_EQ(column_of("Halbweite a oder U"), Column::stated);
+    EXPECT_FALSE(column_of("Estimate or divisor"));
+    EXPECT_TRUE(is_unused_column("Reading / N·m"));
+    EXPECT_FALSE(column_of("Degrees of Doubt"));
+    EXPECT_TRUE(is_unused_column("Anteil"));
+    EXPECT_TRUE(is_unused_column("Contribution %"));
+    EXPECT_FALSE(is_unused_column("Slope"));
+}
+
+TEST(WhatTablesSay, AColumnThatIsNotUnderstoodAccusesNobody) {
+    for (const char* head : {"Slope", "dT per dV", "Umrechnung", "灵敏度"}) {
+        const std::string table = std::string("Quantity,Estimate,Unit,u,") + head +
+                                  ",Comment\nReference thermometer,100.002,°C,0.010,1,cert A\n"
+                                  "Voltage V,1.3850,mV,0.00050,20 °C/mV,\nBath homogeneity,0,°C,0.005,1,\n"
+                                  "u_c,0.015,°C\nk,2\nU,0.030,°C\n";
+        const AuditReport report = audit_of(table);
+        SCOPED_TRACE(head);
+        EXPECT_TRUE(is_named(report, head));
+        EXPECT_TRUE(is_named(report, "the table is not looked at"));
+        EXPECT_TRUE(report.results.empty());
+        // Rows in the unit of the result: what does not follow from them is told, and no grave error.
+        const AuditReport one_unit =
+            audit_of(std::string("Quantity,Estimate,Unit,u,") + head +
+                     "\nThermometer,100.002,°C,0.010,1\nWell,0,°C,0.001,20\nBath,0,°C,0.005,1\n"
+                     "u_c,0.0229,°C\nk,2\nU,0.046,°C\n");
+        EXPECT_TRUE(is_named(one_unit, head));
+        const AuditFinding* const sum = finding_of(one_unit, "K01");
+        ASSERT_NE(sum, nullptr);
+        EXPECT_LE(sum->severity, FindingSeverity::major);
+        const auto tells = [head](const Sentence& said) { return said.english().find(head) != std::string::npos; };
+        EXPECT_TRUE(std::any_of(sum->evidence.begin(), sum->evidence.end(), tells));
+    }
+    // The layout of EURACHEM: relative uncertainties bring the rows together, and their column is not read.
+    const AuditReport relative = audit_of(
+        "Quantity,Value x,Unit,Standard uncertainty u(x),u(x)/x\nPurity P,0.9998,1,0.000058,0.000058\n"
+        "Mass m,100.35,mg,0.06,0.00060\nVolume V,100.0,mL,0.08,0.00080\nResult "
+        "c,1003.3,mg/L,1.0,0.0010\nU,2.0,mg/L\nk,2\n");
+    EXPECT_TRUE(relative.results.empty());
+    EXPECT_TRUE(is_named(relative, "u(x)/x"));
+    const AuditReport read = audit_of(
+        "Quantity,Estimate,Unit,u,Sensitivity dT/dx,Comment\nReference thermometer,100.002,°C,0.010,1,cert A\n"
+        "Voltage V,1.3850,mV,0.00050,20 °C/mV,\nBath homogeneity,0,°C,0.005,1,\nu_c,0.015,°C\nk,2\nU,0.030,°C\n");
+    EXPECT_EQ(finding_of(read, "S01"), nullptr);
+    EXPECT_EQ(finding_of(read, "K01"), nullptr);
+    ASSERT_EQ(read.results.size(), 1U);
+    EXPECT_NEAR(read.results[0].recomputed.u_c, 0.015, 1e-9);
+}
+
+TEST(WhatTablesSay, TwoColumnsAreATable) {
+    const AuditReport report = audit_of("Quantity,u\nA,1\nB,2\nu_c,2.2\nk,2\nU,4.5\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_NEAR(report.results[0].recomputed.u_c, std::sqrt(5.0), 1e-9);
+    EXPECT_TRUE(audit_of("Name,Limit\nA,1\nB,2\n").results.empty());
+}
+
 }  // namespace
 }  // namespace gumcert::audit
