@@ -243,6 +243,8 @@ struct AuditedBudget {
     std::optional<StatedMonteCarlo> monte_carlo;
     /// Of a table: heads of columns of numbers that nobody understood. What does not follow may follow from them.
     std::vector<std::string> unread_columns = {};
+    /// Correlation coefficients that it states, and nobody knows of which rows.
+    std::vector<double> unread_correlations = {};
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };
 

@@ -1,7 +1,9 @@
 #include "audit/sources/foreign_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,6 +22,7 @@
 #include "audit/sources/table_heads.h"
 #include "audit/sources/table_units.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
@@ -218,7 +221,7 @@ private:
         if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
             return;
         }
-        if (note_constant(row)) {
+        if (note_correlation(row) || note_constant(row)) {
             return;
         }
         if (!is_row(row) && take_line(row)) {
@@ -278,6 +281,88 @@ private:
             heads_->all_units[heads_->columns.at(column)] = of_head;
         }
         return !units.empty();
+    }
+
+    /// A line that states a correlation: "Correlation r(T1; T2)" and a number.
+    [[nodiscard]] bool note_correlation(const SheetView::Row& row) {
+        if (!heads_ || !is_near_ || sheet_.value(*row.front()).kind != CellKind::text) {
+            return false;
+        }
+        const std::string name = text::in_small_letters(sheet_.words(*row.front()));
+        constexpr std::string_view k_words[] = {"correlation", "korrelation", "correlaci", "相關", "相关"};
+        const bool is_named = name.starts_with("r(") ||
+                              std::any_of(std::begin(k_words), std::end(k_words),
+                                          [&name](std::string_view word) { return name.find(word) != name.npos; });
+        const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        const bool has_amount =
+            numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
+        if (!is_named || has_amount || !correlation_in(row)) {
+            return false;
+        }
+        correlation_lines_.push_back(&row);
+        return true;
+    }
+    [[nodiscard]] std::optional<double> correlation_in(const SheetView::Row& row) const {
+        for (auto cell = row.begin() + 1; cell != row.end(); ++cell) {
+            if (const std::optional<NumberWithUnit> r = sheet_.number_with_unit(**cell)) {
+                return !r->is_open && std::abs(r->number.value) <= 1.0 ? std::optional(r->number.value) : std::nullopt;
+            }
+        }
+        return std::nullopt;
+    }
+    /// The one row whose words have a symbol; nothing where none has, or several.
+    [[nodiscard]] std::optional<std::size_t> row_with(std::string_view symbol) const {
+        const auto has = [symbol](std::string_view words) {
+            const auto is_of_word = [&words](std::size_t i) {
+                const auto c = static_cast<unsigned char>(words[i]);
+                return c >= 0x80U || std::isalnum(c) != 0 || c == '_';
+            };
+            for (std::size_t at = words.find(symbol); at != words.npos; at = words.find(symbol, at + 1)) {
+                const std::size_t end = at + symbol.size();
+                if ((at == 0 || !is_of_word(at - 1)) && (end == words.size() || !is_of_word(end))) {
+                    return true;
+                }
+            }
+            return false;
+        };
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < budget_.rows.size() && !symbol.empty(); ++i) {
+            if (has(budget_.rows[i].quantity) || has(budget_.rows[i].description)) {
+                if (found) {
+                    return std::nullopt;
+                }
+                found = i;
+            }
+        }
+        return found;
+    }
+    void settle_correlations() {
+        last_unread_.reset();
+        for (const SheetView::Row* row : correlation_lines_) {
+            const std::string name = sheet_.words(*row->front());
+            const double r = *correlation_in(*row);
+            const std::size_t open = name.rfind('('), close = name.rfind(')');
+            std::optional<std::size_t> first, second;
+            if (open != name.npos && close != name.npos && close > open) {
+                const std::string pair = name.substr(open + 1, close - open - 1);
+                const std::size_t sign = pair.find_first_of(";,");
+                if (sign != pair.npos && pair.find_first_of(";,", sign + 1) == pair.npos) {
+                    const auto bare = [](std::string text) {
+                        text.erase(0, text.find_first_not_of(' '));
+                        text.erase(text.find_last_not_of(' ') + 1);
+                        return text;
+                    };
+                    first = row_with(bare(pair.substr(0, sign)));
+                    second = row_with(bare(pair.substr(sign + 1)));
+                }
+            }
+            if (first && second && *first != *second) {
+                budget_.correlations.push_back({.first = *first, .second = *second, .r = r});
+            } else {
+                budget_.unread_correlations.push_back(r);
+                note_unread(*row);
+            }
+        }
     }
 
     /// A constant among the rows, or below the last of them, where it may be what the table is of: that is known when no more row
@@ -545,6 +630,7 @@ private:
                 return;
             }
             settle_statements();
+            settle_correlations();
             if (needs_unread_column()) {
                 tables_.has_unusable = true;
                 clear();
@@ -588,6 +674,7 @@ private:
         last_unread_.reset();
         last_constants_.clear();
         with_numbers_.clear();
+        correlation_lines_.clear();
         looks_ = 0;
     }
 
@@ -811,6 +898,7 @@ private:
     std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
     std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
     std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
+    std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
 };
 
 }  // namespace

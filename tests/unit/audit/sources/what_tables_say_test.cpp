@@ -239,5 +239,50 @@ TEST(WhatTablesSay, TwoColumnsAreATable) {
     EXPECT_TRUE(audit_of("Name,Limit\nA,1\nB,2\n").results.empty());
 }
 
+/// The sum of two rows with the correlation that a line states, where its names are words of one row each.
+TEST(WhatTablesSay, ACorrelationIsThatOfItsRows) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> size(0.5, 5.0), any(-1.0, 1.0);
+    for (int i = 0; i < 40; ++i) {
+        const std::string a = text::significant(size(random), 3), b = text::significant(size(random), 3),
+                          r = i % 4 == 0 ? "1" : text::fixed(any(random), 2);
+        const std::string c = i % 2 == 0 ? "-1" : "1";
+        const double x = std::stod(a), y = std::stod(c) * std::stod(b), rest = 1.2;
+        const double u_c = std::sqrt(x * x + y * y + 2.0 * std::stod(r) * x * y + rest * rest);
+        const char* const names[] = {"Correlation r(T1; T2)", "Korrelation (T2, T1)", "r(T1, T2)"};
+        const std::string table = "Quantity,Estimate,Unit,u,Sensitivity,Source\nReading T1 (reference),80.0,mK," + a +
+                                  ",1,certificate T-55\nReading T2 (reference),79.0,mK," + b + "," + c +
+                                  ",certificate T-55\nRepeatability,0,mK,1.2,1,\n\"" + names[i % 3] + "\"," + r +
+                                  "\nvalue,1.0,mK\nu_c," + text::significant(u_c, 4) + ",mK\nk,2\nU," +
+                                  text::significant(2.0 * u_c, 4) + ",mK\n";
+        SCOPED_TRACE(table);
+        const AuditReport report = audit_of(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
+        EXPECT_EQ(finding_of(report, "K01"), nullptr);
+        EXPECT_EQ(finding_of(report, "S10"), nullptr);
+    }
+    const std::string rows =
+        "Quantity,Estimate,Unit,u,Sensitivity,Source\nFirst reading,80.0,mK,20,1,certificate T-55\n"
+        "Second reading,79.0,mK,20,-1,certificate T-55\nRepeatability,0,mK,9.0,1,\n";
+    const std::string claims = "value,1.0,mK\nu_c,9.0,mK\nk,2\nU,18,mK\n";
+    // Of which rows it is, nobody says: it is named, and what it explains is asked.
+    const AuditReport open = audit_of(rows + "Correlation r(T1; T2),1\n" + claims);
+    EXPECT_TRUE(is_named(open, "Correlation"));
+    const AuditFinding* const asked = finding_of(open, "K01");
+    ASSERT_NE(asked, nullptr);
+    EXPECT_EQ(asked->severity, FindingSeverity::minor);
+    ASSERT_EQ(open.results.size(), 1U);
+    EXPECT_NEAR(open.results[0].audited.U, 18.0, 1e-9);
+    // Without one, what r = 0 and 1 give is that of the rows, whatever is claimed.
+    const AuditReport none = audit_of(rows + claims);
+    const AuditFinding* const neglected = finding_of(none, "S10");
+    ASSERT_NE(neglected, nullptr);
+    ASSERT_EQ(neglected->evidence.size(), 3U);
+    EXPECT_NE(neglected->evidence[0].english().find("29.68 mK"), std::string::npos) << neglected->evidence[0].english();
+    EXPECT_NE(neglected->evidence[1].english().find("9 mK"), std::string::npos) << neglected->evidence[1].english();
+    EXPECT_NE(neglected->evidence[2].english().find("41 mK"), std::string::npos) << neglected->evidence[2].english();
+}
+
 }  // namespace
 }  // namespace gumcert::audit
