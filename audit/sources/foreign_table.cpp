@@ -178,8 +178,9 @@ private:
 /// Reads one sheet, or a part of it, from top to bottom.
 class TableReader {
 public:
-    TableReader(const SheetView& sheet, std::string name, ForeignTables& tables)
-        : sheet_(sheet), name_(std::move(name)), tables_(tables) {}
+    /// \param titles  gets the line of words above each budget that is found, or ""
+    TableReader(const SheetView& sheet, std::string name, ForeignTables& tables, std::vector<std::string>& titles)
+        : sheet_(sheet), name_(std::move(name)), tables_(tables), titles_(titles) {}
 
     void read(const SheetView::Rows& rows) {
         std::uint32_t last = 0;
@@ -215,8 +216,15 @@ private:
                         sheet_.place(cell->address), text::in_quotes(sheet_.words(*cell))));
             }
             in_rows_ = is_near_ = true;
+            constexpr std::uint32_t k_near = 2;  // lines
+            title_ = number <= line_above_ + k_near ? above_ : "";
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
+        }
+        if (const std::vector<const Cell*> held = cells_with_words(row);
+            held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
+            above_ = sheet_.words(*held[0]);
+            line_above_ = number;
         }
         if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
             return;
@@ -253,6 +261,12 @@ private:
         }
     }
 
+    [[nodiscard]] std::vector<const Cell*> cells_with_words(const SheetView::Row& row) const {
+        std::vector<const Cell*> held;
+        std::copy_if(row.begin(), row.end(), std::back_inserter(held),
+                     [this](const Cell* cell) { return !sheet_.words(*cell).empty(); });
+        return held;
+    }
     /// A line of units alone below heads: each column of numbers that has one there has it for all its rows.
     [[nodiscard]] bool take_units(const SheetView::Row& row) {
         std::map<Column, std::string> units;
@@ -660,6 +674,7 @@ private:
             settle_contributions(budget_);
             note_unexplained(budget_);
             tables_.budgets.push_back(std::move(budget_));
+            titles_.push_back(title_);
         }
         clear();
     }
@@ -899,13 +914,38 @@ private:
     std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
     std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
     std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
+    std::string above_, title_;                             ///< last line of words alone, and that above the heads
+    std::uint32_t line_above_ = 0;
+    std::vector<std::string>& titles_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Budgets of one name are told apart by the line above their heads, or by their place.
+void tell_apart(std::vector<AuditedBudget>& budgets, const std::vector<std::string>& titles) {
+    const auto add = [&budgets](const auto& words) {
+        std::map<std::string, std::size_t> names;
+        for (const AuditedBudget& budget : budgets) {
+            ++names[budget.name];
+        }
+        for (std::size_t i = 0; i < budgets.size(); ++i) {
+            if (names[budgets[i].name] > 1 && !words(i).empty()) {
+                budgets[i].name += ", " + words(i);
+            }
+        }
+    };
+    add([&titles](std::size_t i) { return titles[i]; });
+    add([&budgets](std::size_t i) { return budgets[i].place; });
+}
 
 }  // namespace
 
 ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation,
                          const std::string& file) {
     ForeignTables tables;
+    std::vector<std::string> titles;
     const DecimalSign sign = decimal_sign_of(workbook);
     for (std::size_t i = 0; i < workbook.sheets.size(); ++i) {
         if (workbook.sheets[i].state != workbook::SheetState::visible) {
@@ -914,9 +954,10 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
         for (const SheetView::Rows& rows : parts_of(sheet)) {
-            TableReader(sheet, name, tables).read(rows);
+            TableReader(sheet, name, tables, titles).read(rows);
         }
     }
+    tell_apart(tables.budgets, titles);
     if (tables.budgets.empty() && !tables.has_unusable) {
         tables.not_read.push_back(
             say("{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "

@@ -284,5 +284,23 @@ TEST(WhatTablesSay, ACorrelationIsThatOfItsRows) {
     EXPECT_NE(neglected->evidence[2].english().find("41 mK"), std::string::npos) << neglected->evidence[2].english();
 }
 
+TEST(WhatTablesSay, BudgetsOfOneSheetHaveNamesOfTheirOwn) {
+    for (const char* above : {"Load 100 g", ""}) {
+        std::string sheet;
+        for (int i = 0; i < 4; ++i) {
+            sheet += std::string(above) +
+                     "\nQuantity,u,Unit\nWeight,1.0,mg\nBalance,0.5,mg\nu_c,1.12,mg\nk,2\nU,2.2,mg\n\n\n";
+        }
+        const AuditReport report = audit_of(sheet);
+        ASSERT_EQ(report.results.size(), 4U);
+        std::set<std::string> names;
+        for (const AuditedResult& result : report.results) {
+            names.insert(result.name);
+            EXPECT_NE(result.name.find(above), std::string::npos) << result.name;
+        }
+        EXPECT_EQ(names.size(), 4U);
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit
