@@ -14,6 +14,7 @@
 #include "audit/severity.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rounding.h"
+#include "text/visible_text.h"
 
 namespace gumcert::audit {
 namespace {
@@ -21,6 +22,32 @@ namespace {
 /// Largest change of ln U, for the order of findings and the choice among points.
 double size_of(const Effect& effect) {
     return std::max(size_of_change(effect.claimed.U, effect.alone.U), size_of_change(effect.last.U, effect.audited.U));
+}
+
+/// One unit of the last digit of a number that is stated; 0 of one without a text.
+double stated_step_of(const StatedNumber& number) {
+    return 2.0 * (number.half_step > 0.0 ? number.half_step : printed_half_step(number));
+}
+
+void note_uncorrected_U(AuditedBudget& budget) {
+    budget.uncorrected_U.reset();
+    if (!budget.claims.U || !(budget.claims.U->value > 0.0) || !budget.claims.broken.U.empty()) {
+        return;
+    }
+    const StatedNumber& U = *budget.claims.U;
+    try {
+        const UncorrectedU found{.stated = U.value,
+                                 .evaluated = evaluate(budget).U,
+                                 .step = U.text.empty() ? 0.0 : stated_step_of(U),
+                                 .text = U.text.empty() ? "" : text_of_claim(U)};
+        // u_c and k that were rounded on the way move U by two units at most.
+        const double step = std::max(found.step, std::pow(10.0, std::floor(std::log10(U.value)) - budget.digits + 1));
+        if (found.evaluated > 0.0 && std::abs(found.stated - found.evaluated) <= 2.0 * step) {
+            budget.uncorrected_U = found;
+        }
+    } catch (const gum::DiagnosedError&) {
+        return;  // told where the budget is evaluated
+    }
 }
 
 /// Claims as they are stated; where a number is not stated, what the rows give.
@@ -42,7 +69,7 @@ BudgetOutcome claimed_outcome(const AuditedBudget& budget, const BudgetOutcome& 
     }
     if (claims.U && !claims.U->text.empty()) {
         outcome.printed_U = text_of_claim(*claims.U);
-        outcome.stated_step = 2.0 * (claims.U->half_step > 0.0 ? claims.U->half_step : printed_half_step(*claims.U));
+        outcome.stated_step = stated_step_of(*claims.U);
     } else if (claims.U && claims.U->value > 0.0) {
         outcome.printed_U =
             gum::round_to_uncertainty(outcome.value.value_or(0.0), claims.U->value, budget.digits, budget.rounding).U;
@@ -146,6 +173,22 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
     }
 }
 
+/// Where columns of numbers were not understood, what does not follow from the others may follow from these: it is asked, and
+/// nobody is accused of a grave error.
+void limit_by_unread_columns(AuditFinding& finding, const AuditSubject& subject) {
+    const bool needs_all_columns = finding.rule == "S01" || finding.rule == "K01" || finding.rule == "K09";
+    if (!needs_all_columns || finding.budgets.empty()) {
+        return;
+    }
+    const std::vector<std::string>& unread = subject.budgets[finding.budgets.front()].unread_columns;
+    for (const std::string& head : unread) {
+        finding.evidence.push_back(say("the column {head} has numbers that were not read", text::in_quotes(head)));
+    }
+    if (!unread.empty()) {
+        finding.severity = std::min(finding.severity, FindingSeverity::major);
+    }
+}
+
 /// The same as gum::message().
 Sentence message_in_words(const gum::Diagnostic& diagnostic) {
     Sentence said = diagnostic.where;
@@ -238,6 +281,9 @@ const certificate::Waiver* waiver_of(const AuditFinding& finding, std::span<cons
 
 AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
     AuditReport report;
+    for (AuditedBudget& budget : subject.budgets) {
+        note_uncorrected_U(budget);
+    }
     std::vector<SeverityPolicy> policies;
     std::vector<const Rule*> of_rest;
     const auto take = [&report, &policies](const Rule& rule, FindingCollector& collector) {
@@ -320,6 +366,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (finding.effect && finding.effect_on_score && finding.effect->budget == finding.effect_on_score->budget) {
             finding.effect_on_score.reset();
         }
+        limit_by_unread_columns(finding, subject);
         // A term that is not there has no size that could be corrected: told is how large it would have to be to be
         // seen.
         if (finding.contribution_missing && !finding.budgets.empty()) {

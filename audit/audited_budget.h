@@ -49,6 +49,13 @@ enum class Contributor {
 /// What a relative uncertainty is a part of.
 enum class RelativeTo { not_stated, reading, full_scale };
 
+/// What a correction has multiplied the standard uncertainty of a row by.
+struct FactorOfU {
+    double factor = 1.0;
+    double tolerance = 0.01;   ///< relative: of a u that was set, what the digits of the former u leave open is in it
+    bool of_rounding = false;  ///< from a printed u to the one that it was rounded from
+};
+
 /// One row of an uncertainty budget as somebody states it. Numbers of a row are in its own unit.
 struct AuditedRow {
     std::string quantity, unit, source, comment;
@@ -92,7 +99,7 @@ struct AuditedRow {
     double used_nu = std::numeric_limits<double>::infinity();
     double u_half_step = 0.0, sensitivity_half_step = 0.0;  ///< what the printed digits of both leave open
     /// What corrections have multiplied `used_u` by, so that one error which several rules see is corrected once.
-    std::vector<double> factors_of_u = {};
+    std::vector<FactorOfU> factors_of_u = {};
 
     // What only some rows say. Texts are read by audit/row_facts.h; a reader of columns or jobs may know them itself.
     std::optional<double> relative_uncertainty;  ///< "0.5 % of full scale": 0.005
@@ -179,6 +186,13 @@ struct Claims {
     BrokenClaims broken;
 };
 
+/// U of a budget that nothing has corrected: as it is stated, and as it is evaluated, from which it was rounded.
+struct UncorrectedU {
+    double stated = 0.0, evaluated = 0.0;  ///< > 0
+    double step = 0.0;                     ///< one unit of the last digit of the former; 0: known to all digits
+    std::string text;                      ///< of the former; "" without
+};
+
 /// Of a workbook that shows other results than its formulas give: what these give, and what it has beyond the rows.
 struct ComputedClaims {
     Claims claims;
@@ -228,7 +242,13 @@ struct AuditedBudget {
     gum::RoundingMode rounding = gum::RoundingMode::half_even;
     Claims claims;
     std::optional<ComputedClaims> computed_claims;  ///< `claims` has what is shown
+    /// So that all copies of the budget print U alike: one that is not corrected as it is stated.
+    std::optional<UncorrectedU> uncorrected_U = {};
     std::optional<StatedMonteCarlo> monte_carlo;
+    /// Of a table: heads of columns of numbers that nobody understood. What does not follow may follow from them.
+    std::vector<std::string> unread_columns = {};
+    /// Correlation coefficients that it states, and nobody knows of which rows.
+    std::vector<double> unread_correlations = {};
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error
 };
 

@@ -223,6 +223,39 @@ void compare(const AuditedBudget& budget, BudgetOutcome& outcome) {
     }
 }
 
+/// One unit of the last of some significant digits.
+double step_of_digits(double number, int digits) {
+    return std::pow(10.0, std::floor(std::log10(number)) - digits + 1);
+}
+
+/// Whether U is rounded like the one that is stated, which the laboratory made of another number than the rows give: from
+/// U = 2 × 15.3 = 30.6 it states 31, and the rows give 30.496. Between both nothing else is printed, and on the side of the rows
+/// nothing up to half a unit.
+bool is_rounded_as_stated(const AuditedBudget& budget, const UncorrectedU& before, double U) {
+    const double step = step_of_digits(before.stated, budget.digits);
+    const auto rounded = [&budget](double number) {
+        return gum::round_to_uncertainty(0.0, number, budget.digits, budget.rounding).U;
+    };
+    if (before.step > step * (1.0 + 1e-9) || rounded(before.stated) == rounded(before.evaluated)) {
+        return false;
+    }
+    return before.evaluated < before.stated ? before.evaluated - 0.5 * step <= U && U <= before.stated
+                                            : before.stated <= U && U <= before.evaluated + 0.5 * step;
+}
+
+void print(const AuditedBudget& budget, BudgetOutcome& outcome) {
+    constexpr double k_unchanged = 5e-4;  // what prints as 0.0 %
+    const std::optional<UncorrectedU>& before = budget.uncorrected_U;
+    const bool is_as_stated = before && is_rounded_as_stated(budget, *before, outcome.U);
+    const gum::RoundedPair printed = gum::round_to_uncertainty(
+        outcome.value.value_or(0.0), is_as_stated ? before->stated : outcome.U, budget.digits, budget.rounding);
+    outcome.printed_value = outcome.value ? printed.value : "";
+    outcome.printed_U = outcome.rounded_U = printed.U;
+    if (before && !before->text.empty() && std::abs(outcome.U / before->evaluated - 1.0) < k_unchanged) {
+        outcome.printed_U = before->text;
+    }
+}
+
 }  // namespace
 
 bool verdict_turns(std::string_view before, std::string_view after) {
@@ -259,10 +292,7 @@ BudgetOutcome evaluate(const AuditedBudget& budget, const CoverageRule& coverage
         outcome.U = *budget.capability;
         outcome.at_capability = true;
     }
-    const gum::RoundedPair printed =
-        gum::round_to_uncertainty(outcome.value.value_or(0.0), outcome.U, budget.digits, budget.rounding);
-    outcome.printed_value = outcome.value ? printed.value : "";
-    outcome.printed_U = printed.U;
+    print(budget, outcome);
     decide(budget, coverage, u_of_rows, outcome);
     compare(budget, outcome);
     return outcome;

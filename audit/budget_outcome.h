@@ -24,6 +24,8 @@ struct BudgetOutcome {
     double U = 0.0;              ///< k u_c, raised to the capability where the budget does so
     bool at_capability = false;  ///< U is the capability, because k u_c is smaller
     std::string printed_value, printed_U;
+    /// U to the digits of the budget, in which a change is seen; `printed_U` may have the digits of a statement.
+    std::string rounded_U;
     double stated_step =
         0.0;              ///< of a U that somebody stated: one unit of its last printed digit; 0 of one computed here
     std::string verdict;  ///< "" without limits, rule or value
@@ -44,6 +46,8 @@ struct BudgetOutcome {
 /// ν_eff by Welch–Satterthwaite (eq. G.2b), k by the rule of coverage of the budget, U = max(k u_c, capability);
 /// verdict by gum/conformity, E_n by gum/comparison, printed digits by gum/rounding.
 /// Where verdict or E_n cannot be told, the outcome says why, and the rest of it stands.
+/// Where the budget has an uncorrected U: no correction of it is printed as it is stated, and what lies between what was
+/// evaluated and what is stated, which the laboratory rounded in its own way, is rounded like the latter.
 /// \throws NoResultError  GC-AUDIT-0001 where rows and correlations give no positive u_c
 [[nodiscard]] BudgetOutcome evaluate(const AuditedBudget& budget);
 /// The same with another rule of coverage.

@@ -93,7 +93,7 @@ std::vector<double> sampled_shares(Outcomes& outcomes, std::size_t n, std::size_
 }
 
 bool is_seen(const BudgetOutcome& before, const BudgetOutcome& after) {
-    return before.printed_U != after.printed_U;
+    return before.rounded_U != after.rounded_U;
 }
 bool changes_decision(const BudgetOutcome& before, const BudgetOutcome& after) {
     const bool en = before.en && after.en && (std::abs(*before.en) > 1.0) != (std::abs(*after.en) > 1.0);

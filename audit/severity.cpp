@@ -11,7 +11,7 @@ FindingSeverity severity_of_step(const BudgetOutcome& before, const BudgetOutcom
     if (verdict_turns(before.verdict, after.verdict) || en_turns || after.U >= before.U * (1.0 + k_understated)) {
         return FindingSeverity::critical;
     }
-    return before.printed_U != after.printed_U || before.printed_value != after.printed_value ? FindingSeverity::major
+    return before.rounded_U != after.rounded_U || before.printed_value != after.printed_value ? FindingSeverity::major
                                                                                               : FindingSeverity::minor;
 }
 
@@ -24,8 +24,9 @@ FindingSeverity severity_of(const Effect& effect) {
 std::string direction_in_words(const BudgetOutcome& claimed, const BudgetOutcome& corrected) {
     // Two texts may differ in digits and signs alone: 0.06, 0,06 and 0.060.
     constexpr double k_half = 0.5 * (1.0 + 1e-9);
-    if (claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
-                                  : claimed.printed_U == corrected.printed_U) {
+    if (claimed.printed_U == corrected.printed_U ||
+        (claimed.stated_step > 0.0 ? std::abs(claimed.U - corrected.U) <= k_half * claimed.stated_step
+                                   : claimed.rounded_U == corrected.rounded_U)) {
         return "U unchanged";
     }
     return corrected.U > claimed.U ? "U understated" : "U overstated";

@@ -82,6 +82,25 @@ void contribution_not_reproducible(const AuditSubject& subject, FindingCollector
     });
 }
 
+/// A correlation that is stated without its rows, and two rows of which it explains the claimed u_c.
+std::optional<RowCorrelation> explaining_correlation(const AuditedBudget& budget) {
+    constexpr std::size_t k_most_rows = 40;
+    for (const double r : budget.unread_correlations) {
+        for (std::size_t i = 0; i < std::min(budget.rows.size(), k_most_rows); ++i) {
+            for (std::size_t j = i + 1; j < std::min(budget.rows.size(), k_most_rows); ++j) {
+                AuditedBudget with = budget;
+                with.u_c_over_rows = 1.0;
+                with.correlations.push_back({.first = i, .second = j, .r = r});
+                const ClaimCheck check = check_u_c(with);
+                if (check.allowed && !check.u_c_outside) {
+                    return with.correlations.back();
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// K01
 void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
     contribution_not_reproducible(subject, findings);
@@ -100,9 +119,19 @@ void not_reproducible(const AuditSubject& subject, FindingCollector& findings) {
             finding.expected = range_in_words(check.u_c, budget.unit);
             finding.actual = say_number(claimed_in_words(*budget.claims.u_c, budget.unit));
             finding.kind = "u_c";
-            // ν_eff of the sum that is claimed goes with it.
-            finding.correct = [](AuditedBudget& corrected) { corrected.u_c_over_rows = corrected.k_over_rows = 1.0; };
-            findings.add(std::move(finding));
+            if (const std::optional<RowCorrelation> pair = explaining_correlation(budget)) {
+                finding.evidence.push_back(say("with r = {r:number} of {first} and {second} it follows",
+                                               in_words(pair->r), name_of_row(budget, pair->first),
+                                               name_of_row(budget, pair->second)));
+                finding.question = "Which rows does the stated correlation belong to?";
+                findings.add(std::move(finding), FindingSeverity::minor);
+            } else {
+                // ν_eff of the sum that is claimed goes with it.
+                finding.correct = [](AuditedBudget& corrected) {
+                    corrected.u_c_over_rows = corrected.k_over_rows = 1.0;
+                };
+                findings.add(std::move(finding));
+            }
         }
         if (check.nu_eff_outside && !check.u_c_outside) {
             AuditFinding finding =
@@ -223,7 +252,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
         cut.truncate = true;
         const BudgetOutcome whole = evaluate(budget, as_it_is), lower = evaluate(budget, cut);
         // Told only where a reader would see it, or where one file does both.
-        if (whole.printed_U == lower.printed_U && !some_truncate) {
+        if (whole.rounded_U == lower.rounded_U && !some_truncate) {
             return;
         }
         if (is_about(whole.k, lower.k, 1e-9)) {
@@ -238,7 +267,7 @@ void truncation(const AuditSubject& subject, FindingCollector& findings) {
                       "printed otherwise",
                       in_words(outcome.nu_eff)));
         finding.evidence = {say("k = {k:number}, cut {cut:number}", in_words(whole.k), in_words(lower.k)),
-                            say("U = {U:number}, cut {cut:number}", whole.printed_U, lower.printed_U)};
+                            say("U = {U:number}, cut {cut:number}", whole.rounded_U, lower.rounded_U)};
         if (some_truncate) {
             finding.correct = [](AuditedBudget& corrected) {
                 if (corrected.coverage.kind == CoverageRule::Kind::student_t) {

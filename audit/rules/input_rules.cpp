@@ -46,29 +46,12 @@ double left_open(const AuditedRow& row, double value) {
     return row.stated && is_about(row.stated->value, value, 1e-9) ? row.stated->half_step : 0.0;
 }
 
-/// The number that u was made from, by the words of the row or else by its column; 0 where neither says one.
-double number_divided(const AuditedRow& row) {
-    return row.origin_value.value_or(row.stated ? std::abs(row.stated->value) : 0.0);
-}
-
 /// Whether the columns of a table divide as they should and give u: a number of its words that says otherwise is not the
 /// one that was divided ("accuracy over 1 year").
 bool columns_divide_by(const AuditedRow& row, double divisor) {
     return row.stated && row.divisor &&
            std::abs(row.divisor->value - divisor) <= row.divisor->half_step + 0.01 * divisor &&
            !u_differs(row, std::abs(row.stated->value) / divisor, 0.01, row.stated->half_step / divisor);
-}
-
-/// Whether the column of what is divided has the number of the words twice, or its decimal sign at another place: no such
-/// two numbers mean the same by chance. Half of a number is not looked for: that of a full width.
-bool is_slip_of(const AuditedRow& row, double words) {
-    if (!row.stated || !(words > 0.0)) {
-        return false;
-    }
-    constexpr double k_factors[] = {2.0, 10.0, 0.1, 100.0, 0.01, 1000.0, 0.001};
-    const double ratio = std::abs(row.stated->value) / words;
-    return std::any_of(std::begin(k_factors), std::end(k_factors),
-                       [ratio](double factor) { return is_about(ratio, factor, 1e-9); });
 }
 
 /// "u = 0.4 µm", and what it comes from.
@@ -144,8 +127,9 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
         if (!u_differs(row, expected, 0.01, left_open(row, half_width) / divisor)) {
             return;
         }
-        const bool consistent =
-            row.divisor && row.stated && is_about(row.used_u, std::abs(row.stated->value) / row.divisor->value, 0.003);
+        const bool consistent = row.divisor && row.stated &&
+                                !u_differs(row, std::abs(row.stated->value / row.divisor->value), 0.003,
+                                           std::abs(row.stated->half_step / row.divisor->value));
         const bool slip = mentions(row, {"\u00B1", "+/-"}) && is_slip_of(row, half_width);
         if (consistent && !slip && row.shape != Shape::not_stated &&
             !is_about(row.divisor->value, std::sqrt(12.0), 0.003)) {
@@ -241,15 +225,12 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         const double step = *row.origin_value;
-        const std::string said = row.quantity + row.comment + row.source;
-        const bool in_column_only = row.stated && is_about(row.stated->value, step, 1e-9) &&
-                                    said.find_first_of("0123456789") == std::string::npos;
         const NamedRatio* ratio = named(k_ratios, row, step);
         // A column of half-widths may hold half of the step already.
         // Told only where the ratio is that of a known slip. d/√12 is one reading, √2 d/√12 = d/√6 the difference of
         // two.
         if (ratio == nullptr || !u_differs(row, step / std::sqrt(12.0)) || !u_differs(row, step / std::sqrt(6.0)) ||
-            (in_column_only && ratio->ratio > 0.5)) {
+            (is_step_of_column(row) && ratio->ratio > 0.5)) {
             return;
         }
         add_other_u(at, findings, say("resolution {step:number}: {ratio}", in_words(step, row.unit), ratio->name),
@@ -264,11 +245,14 @@ void maximum_permissible_error_as_u(const AuditSubject& subject, FindingCollecto
             !is_about(at.is.used_u, *at.is.origin_value)) {
             return;
         }
+        const bool is_other = at.is.shape == Shape::triangular || at.is.shape == Shape::arcsine;
         add_other_u(at, findings,
                     say("the maximum permissible error {limit:number} stands as the standard uncertainty; an "
                         "instrument that conforms lies within ± that limit",
                         in_words(*at.is.origin_value, at.is.unit)),
-                    evidence_of(at.is, "MPE", *at.is.origin_value), *at.is.origin_value / k_root_3, Shape::rectangular);
+                    evidence_of(at.is, "MPE", *at.is.origin_value),
+                    is_other ? *u_by_words(at.is) : *at.is.origin_value / k_root_3,
+                    is_other ? at.is.shape : Shape::rectangular);
     });
 }
 
@@ -589,35 +573,6 @@ void value_as_its_own_uncertainty(const AuditSubject& subject, FindingCollector&
         }
         findings.add(std::move(finding));
     });
-}
-
-/// The standard uncertainty that the words of a row give, or its column by them: a/√3 of a rectangular distribution,
-/// d/√12 of a step, U/k of a certificate, s/√n of readings.
-std::optional<double> u_by_words(const AuditedRow& row) {
-    const double number = number_divided(row);
-    if (!(number > 0.0)) {
-        return std::nullopt;
-    }
-    if (row.origin == Origin::resolution) {
-        return number / std::sqrt(12.0);
-    }
-    if (row.origin == Origin::readings) {
-        return row.n && *row.n > 0 ? std::optional(number / std::sqrt(static_cast<double>(*row.n))) : std::nullopt;
-    }
-    if (row.origin == Origin::certificate) {
-        return row.certificate_k && *row.certificate_k > 0.0 ? std::optional(number / *row.certificate_k)
-                                                             : std::nullopt;
-    }
-    switch (row.shape) {
-        case Shape::rectangular:
-            return number / k_root_3;
-        case Shape::triangular:
-            return number / std::sqrt(6.0);
-        case Shape::arcsine:
-            return number / std::numbers::sqrt2;
-        default:
-            return std::nullopt;
-    }
 }
 
 /// Whether the correction of another finding gives the row another u, or what the row contributes with its quotient: what

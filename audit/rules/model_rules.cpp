@@ -603,9 +603,15 @@ void counted_twice(const AuditSubject& subject, FindingCollector& findings) {
     }
 }
 
+/// What the rows of a budget give by themselves, whatever is claimed.
+AuditedBudget of_rows(AuditedBudget budget) {
+    budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
+    return budget;
+}
+
 /// What u_c is where two rows are correlated.
 std::string u_with_correlation(const AuditedBudget& budget, std::size_t a, std::size_t b, double r) {
-    AuditedBudget with = budget;
+    AuditedBudget with = of_rows(budget);
     with.correlations.push_back({.first = a, .second = b, .r = r});
     const std::optional<BudgetOutcome> outcome = outcome_of(with);
     return outcome ? in_words(outcome->u_c, budget.unit) : "0";
@@ -615,7 +621,7 @@ std::string u_with_correlation(const AuditedBudget& budget, std::size_t a, std::
 void add_neglected_correlation(const AuditSubject& subject, const SharedSource& pair, bool of_fit,
                                FindingCollector& findings) {
     const AuditedBudget& budget = subject.budgets[pair.budget];
-    const std::optional<BudgetOutcome> outcome = outcome_of(budget);
+    const std::optional<BudgetOutcome> outcome = outcome_of(of_rows(budget));
     const std::string& source = named_source(budget.rows[pair.second]);
     const Sentence other = name_of_row(budget, pair.first);
     AuditFinding finding = finding_at(
@@ -635,6 +641,11 @@ void add_neglected_correlation(const AuditSubject& subject, const SharedSource& 
 void neglected_correlation(const AuditSubject& subject, FindingCollector& findings) {
     for (const SharedSource& pair : shared_sources(subject)) {
         const AuditedBudget& budget = subject.budgets[pair.budget];
+        if (!budget.unread_correlations.empty()) {
+            findings.leave_unchecked(
+                say("{table}: a correlation is stated, and it was not read of which rows", budget.place));
+            continue;
+        }
         const AuditedRow &a = budget.rows[pair.first], &b = budget.rows[pair.second];
         // One certificate, one sensor: the same error is in both. A drift or a resolution is an effect of its own.
         const bool certificates = a.origin == Origin::certificate && b.origin == Origin::certificate;
@@ -652,6 +663,11 @@ void neglected_correlation(const AuditSubject& subject, FindingCollector& findin
 void neglected_fit_covariance(const AuditSubject& subject, FindingCollector& findings) {
     for (const SharedSource& pair : shared_sources(subject)) {
         const AuditedBudget& budget = subject.budgets[pair.budget];
+        if (!budget.unread_correlations.empty()) {
+            findings.leave_unchecked(
+                say("{table}: a correlation is stated, and it was not read of which rows", budget.place));
+            continue;
+        }
         if (budget.rows[pair.first].contributor == Contributor::fit &&
             budget.rows[pair.second].contributor == Contributor::fit &&
             !have_correlation(budget, pair.first, pair.second)) {

@@ -95,16 +95,15 @@ void places_differ(const AuditSubject& subject, FindingCollector& findings) {
 /// R03: the rows were rounded before they were added up.
 void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings) {
     const auto unrounded = [](AuditedBudget& budget) {
-        for (AuditedRow& row : budget.rows) {
+        for (std::size_t r = 0; r < budget.rows.size(); ++r) {
+            const AuditedRow& row = budget.rows[r];
             if (!row.stated || !row.divisor || !row.u || !(row.divisor->value > 0.0)) {
                 continue;
             }
             const double u = std::abs(row.stated->value / row.divisor->value);
             // A printed u that is not the rounded quotient has another cause than rounding, and other rules tell it.
             if (row.u->interval().contains(u)) {
-                row.used_u = u;
-                row.u_half_step = 0.0;
-                row.contribution.reset();
+                unround_u(r, u)(budget);
             }
         }
     };
@@ -113,15 +112,15 @@ void rounded_on_the_way(const AuditSubject& subject, FindingCollector& findings)
         const std::optional<BudgetOutcome> rounded = outcome_or_none(exact);
         unrounded(exact);
         const std::optional<BudgetOutcome> outcome = outcome_or_none(exact);
-        if (!rounded || !outcome || rounded->printed_U == outcome->printed_U) {
+        if (!rounded || !outcome || rounded->rounded_U == outcome->rounded_U) {
             continue;
         }
         AuditFinding finding = finding_of(subject, i,
                                           say("U follows from rounded standard uncertainties: {rounded:number}, and "
                                               "{unrounded:number} from the numbers that they were rounded from",
-                                              rounded->printed_U, outcome->printed_U));
-        finding.expected = say_number(outcome->printed_U);
-        finding.actual = say_number(rounded->printed_U);
+                                              rounded->rounded_U, outcome->rounded_U));
+        finding.expected = say_number(outcome->rounded_U);
+        finding.actual = say_number(rounded->rounded_U);
         finding.correct = unrounded;
         findings.add(std::move(finding));
     }

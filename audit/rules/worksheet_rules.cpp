@@ -150,14 +150,11 @@ struct Divisor {
     double value;
     Sentence name;
 };
-const std::array<Divisor, 8> k_divisors = {
-    Divisor{1.7320508075688772, say("√3 (rectangular)")},
-    Divisor{2.449489742783178, say("√6 (triangular)")},
-    Divisor{1.4142135623730951, say("√2 (arcsine)")},
-    Divisor{2.0, say("2 (normal, k = 2)")},
-    Divisor{3.0, "3"},
-    Divisor{3.4641016151377544, say("√12 (a full step)")},
-    Divisor{2.23606797749979, "√5"},
+/// Those whose number does not say by itself what they are.
+const std::array<Divisor, 7> k_divisors = {
+    Divisor{1.7320508075688772, say("√3 (rectangular)")},  Divisor{2.449489742783178, say("√6 (triangular)")},
+    Divisor{1.4142135623730951, say("√2 (arcsine)")},      Divisor{2.0, say("2 (normal, k = 2)")},
+    Divisor{3.4641016151377544, say("√12 (a full step)")}, Divisor{2.23606797749979, "√5"},
     Divisor{1.3160740129524924, say("the root of √3")},
 };
 
@@ -230,14 +227,18 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
             findings.add(std::move(finding), FindingSeverity::minor);
             return;
         }
+        // From what is divided, for a printed u has been rounded; as a factor, for that number may be wrong itself.
+        const auto correct = [&at](const std::optional<double>& u, double factor) {
+            return u && at.is.used_u > 0.0 ? change_u(at, *u) : scale_u(at.row, factor);
+        };
         if (expected) {
             finding.expected = say_number(text::significant(*expected, 6));
-            finding.correct = at.is.stated && u_is_not_the_quotient(at.is)
-                                  ? set_u(at.row, std::abs(at.is.stated->value) / *expected)
-                                  : scale_u(at.row, divisor / *expected);
+            const std::optional<double> u = u_of_divided(at.is, *expected);
+            finding.correct = correct(u, divisor / *expected);
         } else if (at.is.certificate_k && *at.is.certificate_k > 0.0) {
             finding.expected = say("k = {k:number} of the certificate", in_words(*at.is.certificate_k));
-            finding.correct = scale_u(at.row, divisor / *at.is.certificate_k);
+            const std::optional<double> u = u_of_divided(at.is, *at.is.certificate_k);
+            finding.correct = correct(u, divisor / *at.is.certificate_k);
         } else {
             finding.expected = say("k of the normal distribution, e.g. 2");
         }

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "audit/sources/table_units.h"
 #include "audit/stated_number.h"
 #include "audit/word_line.h"
 #include "certificate/text_words.h"
@@ -108,6 +109,7 @@ constexpr std::array k_column_words = {
     Word{U"typeab", type},
     Word{U"evaluation", type},
     Word{U"ermittlungstyp", type},
+    Word{U"uk", Column::u},  // U/k
     Word{U"ui", Column::u},
     Word{U"uxi", Column::u},
     Word{U"ux", Column::u},
@@ -128,6 +130,10 @@ constexpr std::array k_column_words = {
     Word{U"sensitivitycoefficientci", sensitivity},
     Word{U"sensitivitycoeff", sensitivity},
     Word{U"senscoeff", sensitivity},
+    Word{U"sens", sensitivity},
+    Word{U"senscoef", sensitivity},
+    Word{U"sensitivityfactor", sensitivity},
+    Word{U"empfindlichkeitsfaktor", sensitivity},
     Word{U"c", sensitivity},
     Word{U"ci", sensitivity},
     Word{U"empfindlichkeit", sensitivity},
@@ -139,6 +145,10 @@ constexpr std::array k_column_words = {
     Word{U"uncertaintycontribution", contribution},
     Word{U"uncertaintycontributionuiy", contribution},
     Word{U"contributiontou", contribution},
+    Word{U"contrib", contribution},
+    Word{U"uncertaintycontrib", contribution},
+    Word{U"productcu", contribution},
+    Word{U"produktcu", contribution},
     Word{U"uc", contribution},
     Word{U"cu", contribution},
     Word{U"ciui", contribution},
@@ -294,6 +304,81 @@ constexpr std::array k_statement_words = {
     Word{U"modellgleichung", Statement::equation},
 };
 
+/// Columns that budgets have beside those that an audit reads: shares, squares, numbers of rows.
+constexpr std::array k_unused_columns = {
+    Word{U"reading", true},
+    Word{U"readings", true},
+    Word{U"ablesung", true},
+    Word{U"ablesungen", true},
+    Word{U"lectura", true},
+    Word{U"lecturas", true},
+    Word{U"share", true},
+    Word{U"shares", true},
+    Word{U"index", true},
+    Word{U"anteil", true},
+    Word{U"anteile", true},
+    Word{U"percent", true},
+    Word{U"percentage", true},
+    Word{U"prozent", true},
+    Word{U"no", true},
+    Word{U"nr", true},
+    Word{U"number", true},
+    Word{U"nummer", true},
+    Word{U"pos", true},
+    Word{U"position", true},
+    Word{U"item", true},
+    Word{U"row", true},
+    Word{U"line", true},
+    Word{U"zeile", true},
+    Word{U"rank", true},
+    Word{U"rang", true},
+    Word{U"id", true},
+    Word{U"variance", true},
+    Word{U"varianz", true},
+    Word{U"u2", true},
+    Word{U"uc2", true},
+    Word{U"cu2", true},
+    Word{U"ciui2", true},
+    Word{U"ui2", true},
+    Word{U"square", true},
+    Word{U"squares", true},
+    Word{U"proportion", true},
+    Word{U"weight", true},
+    Word{U"weighting", true},
+    Word{U"gewicht", true},
+    Word{U"relativecontribution", true},
+    Word{U"relativerbeitrag", true},
+    Word{U"contributionpercent", true},
+    Word{U"date", true},
+    Word{U"datum", true},
+};
+
+/// Names of the value of a result that is a deviation. An input quantity may be called so as well.
+constexpr std::array k_deviation_words = {
+    Word{U"deviation", Statement::value},
+    Word{U"measureddeviation", Statement::value},
+    Word{U"error", Statement::value},
+    Word{U"errorofindication", Statement::value},
+    Word{U"indicationerror", Statement::value},
+    Word{U"errorofmeasurement", Statement::value},
+    Word{U"measurementerror", Statement::value},
+    Word{U"correction", Statement::value},
+    Word{U"abweichung", Statement::value},
+    Word{U"anzeigeabweichung", Statement::value},
+    Word{U"messabweichung", Statement::value},
+    Word{U"korrektion", Statement::value},
+    Word{U"korrektur", Statement::value},
+    Word{U"desviacion", Statement::value},
+    Word{U"errordeindicacion", Statement::value},
+    Word{U"errordemedicion", Statement::value},
+    Word{U"correccion", Statement::value},
+    Word{U"偏差", Statement::value},
+    Word{U"示值誤差", Statement::value},
+    Word{U"示值误差", Statement::value},
+    Word{U"器差", Statement::value},
+    Word{U"修正值", Statement::value},
+};
+
 /// Names of the value of a result that no input quantity has: a reading may be called "measured value".
 constexpr std::array k_result_words = {
     Word{U"y", Statement::value},
@@ -416,6 +501,75 @@ bool may_be_quantity(Statement statement, std::string_view text) {
 
 }  // namespace
 
+namespace {
+
+/// A symbol behind the word of a head: "X_i", "u(x)", "dT/dx", "a".
+bool is_symbol(std::string_view word) {
+    constexpr std::size_t k_longest = 12;
+    if (word.empty() || word.size() > k_longest || word.find('%') != std::string_view::npos) {
+        return false;
+    }
+    for (const std::string_view small :
+         {"of", "in", "by", "to", "at", "or", "an", "on", "is", "de", "zu", "im", "am"}) {
+        if (word == small) {
+            return false;
+        }
+    }
+    if (word.find_first_of("_(/|^") != std::string_view::npos || word.find("·") != std::string_view::npos) {
+        return true;
+    }
+    const auto letters = std::count_if(word.begin(), word.end(),
+                                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+    return letters <= 2 && is_letter(word.front());
+}
+
+/// A head before its unit, "Contribution / nm" and "Beitrag in µm"; the whole where it has none. What is divided over something is
+/// no unit.
+std::string_view without_unit(std::string_view head) {
+    for (const std::string_view sign : {" / ", " in "}) {
+        const std::size_t at = head.rfind(sign);
+        if (at == std::string_view::npos || at == 0) {
+            continue;
+        }
+        const std::string rest(trimmed(head.substr(at + sign.size())));
+        const bool is_unit = known_unit(rest).has_value();
+        const bool may_be = sign == " / " && rest.find(' ') == std::string::npos &&
+                            (rest == "U" || rest == "a" || !meaning_of(k_column_words, rest));
+        if (is_unit || may_be) {
+            return trimmed(head.substr(0, at));
+        }
+    }
+    return head;
+}
+
+std::optional<Column> meaning_of_head(std::string_view text) {
+    if (text == "u") {
+        return Column::u;
+    }
+    if (text == "U" || text == "±" || text == "+/-") {
+        return Column::stated;
+    }
+    return meaning_of(k_column_words, text);
+}
+
+}  // namespace
+
+bool is_unused_column(std::string_view head) {
+    head = trimmed(head);
+    const auto has_letters = std::any_of(head.begin(), head.end(), is_letter);
+    if (!has_letters) {
+        return true;  // "%", "#"
+    }
+    for (const std::string_view text : {head, trimmed(without_brackets(head)), without_unit(head)}) {
+        const std::size_t end = text.find_last_not_of("% ");
+        const bool is_share = end + 1 < text.size() && meaning_of_head(text.substr(0, end + 1)) == Column::contribution;
+        if (is_share || meaning_of(k_unused_columns, text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
     // "Value ± kPa", "ui(P) ± kPa": the layout of M3003, where ± says that the column has uncertainties, and what follows is
@@ -429,21 +583,41 @@ std::optional<Column> column_of(std::string_view head) {
         const std::optional<Column> column = column_of(name);
         return column == Column::estimate ? std::optional(Column::stated) : column;
     }
-    const std::string_view short_head = trimmed(without_brackets(head));
-    for (std::string_view text = head;; text = short_head) {
-        if (text == "u") {
-            return Column::u;
-        }
-        if (text == "U" || text == "±" || text == "+/-") {
-            return Column::stated;
-        }
-        if (const std::optional<Column> column = meaning_of(k_column_words, text)) {
+    const std::string_view bare = without_unit(head);
+    const std::string_view texts[] = {head, trimmed(without_brackets(head)), bare, trimmed(without_brackets(bare))};
+    for (const std::string_view text : texts) {
+        if (const std::optional<Column> column = meaning_of_head(text)) {
             return column;
         }
-        if (text == short_head) {
-            return std::nullopt;
+    }
+    for (const std::string_view text : texts) {  // "Half-width a or U": both are what is divided
+        for (const std::string_view word : {" or ", " oder "}) {
+            const std::size_t at = text.find(word);
+            if (at == std::string_view::npos || at == 0 || text.find(word, at + 1) != std::string_view::npos) {
+                continue;
+            }
+            const std::optional<Column> column = column_of(text.substr(0, at));
+            if (column && column == column_of(text.substr(at + word.size()))) {
+                return column;
+            }
         }
     }
+    for (const std::string_view text : texts) {
+        const std::size_t at = text.rfind(' ');
+        if (at == std::string_view::npos || at == 0 || !is_symbol(text.substr(at + 1))) {
+            continue;
+        }
+        const std::string_view symbol = text.substr(at + 1);
+        const std::optional<Column> column = meaning_of_head(trimmed(text.substr(0, at)));
+        if (column == Column::stated && symbol.front() == 'u') {  // "Uncertainty u(x)"
+            const std::optional<Column> of_symbol = meaning_of_head(symbol);
+            return of_symbol ? of_symbol : Column::u;
+        }
+        if (column) {
+            return column;
+        }
+    }
+    return std::nullopt;
 }
 
 namespace {
@@ -464,6 +638,16 @@ std::optional<NamedStatement> whole_statement(std::string_view name) {
             named = NamedStatement{.statement = Statement::u_c};
         } else if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
             named = NamedStatement{.statement = *statement, .may_be_quantity = may_be_quantity(*statement, text)};
+        } else if (meaning_of(k_deviation_words, text)) {
+            named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
+        }
+        if (const std::size_t at = text.rfind(' '); !named && at != std::string_view::npos && at > 0) {
+            // "Error of indication E", "Result c"
+            const std::string_view word = trimmed(text.substr(0, at));
+            if (is_symbol(text.substr(at + 1)) &&
+                (meaning_of(k_deviation_words, word) || meaning_of(k_result_words, word))) {
+                named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
+            }
         }
         if (named) {
             const std::size_t end = static_cast<std::size_t>(text.data() - name.data()) + text.size();

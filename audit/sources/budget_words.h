@@ -25,8 +25,12 @@ enum class Column {
 inline constexpr int k_columns = 13;
 
 /// The column that a head names, English or German, with its synonyms: "Std. uncertainty u(xi)" is u. Single letters
-/// count as they are written: "u" is a standard and "U" an expanded uncertainty.
+/// count as they are written: "u" is a standard and "U" an expanded uncertainty. A unit and a symbol behind the word are of it:
+/// "Contribution / nm", "Beitrag in µm", "Quantity X_i", "Sensitivity dT/dx".
 [[nodiscard]] std::optional<Column> column_of(std::string_view head);
+
+/// Whether a head that names none of these columns is known all the same: shares, squares, numbers of rows.
+[[nodiscard]] bool is_unused_column(std::string_view head);
 
 /// What a row beside or below the table says of the result, of its limits, or of how it is compared.
 enum class Statement {
@@ -58,6 +62,8 @@ struct NamedStatement {
     Statement statement = Statement::value;
     /// Some quantity may be called so as well: "U" is a voltage, "p" a pressure, "tolerance" a contribution.
     bool may_be_quantity = false;
+    /// A constant of a table may be called so, as "correction"; what is the value stands last.
+    bool may_be_constant = false;
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
 };

@@ -1,9 +1,12 @@
 #include "audit/sources/foreign_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +22,7 @@
 #include "audit/sources/table_heads.h"
 #include "audit/sources/table_units.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
@@ -129,6 +133,9 @@ private:
         }
         const std::string of_head = heads_.units.at(column), of_column = unit_of_column(column);
         const std::string& beside = of_head.empty() ? of_column : of_head;
+        if (read->unit.empty() && of_column.empty() && (column == Column::u || column == Column::stated)) {
+            ask_for_unit(*cell, of_head);
+        }
         // Words behind a number that are no unit that we know count where no other place states one.
         const bool cell_first = !read->unit.empty() && (beside.empty() || known_unit(read->unit));
         unit = cell_first ? read->unit : beside;
@@ -144,6 +151,17 @@ private:
         return std::nullopt;
     }
 
+    /// The head of a column of uncertainties and the column of units may state units of different kinds.
+    void ask_for_unit(const Cell& cell, const std::string& of_head) {
+        const std::string of_row = words(Column::unit);
+        const std::optional<gum::Unit> head = known_unit(of_head), row = known_unit(of_row);
+        if (head && row && !(head->dimension() == row->dimension())) {
+            not_read_.push_back(
+                say("{cell}: the head states {head}, and the column of units {unit}; the former is "
+                    "used; in which unit is the number?",
+                    sheet_.place(cell.address), text::in_quotes(of_head), text::in_quotes(of_row)));
+        }
+    }
     [[nodiscard]] std::string unit_of_column(Column column) const {
         const auto position = heads_.unit_columns.find(column);
         const Cell* cell = position == heads_.unit_columns.end() ? nullptr : cell_in(row_, position->second);
@@ -160,8 +178,9 @@ private:
 /// Reads one sheet, or a part of it, from top to bottom.
 class TableReader {
 public:
-    TableReader(const SheetView& sheet, std::string name, ForeignTables& tables)
-        : sheet_(sheet), name_(std::move(name)), tables_(tables) {}
+    /// \param titles  gets the line of words above each budget that is found, or ""
+    TableReader(const SheetView& sheet, std::string name, ForeignTables& tables, std::vector<std::string>& titles)
+        : sheet_(sheet), name_(std::move(name)), tables_(tables), titles_(titles) {}
 
     void read(const SheetView::Rows& rows) {
         std::uint32_t last = 0;
@@ -197,7 +216,20 @@ private:
                         sheet_.place(cell->address), text::in_quotes(sheet_.words(*cell))));
             }
             in_rows_ = is_near_ = true;
+            constexpr std::uint32_t k_near = 2;  // lines
+            title_ = number <= line_above_ + k_near ? above_ : "";
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
+            return;
+        }
+        if (const std::vector<const Cell*> held = cells_with_words(row);
+            held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
+            above_ = sheet_.words(*held[0]);
+            line_above_ = number;
+        }
+        if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
+            return;
+        }
+        if (note_correlation(row) || note_constant(row)) {
             return;
         }
         if (!is_row(row) && take_line(row)) {
@@ -222,9 +254,167 @@ private:
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
+            last_constants_.clear();
+            note_numbers_of_unknown(row);
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
+    }
+
+    [[nodiscard]] std::vector<const Cell*> cells_with_words(const SheetView::Row& row) const {
+        std::vector<const Cell*> held;
+        std::copy_if(row.begin(), row.end(), std::back_inserter(held),
+                     [this](const Cell* cell) { return !sheet_.words(*cell).empty(); });
+        return held;
+    }
+    /// A line of units alone below heads: each column of numbers that has one there has it for all its rows.
+    [[nodiscard]] bool take_units(const SheetView::Row& row) {
+        std::map<Column, std::string> units;
+        for (const Cell* cell : row) {
+            const std::string held = sheet_.words(*cell);
+            const auto head = std::find_if(heads_->columns.begin(), heads_->columns.end(), [cell](const auto& column) {
+                return column.second == cell->address.column;
+            });
+            if (says_nothing(held) || held == "1" || head == heads_->columns.end()) {
+                continue;
+            }
+            if (!has_numbers_with_units(head->first)) {
+                if (column_of(held) == Column::unit) {
+                    continue;  // "unit" below "quantity"
+                }
+                return false;
+            }
+            if (sheet_.number_with_unit(*cell) || !known_unit(held)) {
+                return false;
+            }
+            units.emplace(head->first, unit_in_rest(held));
+        }
+        for (const auto& [column, unit] : units) {
+            std::string& of_head = heads_->units[column];
+            of_head = of_head.empty() ? unit : of_head;
+            heads_->all_units[heads_->columns.at(column)] = of_head;
+        }
+        return !units.empty();
+    }
+
+    /// A line that states a correlation: "Correlation r(T1; T2)" and a number.
+    [[nodiscard]] bool note_correlation(const SheetView::Row& row) {
+        if (!heads_ || !is_near_ || sheet_.value(*row.front()).kind != CellKind::text) {
+            return false;
+        }
+        const std::string name = text::in_small_letters(sheet_.words(*row.front()));
+        constexpr std::string_view k_words[] = {"correlation", "korrelation", "correlaci", "相關", "相关"};
+        const bool is_named = name.starts_with("r(") ||
+                              std::any_of(std::begin(k_words), std::end(k_words),
+                                          [&name](std::string_view word) { return name.find(word) != name.npos; });
+        const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
+        const bool has_amount =
+            numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
+        if (!is_named || has_amount || !correlation_in(row)) {
+            return false;
+        }
+        correlation_lines_.push_back(&row);
+        return true;
+    }
+    [[nodiscard]] std::optional<double> correlation_in(const SheetView::Row& row) const {
+        for (auto cell = row.begin() + 1; cell != row.end(); ++cell) {
+            if (const std::optional<NumberWithUnit> r = sheet_.number_with_unit(**cell)) {
+                return !r->is_open && std::abs(r->number.value) <= 1.0 ? std::optional(r->number.value) : std::nullopt;
+            }
+        }
+        return std::nullopt;
+    }
+    /// The one row whose words have a symbol; nothing where none has, or several.
+    [[nodiscard]] std::optional<std::size_t> row_with(std::string_view symbol) const {
+        const auto has = [symbol](std::string_view words) {
+            const auto is_of_word = [&words](std::size_t i) {
+                const auto c = static_cast<unsigned char>(words[i]);
+                return c >= 0x80U || std::isalnum(c) != 0 || c == '_';
+            };
+            for (std::size_t at = words.find(symbol); at != words.npos; at = words.find(symbol, at + 1)) {
+                const std::size_t end = at + symbol.size();
+                if ((at == 0 || !is_of_word(at - 1)) && (end == words.size() || !is_of_word(end))) {
+                    return true;
+                }
+            }
+            return false;
+        };
+        std::optional<std::size_t> found;
+        for (std::size_t i = 0; i < budget_.rows.size() && !symbol.empty(); ++i) {
+            if (has(budget_.rows[i].quantity) || has(budget_.rows[i].description)) {
+                if (found) {
+                    return std::nullopt;
+                }
+                found = i;
+            }
+        }
+        return found;
+    }
+    void settle_correlations() {
+        last_unread_.reset();
+        for (const SheetView::Row* row : correlation_lines_) {
+            const std::string name = sheet_.words(*row->front());
+            const double r = *correlation_in(*row);
+            const std::size_t open = name.rfind('('), close = name.rfind(')');
+            std::optional<std::size_t> first, second;
+            if (open != name.npos && close != name.npos && close > open) {
+                const std::string pair = name.substr(open + 1, close - open - 1);
+                const std::size_t sign = pair.find_first_of(";,");
+                if (sign != pair.npos && pair.find_first_of(";,", sign + 1) == pair.npos) {
+                    const auto bare = [](std::string text) {
+                        text.erase(0, text.find_first_not_of(' '));
+                        text.erase(text.find_last_not_of(' ') + 1);
+                        return text;
+                    };
+                    first = row_with(bare(pair.substr(0, sign)));
+                    second = row_with(bare(pair.substr(sign + 1)));
+                }
+            }
+            if (first && second && *first != *second) {
+                budget_.correlations.push_back({.first = *first, .second = *second, .r = r});
+            } else {
+                budget_.unread_correlations.push_back(r);
+                note_unread(*row);
+            }
+        }
+    }
+
+    /// A constant among the rows, or below the last of them, where it may be what the table is of: that is known when no more row
+    /// follows.
+    [[nodiscard]] bool note_constant(const SheetView::Row& row) {
+        if (!in_rows_ || !heads_ || is_row(row) || !is_constant(row)) {
+            return false;
+        }
+        const std::optional<NamedLine> line = name_of_line(sheet_, row, &*heads_);
+        if (line && !line->named.may_be_constant) {
+            return false;
+        }
+        const Cell* name = cell_in(row, heads_->columns.at(Column::quantity));
+        const bool has_other_words = std::any_of(row.begin(), row.end(), [this](const Cell* cell) {
+            const auto is_headed = [this, cell](Column column) {
+                const auto head = heads_->columns.find(column);
+                return head != heads_->columns.end() && head->second == cell->address.column;
+            };
+            return (is_headed(Column::u) || is_headed(Column::stated) || is_headed(Column::contribution)) &&
+                   !says_nothing(sheet_.words(*cell));
+        });
+        if (name == nullptr || sheet_.words(*name).empty() || has_other_words || has_formula_of_uncertainty(row)) {
+            return false;
+        }
+        last_constants_.push_back(&row);
+        return true;
+    }
+    void settle_constants() {
+        const bool has_value = statements_.numbers.contains(Statement::value);
+        last_unread_.reset();
+        for (const SheetView::Row* row : last_constants_) {
+            const std::optional<NamedLine> line = name_of_line(sheet_, *row, &*heads_);
+            const bool is_value = line && line->named.statement == Statement::value && !has_value;
+            if (!is_value || !take_line(*row)) {
+                note_unread(*row);
+            }
+        }
+        last_constants_.clear();
     }
 
     /// Whether a line below heads is a row of the table. A quantity may be named "p" or "k", and a line of a result may have several
@@ -370,6 +560,44 @@ private:
         });
         return numbers == 1 && numbers_under(sheet_, *heads_, row).contains(Column::estimate);
     }
+    void note_numbers_of_unknown(const SheetView::Row& row) {
+        for (const Cell* head : heads_->unknown) {
+            const Cell* cell = cell_in(row, head->address.column);
+            if (cell != nullptr && sheet_.number_with_unit(*cell)) {
+                with_numbers_.insert(head);
+            }
+        }
+    }
+    void tell_unknown_columns() {
+        for (const Cell* head : heads_->unknown) {
+            if (with_numbers_.contains(head)) {
+                const std::string named = sheet_.words(*head);
+                budget_.unread_columns.push_back(named);
+                tables_.not_read.push_back(
+                    say("{cell}: the column {head} has numbers and is not read; what does it have?",
+                        sheet_.place(head->address), text::in_quotes(named)));
+            }
+        }
+    }
+    /// Whether a row has another unit than the result and nothing that brings it there, and a column is not read: what a budget in which
+    /// it is added as it stands would say, nobody wants to know.
+    [[nodiscard]] bool needs_unread_column() {
+        if (budget_.unread_columns.empty() || budget_.unit.empty()) {
+            return false;
+        }
+        const auto row = std::find_if(budget_.rows.begin(), budget_.rows.end(), [this](const AuditedRow& one) {
+            return !one.sensitivity && !one.contribution && !one.unit.empty() && known_unit(one.unit) &&
+                   known_unit(budget_.unit) && !factor_between(one.unit, budget_.unit);
+        });
+        if (row == budget_.rows.end()) {
+            return false;
+        }
+        tables_.not_read.push_back(
+            say("{cell}: {text} has another unit than the result and no coefficient that is read; the "
+                "table is not looked at; is it in the column {head}?",
+                row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
+        return true;
+    }
     /// Names a line with a number of which nothing is used, and the first of several together.
     void note_unread(const SheetView::Row& row) {
         const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
@@ -406,6 +634,8 @@ private:
                     budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
+            settle_constants();
+            tell_unknown_columns();
             settle_last_row();
             settle_result_line();
             if (is_open_) {
@@ -414,6 +644,12 @@ private:
                 return;
             }
             settle_statements();
+            settle_correlations();
+            if (needs_unread_column()) {
+                tables_.has_unusable = true;
+                clear();
+                return;
+            }
             if (is_unusable_) {
                 tables_.not_read.push_back(
                     say("{table}: the table is not looked at; a row has numbers that could not be read, and the others "
@@ -438,6 +674,7 @@ private:
             settle_contributions(budget_);
             note_unexplained(budget_);
             tables_.budgets.push_back(std::move(budget_));
+            titles_.push_back(title_);
         }
         clear();
     }
@@ -450,6 +687,9 @@ private:
         is_too_long_ = is_unusable_ = is_open_ = false;
         result_line_.reset();
         last_unread_.reset();
+        last_constants_.clear();
+        with_numbers_.clear();
+        correlation_lines_.clear();
         looks_ = 0;
     }
 
@@ -529,6 +769,24 @@ private:
         return std::nullopt;
     }
 
+    /// Whether a number is the u_c, or the U over k, that is stated elsewhere, within the digits of both.
+    [[nodiscard]] bool is_stated_u_c(const StatedResult& of) const {
+        const auto is = [&](Statement statement, double k) {
+            const auto found = statements_.numbers.find(statement);
+            const std::optional<double> factor =
+                found == statements_.numbers.end() ? std::nullopt : factor_between(of.unit, found->second.unit);
+            if (!factor || !(k > 0.0)) {
+                return false;
+            }
+            const StatedNumber& number = found->second.number;
+            const double size = std::abs(number.value) / k;
+            const double half = printed_half_step(number) / k + *factor * printed_half_step(of.number) + 1e-6 * size;
+            return std::abs(size - *factor * std::abs(of.number.value)) <= half;
+        };
+        const std::optional<StatedNumber> k = stated(Statement::k);
+        return is(Statement::u_c, 1.0) || (k && (is(Statement::U, k->value) || is(Statement::reported_U, k->value)));
+    }
+
     /// The last row of a table may be its result: u_c under u or the contributions, without anything that is divided, a distribution
     /// or a coefficient (the layout of EA-4/02, chapter 4 and its examples).
     void settle_last_row() {
@@ -545,8 +803,15 @@ private:
         const auto head = heads_->columns.find(by_u ? Column::u : Column::contribution);
         const StatedResult result{
             .number = *amount, .unit = by_u ? units_.back().u : units_.back().contribution, .column = head->second};
+        // A row that is named as an influence is one, whatever its number.
+        const bool is_result = last.estimate && last.estimate->value != 0.0 &&
+                               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other &&
+                               is_stated_u_c(result);
         const std::optional<Interval> above = sum_above(result, true), all = sum_above(result);
         if (!above || !all) {
+            if (is_result) {
+                take_last_row(result);
+            }
             return;
         }
         const bool is_distinct = std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
@@ -557,7 +822,7 @@ private:
         if (is_stated && *with) {
             return;
         }
-        if (is_sum && (is_distinct || (is_stated && *without))) {
+        if (is_result || (is_sum && (is_distinct || (is_stated && *without)))) {
             take_last_row(result);
             return;
         }
@@ -643,16 +908,44 @@ private:
     AuditedBudget budget_;
     std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
-    std::optional<NumbersUnderHeads> result_line_;  ///< states the value, and more
-    std::size_t looks_ = 0;                         ///< at sums of the rows, for lines that look like rows
-    std::optional<std::uint32_t> last_unread_;      ///< line that was named as not read, or follows such
+    std::optional<NumbersUnderHeads> result_line_;          ///< states the value, and more
+    std::size_t looks_ = 0;                                 ///< at sums of the rows, for lines that look like rows
+    std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
+    std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
+    std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
+    std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
+    std::string above_, title_;                             ///< last line of words alone, and that above the heads
+    std::uint32_t line_above_ = 0;
+    std::vector<std::string>& titles_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Budgets of one name are told apart by the line above their heads, or by their place.
+void tell_apart(std::vector<AuditedBudget>& budgets, const std::vector<std::string>& titles) {
+    const auto add = [&budgets](const auto& words) {
+        std::map<std::string, std::size_t> names;
+        for (const AuditedBudget& budget : budgets) {
+            ++names[budget.name];
+        }
+        for (std::size_t i = 0; i < budgets.size(); ++i) {
+            if (names[budgets[i].name] > 1 && !words(i).empty()) {
+                budgets[i].name += ", " + words(i);
+            }
+        }
+    };
+    add([&titles](std::size_t i) { return titles[i]; });
+    add([&budgets](std::size_t i) { return budgets[i].place; });
+}
 
 }  // namespace
 
 ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation,
                          const std::string& file) {
     ForeignTables tables;
+    std::vector<std::string> titles;
     const DecimalSign sign = decimal_sign_of(workbook);
     for (std::size_t i = 0; i < workbook.sheets.size(); ++i) {
         if (workbook.sheets[i].state != workbook::SheetState::visible) {
@@ -661,14 +954,17 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
         for (const SheetView::Rows& rows : parts_of(sheet)) {
-            TableReader(sheet, name, tables).read(rows);
+            TableReader(sheet, name, tables, titles).read(rows);
         }
     }
+    tell_apart(tables.budgets, titles);
     if (tables.budgets.empty() && !tables.has_unusable) {
-        tables.not_read.push_back(say(
-            "{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
-            "quantities and one u, what is divided, or the contributions — name the columns so, in English or German",
-            file));
+        tables.not_read.push_back(
+            say("{file}: no uncertainty budget was found — a table begins with a row of heads, of which one names the "
+                "quantities and one u, the contributions, or, beside a third column, what is divided — name the "
+                "columns so, "
+                "in English or German",
+                file));
     }
     return tables;
 }

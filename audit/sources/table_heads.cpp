@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <utility>
 
 #include "audit/sources/table_units.h"
@@ -31,6 +32,28 @@ std::vector<std::uint32_t> further_tables(const SheetView& sheet, const SheetVie
     return columns;
 }
 
+/// Heads that stand apart from the table, behind an empty column, are of something else.
+void keep_unknown_of_table(Heads& heads, const SheetView::Row& row) {
+    std::set<std::uint32_t> headed;
+    for (const Cell* cell : row) {
+        headed.insert(cell->address.column);
+    }
+    std::uint32_t first = heads.columns.begin()->second, last = first;
+    for (const auto& [column, position] : heads.columns) {
+        first = std::min(first, position);
+        last = std::max(last, position);
+    }
+    while (headed.contains(last + 1)) {
+        ++last;
+    }
+    while (first > 0 && headed.contains(first - 1)) {
+        --first;
+    }
+    std::erase_if(heads.unknown, [first, last](const Cell* cell) {
+        return cell->address.column < first || cell->address.column > last;
+    });
+}
+
 }  // namespace
 
 bool has_numbers_with_units(Column column) {
@@ -50,6 +73,9 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
         const std::optional<Column> column = column_of(held.text);
         if (!column) {
             before.reset();
+            if (!is_unused_column(held.text)) {
+                heads.unknown.push_back(cell);
+            }
             continue;
         }
         if (*column == Column::unit) {
@@ -74,7 +100,13 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     }
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };
     const bool uncertainty = has(Column::u) || has(Column::stated) || has(Column::contribution);
-    return has(Column::quantity) && uncertainty && heads.columns.size() >= 3 ? std::optional(heads) : std::nullopt;
+    // "name | limit" heads many tables: what is divided needs a third column, as that of the divisors.
+    const bool is_alone = heads.columns.size() < 3 && !has(Column::u) && !has(Column::contribution);
+    if (!has(Column::quantity) || !uncertainty || is_alone) {
+        return std::nullopt;
+    }
+    keep_unknown_of_table(heads, row);
+    return heads;
 }
 
 std::vector<SheetView::Rows> parts_of(const SheetView& sheet) {

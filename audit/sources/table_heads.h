@@ -17,8 +17,9 @@ struct Heads {
     std::map<Column, std::string> units;             ///< that heads state: "u [µm]"
     std::map<Column, std::uint32_t> unit_columns;    ///< of columns that have one of their own, to their right
     std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
-    std::optional<std::uint32_t> description;   ///< column of words beside a column of symbols, or the other way round
-    std::vector<const workbook::Cell*> second;  ///< heads of columns of numbers whose meaning another one has
+    std::optional<std::uint32_t> description;    ///< column of words beside a column of symbols, or the other way round
+    std::vector<const workbook::Cell*> second;   ///< heads of columns of numbers whose meaning another one has
+    std::vector<const workbook::Cell*> unknown;  ///< heads within the table or beside it whose meaning nobody knows
 };
 
 /// Whether the numbers of a column have units.

@@ -32,6 +32,12 @@ std::string_view bare_unit(std::string_view text) {
     return text;
 }
 
+/// Whether a text is a number with its unit: "10 V" in a head is a point, and no unit.
+bool is_value(std::string_view text) {
+    const std::size_t end = text.find_first_not_of("0123456789.,");
+    return end != 0 && end != std::string_view::npos && text[end] != '/' && known_unit(std::string(text.substr(end)));
+}
+
 double size_of_unit(const gum::Unit& unit) {
     return unit.difference_to_si(1.0);
 }
@@ -187,13 +193,18 @@ std::optional<gum::Unit> known_unit(const std::string& text) {
     }
 }
 
-std::string unit_in_head(const std::string& head) {
+namespace {
+
+std::string text_of_unit_in_head(const std::string& head) {
     const std::size_t open = head.find('['), close = head.find(']');
     if (open != std::string::npos && close != std::string::npos && close > open + 1) {
         return std::string(bare_unit(std::string_view(head).substr(open + 1, close - open - 1)));
     }
     if (const std::size_t slash = head.rfind(" / "); slash != std::string::npos) {
         return head.substr(slash + 3);
+    }
+    if (const std::size_t in = head.rfind(" in "); in != std::string::npos && known_unit(head.substr(in + 4))) {
+        return head.substr(in + 4);
     }
     constexpr std::string_view k_plus_minus = "± ";  // "Value ± kPa"
     if (const std::size_t sign = head.find(k_plus_minus); sign != std::string::npos && sign > 0) {
@@ -208,6 +219,15 @@ std::string unit_in_head(const std::string& head) {
         return !one_letter && known_unit(inside) ? inside : "";
     }
     return "";
+}
+
+}  // namespace
+
+std::string unit_in_head(const std::string& head) {
+    const std::string unit = text_of_unit_in_head(head);
+    // "U / k", "Half-width / U": what the column has in the language of formulas.
+    const bool is_symbol = unit == "U" || unit == "u" || unit == "a" || unit == "k";
+    return is_symbol || is_value(unit) ? "" : unit;
 }
 
 std::string unit_in_rest(const std::string& rest) {

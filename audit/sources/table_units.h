@@ -14,7 +14,8 @@ namespace gumcert::audit {
 /// The unit that a table writes, "µm", "[nm/K]", "%"; nothing where the text is no unit that this program knows.
 [[nodiscard]] std::optional<gum::Unit> known_unit(const std::string& text);
 
-/// The unit that a head or the name of a statement has in it: "u [µm]", "u / nm", "result (mm)"; "" where it has none.
+/// The unit that a head or the name of a statement has in it: "u [µm]", "u / nm", "result (mm)", "u in mm"; "" where it has
+/// none. A number with a unit, "u (10 V)", is the point that the head is of.
 [[nodiscard]] std::string unit_in_head(const std::string& head);
 
 /// The unit that follows a number in its cell: "µm" of "µm, k = 2"; "" where what follows is none.

@@ -312,8 +312,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
         view.change.percent = signed_percent(view.change.relative);
         constexpr double k_no_percent = 5e-4;  // what prints as 0.0 %
         if (std::abs(view.change.relative) < k_no_percent) {
-            view.change.direction = "unchanged";
-            view.audited.U = view.claimed.U;  // nothing was corrected: what is stated stands
+            view.change.direction = "unchanged";  // nothing was corrected: what is stated stands
         }
     }
     if (!budget.claims.broken.U.empty()) {

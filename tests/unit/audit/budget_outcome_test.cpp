@@ -183,5 +183,27 @@ TEST(OutcomeIntervals, BelieveThePrintedContribution) {
     EXPECT_DOUBLE_EQ(outcome_intervals(budget).u_c.high, 0.45);
 }
 
+TEST(BudgetOutcome, PrintsWhatIsNotCorrectedAsItIsStated) {
+    struct Case {
+        double stated, evaluated, U;
+        const char *printed, *rounded;
+    };
+    const Case cases[] = {
+        {31.0, 30.496, 30.496, "31 µm", "31"},  // 2 × 15.3
+        {31.0, 30.496, 30.512, "31", "31"},    {31.0, 30.496, 30.44, "31", "31"}, {31.0, 30.496, 29.9, "30", "30"},
+        {31.0, 30.496, 31.4, "31", "31"},      {31.0, 30.496, 31.6, "32", "32"},  {30.0, 30.51, 30.9, "30", "30"},
+        {30.0, 30.51, 31.1, "31", "31"},       {31.0, 30.6, 30.2, "30", "30"},  // rounded as anybody does
+    };
+    for (const Case& one : cases) {
+        AuditedBudget budget = test::budget_of({test::row("a", 0.5 * one.U)});
+        budget.coverage.kind = CoverageRule::Kind::fixed;
+        budget.uncorrected_U =
+            UncorrectedU{.stated = one.stated, .evaluated = one.evaluated, .step = 1.0, .text = "31 µm"};
+        const BudgetOutcome outcome = evaluate(budget);
+        EXPECT_EQ(outcome.printed_U, one.printed) << one.U;
+        EXPECT_EQ(outcome.rounded_U, one.rounded) << one.U;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

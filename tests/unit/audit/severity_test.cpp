@@ -8,7 +8,7 @@ namespace {
 BudgetOutcome with_U(double U, const std::string& printed) {
     BudgetOutcome outcome;
     outcome.U = U;
-    outcome.printed_U = printed;
+    outcome.printed_U = outcome.rounded_U = printed;
     return outcome;
 }
 Effect effect_from(const BudgetOutcome& before, const BudgetOutcome& after) {

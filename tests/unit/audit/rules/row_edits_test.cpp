@@ -61,6 +61,42 @@ TEST(RowEdits, CorrectOneErrorOnce) {
     }
 }
 
+/// A u of two digits is not the quotient that it was rounded from: a correction that sets it, one that multiplies it, and one
+/// that takes the rounding away, in whatever order.
+TEST(RowEdits, CorrectOneErrorOfARoundedUOnce) {
+    const double printed = 0.0028, right = 0.0085 / std::sqrt(3.0), quotient = 0.0085 / 3.0;
+    AuditedBudget table = budget_of({row("a", printed)});
+    table.rows[0].u_half_step = 0.5e-4;
+    const Correction change = change_u({.budget = 0, .row = 0, .of = table, .is = table.rows[0]}, right);
+    const std::vector<Correction> same = {set_u(0, right), scale_u(0, std::sqrt(3.0)), change};
+    for (const Correction& first : same) {
+        for (const Correction& second : same) {
+            for (const int rounding : {0, 1, 2, 3}) {
+                AuditedBudget budget = table;
+                const Correction exact = unround_u(0, quotient);
+                for (int i = 0; i < 3; ++i) {
+                    if (i == rounding) {
+                        exact(budget);
+                    }
+                    if (i < 2) {
+                        (i == 0 ? first : second)(budget);
+                    }
+                }
+                EXPECT_NEAR(budget.rows[0].used_u / right, 1.0, 0.018);
+            }
+        }
+    }
+    for (const bool before : {false, true}) {
+        AuditedBudget budget = table;
+        const Correction exact = unround_u(0, quotient);
+        (before ? exact : change)(budget);
+        (before ? change : exact)(budget);
+        EXPECT_NEAR(budget.rows[0].used_u, right, 1e-15);
+        scale_u(0, 0.5)(budget);  // of what was divided
+        EXPECT_NEAR(budget.rows[0].used_u, 0.5 * right, 1e-15);
+    }
+}
+
 TEST(RowEdits, SayWhereAndWhat) {
     const AuditSubject subject = test::subject_of(budget_of({row("a", 1.0)}));
     std::size_t rows = 0;
