@@ -348,7 +348,6 @@ TEST(FiniteDegrees, MeetCorrelationsInBounds) {
 /// disagreement no more often than the limits say: 2.5 % by the sum, 1 % each by the largest |E_n|, the pattern and
 /// the bias.
 TEST(FiniteDegrees, HonestComparisonsDisagreeAtTheLevel) {
-    constexpr int k_runs = 120;
     constexpr double k_level = 0.055;
     std::mt19937_64 engine(5);
     for (const int nu : {3, 4, 10, 50, 0}) {
@@ -359,15 +358,17 @@ TEST(FiniteDegrees, HonestComparisonsDisagreeAtTheLevel) {
                 }
                 const Index m = nu % 4 == 0 ? 20 : 8;
                 const VectorXd t = VectorXd::LinSpaced(m, 0.0, 100.0);
+                const bool is_exact = nu == 0 || (r == 0.0 && !at_once);  // bounds take longer, and leave room
+                const int runs = is_exact ? 200 : 40;
                 int disagreements = 0;
-                for (int run = 0; run < k_runs; ++run) {
+                for (int run = 0; run < runs; ++run) {
                     const MethodDifferences of = honest(engine, m, nu, r, at_once);
                     disagreements += agreement_verdict(agreement(of, k_p), std::nullopt, bias_test(of, t, {})) ==
                                              AgreementVerdict::disagreement
                                          ? 1
                                          : 0;
                 }
-                EXPECT_LE(disagreements, k_runs * k_level + 3.0 * std::sqrt(k_runs * k_level))
+                EXPECT_LE(disagreements, runs * k_level + 3.0 * std::sqrt(runs * k_level))
                     << "nu " << nu << ", r " << r << ", one estimate " << at_once;
             }
         }
