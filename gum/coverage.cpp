@@ -178,6 +178,15 @@ double chi_square_upper_tail(double chi_square, double degrees_of_freedom) {
     return boost::math::cdf(boost::math::complement(ChiSquareDistribution(degrees_of_freedom), chi_square));
 }
 
+double two_sided_tail_of_t(double t, double degrees_of_freedom) {
+    require_not_negative(t, "t");
+    require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
+    if (std::isinf(degrees_of_freedom)) {
+        return 2.0 * boost::math::cdf(boost::math::complement(NormalDistribution(), t));
+    }
+    return 2.0 * boost::math::cdf(boost::math::complement(StudentDistribution(degrees_of_freedom), t));
+}
+
 double standard_normal_quantile(double probability) {
     require_probability(probability, "probability");
     return boost::math::quantile(NormalDistribution(), probability);

@@ -70,6 +70,10 @@ struct UncertaintyContribution {
 /// \throws InputError  for an argument out of range
 [[nodiscard]] double chi_square_upper_tail(double chi_square, double degrees_of_freedom);
 
+/// P(|T| > t) for T of Student's distribution; the normal distribution where the degrees of freedom are infinite.
+/// \throws InputError  GC-GUM-0001, -0002 for t, -0005 for the degrees of freedom
+[[nodiscard]] double two_sided_tail_of_t(double t, double degrees_of_freedom);
+
 /// Quantile z of the standard normal distribution, P(Z ≤ z) = p.
 /// \param probability  p, 0 < p < 1
 /// \throws InputError  GC-GUM-0004

@@ -189,8 +189,14 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     if (inconclusive > 0) {
         fmt::print(
             "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
-            "several\n",
+            "several, or nobody knows what they share\n",
             inconclusive);
+    }
+    for (const reports::VectorScore& vector : comparison.vectors) {
+        if (vector.signal == "action") {
+            fmt::print("{}, {}: the quantities lie outside their joint region (vector En {})\n", vector.participant,
+                       vector.name, vector.vector_En.text);
+        }
     }
     const auto inconsistent = std::count_if(
         comparison.items.begin(), comparison.items.end(),
@@ -214,10 +220,12 @@ const char* verdict_text(const std::string& verdict) {
            : verdict == "correlation_unknown"   ? "agreement only if both methods share nothing"
            : verdict == "agreement_few_points" ? "agreement; too few points to tell whether the uncertainties are right"
            : verdict == "uncertainty_not_confirmed" ? "agreement; whether the uncertainties are right cannot be told"
-           : verdict == "points_above_1"            ? "more points above 1 than chance explains"
-           : verdict == "side_refuted"              ? "no verdict: the evaluation of a side refutes what it states"
-           : verdict == "disagreement"              ? "disagreement"
-                                                    : "";
+           : verdict == "joint_test_open"           ? "no verdict: whether chance explains all differences is open"
+           : verdict == "falls_with_finding" ? "does not stand once the finding on the uncertainties is corrected"
+           : verdict == "points_above_1"     ? "more points above 1 than chance explains"
+           : verdict == "side_refuted"       ? "no verdict: the evaluation of a side refutes what it states"
+           : verdict == "disagreement"       ? "disagreement"
+                                             : "";
 }
 
 void print_methods(const reports::Comparison& comparison) {

@@ -4,7 +4,9 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gum/argument_check.h"
@@ -12,6 +14,7 @@
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/quantity/dense_factors.h"
+#include "gum/weighted_t_square.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -31,6 +34,7 @@ constexpr double k_equal_factors = 1e-12;             // of coverage, relative
 constexpr double k_tail_of_band = 0.025;              // 95 % between both
 constexpr double k_significant = 0.025;               // of p_low and p_high
 constexpr double k_negligible_reference = 1.0 / 3.0;
+constexpr double k_rounding_of_statements = 0.05;   // of u of a point
 constexpr double k_chance_of_single_points = 0.01;  // of their number, and of the largest of them
 
 std::string point_name(Index i) {
@@ -44,7 +48,8 @@ void require_sizes(const MethodDifferences& differences) {
                "Give the points that both sides measured.");
     }
     if (differences.covariance.rows() != m || differences.covariance.cols() != m || differences.U.size() != m ||
-        differences.U_method.size() != m || differences.U_reference.size() != m) {
+        differences.U_method.size() != m || differences.U_reference.size() != m ||
+        (differences.degrees_of_freedom.size() > 0 && differences.degrees_of_freedom.size() != m)) {
         refuse("GC-GUM-0135", "comparison",
                "covariance " + std::to_string(differences.covariance.rows()) + " by " +
                    std::to_string(differences.covariance.cols()) + " and " + std::to_string(differences.U.size()) +
@@ -108,6 +113,9 @@ void require_differences(const MethodDifferences& differences) {
         }
     }
     require_covariance(differences.covariance);
+    for (Index i = 0; i < differences.degrees_of_freedom.size(); ++i) {
+        require_degrees_of_freedom(differences.degrees_of_freedom(i), "degrees of freedom of the " + point_name(i));
+    }
 }
 
 [[noreturn]] void refuse_indefinite(double smallest) {
@@ -247,86 +255,301 @@ MatrixXd scaled_correlations(const MethodDifferences& differences, const VectorX
     return inverse_u.asDiagonal() * V * inverse_u.asDiagonal();
 }
 
-/// Eigenvalues of the same; of many points those of R, by the ratio of the traces.
-std::vector<double> scaled_spectrum(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
-                                    const std::vector<double>& of_zeta, double factor) {
-    const MatrixXd scaled = scaled_correlations(differences, u, R, factor);
-    if (differences.method_covariance.size() > 0 && R.rows() <= k_most_points_of_eigenvectors) {
-        return spectrum(0.5 * (scaled + scaled.transpose()));
-    }
-    // The sum of the eigenvalues is the expected value of Σ ζ²: the ratio of the traces keeps it right, and only the
-    // form of the distribution is taken from R. Where all of V belongs to the method this is exact.
-    std::vector<double> weights = of_zeta;
-    const double ratio = scaled.trace() / R.trace();
-    for (double& weight : weights) {
-        weight *= ratio;
-    }
-    return weights;
+/// How the uncertainties of the points were estimated.
+enum class EstimatesBy {
+    exact,  ///< infinite degrees of freedom: normal scores
+    apart,  ///< each by itself: t with the ν of each point, for points that do not correlate
+    one,    ///< one estimate for all: multivariate t
+};
+
+bool have_finite_degrees(const MethodDifferences& differences) {
+    return differences.degrees_of_freedom.size() > 0 && !differences.degrees_of_freedom.array().isInf().all();
 }
 
+double degrees_of(const MethodDifferences& differences, Index i) {
+    return differences.degrees_of_freedom.size() > 0 ? differences.degrees_of_freedom(i)
+                                                     : std::numeric_limits<double>::infinity();
+}
+
+/// The ν of one estimate that makes Σ ζ² vary as estimates with the ν of the points do that are all wrong together: the
+/// relative standard deviation √(2/ν) of a variance, averaged.
+double degrees_of_one_estimate(const MethodDifferences& differences) {
+    const double mean = differences.degrees_of_freedom.cwiseInverse().cwiseSqrt().mean();
+    return 1.0 / (mean * mean);
+}
+
+/// The laws that the joint tests are held against: the exact one, or bounds.
+std::vector<EstimatesBy> laws_of(const MethodDifferences& differences, const MatrixXd& R) {
+    constexpr double k_no_correlation = 1e-9;
+    if (!have_finite_degrees(differences)) {
+        return {EstimatesBy::exact};
+    }
+    const MatrixXd beside = R - MatrixXd(R.diagonal().asDiagonal());
+    if (!differences.one_estimate && beside.cwiseAbs().maxCoeff() <= k_no_correlation) {
+        return {EstimatesBy::apart};
+    }
+    return {EstimatesBy::exact, EstimatesBy::apart, EstimatesBy::one};
+}
+
+/// The distribution of a sum of squared scores.
+class SumOfSquaredScores {
+public:
+    /// \param weights  eigenvalues of the covariance of the scores
+    /// \param terms    its diagonal, with the ν of the points
+    SumOfSquaredScores(EstimatesBy estimates, std::vector<double> weights, std::vector<SquaredT> terms,
+                       double nu_of_one)
+        : estimates_(estimates), weights_(std::move(weights)), terms_(std::move(terms)), nu_(nu_of_one) {}
+
+    [[nodiscard]] double lower_tail(double x) const {
+        return estimates_ == EstimatesBy::apart ? squared_t_lower_tail(terms_, x)
+               : estimates_ == EstimatesBy::one ? common_t_lower_tail(weights_, nu_, x)
+                                                : weighted_chi_square_lower_tail(weights_, x);
+    }
+    [[nodiscard]] double upper_tail(double x) const {
+        return estimates_ == EstimatesBy::apart ? squared_t_upper_tail(terms_, x)
+               : estimates_ == EstimatesBy::one ? common_t_upper_tail(weights_, nu_, x)
+                                                : weighted_chi_square_upper_tail(weights_, x);
+    }
+    [[nodiscard]] double quantile(double p) const {
+        return estimates_ == EstimatesBy::apart ? squared_t_quantile(terms_, p)
+               : estimates_ == EstimatesBy::one ? common_t_quantile(weights_, nu_, p)
+                                                : weighted_chi_square_quantile(weights_, p);
+    }
+
+private:
+    EstimatesBy estimates_;
+    std::vector<double> weights_;
+    std::vector<SquaredT> terms_;
+    double nu_ = 0.0;
+};
+
+/// Makes the distributions of one law, for the scores as they are and for those of other uncertainties.
+class ScoreLaw {
+public:
+    ScoreLaw(EstimatesBy estimates, const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+             const std::vector<double>& of_zeta)
+        : estimates_(estimates), differences_(differences), u_(u), R_(R), of_zeta_(of_zeta) {
+        if (estimates == EstimatesBy::one) {
+            nu_of_one_ = degrees_of_one_estimate(differences);
+        }
+    }
+
+    [[nodiscard]] SumOfSquaredScores of_zeta() const { return made(of_zeta_, VectorXd::Ones(u_.size())); }
+
+    /// Where the uncertainty of the method is `factor` times the stated one.
+    [[nodiscard]] SumOfSquaredScores of_scaled(double factor) const {
+        const MatrixXd scaled = scaled_correlations(differences_, u_, R_, factor);
+        if (estimates_ == EstimatesBy::apart) {
+            return made({}, scaled.diagonal());
+        }
+        if (differences_.method_covariance.size() > 0 && R_.rows() <= k_most_points_of_eigenvectors) {
+            return made(spectrum(0.5 * (scaled + scaled.transpose())), {});
+        }
+        // The sum of the eigenvalues is the expected value of Σ ζ²: the ratio of the traces keeps it right, and only
+        // the form of the distribution is taken from R. Where all of V belongs to the method this is exact.
+        std::vector<double> weights = of_zeta_;
+        const double ratio = scaled.trace() / R_.trace();
+        for (double& weight : weights) {
+            weight *= ratio;
+        }
+        return made(std::move(weights), {});
+    }
+
+    /// Of Σ E_n², E_n = ζ u/U.
+    [[nodiscard]] SumOfSquaredScores of_en(const VectorXd& inverse_k) const {
+        return estimates_ == EstimatesBy::apart
+                   ? made({}, inverse_k.cwiseAbs2())
+                   : made(spectrum(inverse_k.asDiagonal() * R_ * inverse_k.asDiagonal()), {});
+    }
+
+    /// Of the Mahalanobis distance, squared.
+    [[nodiscard]] SumOfSquaredScores of_distance(std::size_t rank) const {
+        return made(std::vector<double>(rank, 1.0), VectorXd::Ones(static_cast<Index>(rank)));
+    }
+
+    [[nodiscard]] EstimatesBy estimates() const { return estimates_; }
+
+private:
+    [[nodiscard]] SumOfSquaredScores made(std::vector<double> weights, const VectorXd& diagonal) const {
+        std::vector<SquaredT> terms;
+        if (estimates_ == EstimatesBy::apart) {
+            for (Index i = 0; i < diagonal.size(); ++i) {
+                terms.push_back({std::max(diagonal(i), 0.0), degrees_of(differences_, i)});
+            }
+        }
+        return {estimates_, std::move(weights), std::move(terms), nu_of_one_};
+    }
+
+    EstimatesBy estimates_;
+    const MethodDifferences& differences_;
+    const VectorXd& u_;
+    const MatrixXd& R_;
+    const std::vector<double>& of_zeta_;
+    double nu_of_one_ = std::numeric_limits<double>::infinity();
+};
+
 /// Whether the sum of squares tells a right uncertainty from one that is wrong by a factor of 2.
-void add_test_of_uncertainty(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
-                             const std::vector<double>& of_zeta, Agreement& result) {
+void add_test_of_uncertainty(const ScoreLaw& law, const SumOfSquaredScores& of_zeta, Agreement& result) {
     constexpr double k_factor = 2.0;
     // Two one-sided tests, as for equivalence: that a test does not refute a right uncertainty would be no proof, for a
     // test of few points refutes hardly anything (ADR 0028, decision 6).
-    const std::vector<double> if_too_small = scaled_spectrum(differences, u, R, of_zeta, k_factor);
-    const std::vector<double> if_too_large = scaled_spectrum(differences, u, R, of_zeta, 1.0 / k_factor);
-    result.p_if_too_small = weighted_chi_square_lower_tail(if_too_small, result.sum_of_squared_zeta);
-    result.p_if_too_large = weighted_chi_square_upper_tail(if_too_large, result.sum_of_squared_zeta);
+    const SumOfSquaredScores if_too_small = law.of_scaled(k_factor);
+    const SumOfSquaredScores if_too_large = law.of_scaled(1.0 / k_factor);
+    result.p_if_too_small = if_too_small.lower_tail(result.sum_of_squared_zeta);
+    result.p_if_too_large = if_too_large.upper_tail(result.sum_of_squared_zeta);
     // The range of Σ ζ² in which both a doubled and a halved uncertainty are refuted while the stated one is not.
-    const double high = std::min(weighted_chi_square_quantile(if_too_small, k_error_of_confirmation),
-                                 weighted_chi_square_quantile(of_zeta, 1.0 - k_significant));
-    const double low = std::max(weighted_chi_square_quantile(if_too_large, 1.0 - k_error_of_confirmation),
-                                weighted_chi_square_quantile(of_zeta, k_significant));
+    const double high = std::min(if_too_small.quantile(k_error_of_confirmation), of_zeta.quantile(1.0 - k_significant));
+    const double low = std::max(if_too_large.quantile(1.0 - k_error_of_confirmation), of_zeta.quantile(k_significant));
     // high ≤ low: whatever the sum is, it cannot refute both. Few points, or points that share much, confirm nothing.
-    result.power_to_confirm =
-        high > low ? weighted_chi_square_lower_tail(of_zeta, high) - weighted_chi_square_lower_tail(of_zeta, low) : 0.0;
+    result.power_to_confirm = high > low ? of_zeta.lower_tail(high) - of_zeta.lower_tail(low) : 0.0;
+}
+
+void add_band(const ScoreLaw& law, const SumOfSquaredScores& of_zeta, const VectorXd& inverse_k, Agreement& result) {
+    const auto m = static_cast<double>(inverse_k.size());
+    // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.
+    const bool equal = inverse_k.maxCoeff() - inverse_k.minCoeff() <= k_equal_factors * inverse_k.maxCoeff();
+    const SumOfSquaredScores of_en = equal ? of_zeta : law.of_en(inverse_k);
+    const double scale = equal ? inverse_k(0) : 1.0;
+    const auto rms = [&](double probability) { return scale * std::sqrt(of_en.quantile(probability) / m); };
+    result.rms_en_low = rms(k_tail_of_band);
+    result.rms_en_high = rms(1.0 - k_tail_of_band);
+}
+
+/// The numbers of one law, beside those of no law that `result` has.
+Agreement under(const ScoreLaw& law, const VectorXd& inverse_k, const Whitened& distance, double square_of_pattern,
+                double coverage_probability, Agreement result) {
+    const SumOfSquaredScores of_zeta = law.of_zeta();
+    result.p_low = of_zeta.lower_tail(result.sum_of_squared_zeta);
+    result.p_high = of_zeta.upper_tail(result.sum_of_squared_zeta);
+    add_test_of_uncertainty(law, of_zeta, result);
+    add_band(law, of_zeta, inverse_k, result);
+    const SumOfSquaredScores of_distance = law.of_distance(result.rank);
+    if (law.estimates() == EstimatesBy::exact) {
+        result.p_mahalanobis = chi_square_upper_tail(result.mahalanobis_square, static_cast<double>(result.rank));
+        result.vector_en =
+            std::sqrt(result.mahalanobis_square) /
+            ellipsoid_coverage_factor(coverage_probability, result.rank, std::numeric_limits<double>::infinity());
+        result.p_pattern = chi_square_upper_tail(square_of_pattern, static_cast<double>(result.points));
+    } else {
+        result.p_mahalanobis = of_distance.upper_tail(result.mahalanobis_square);
+        result.vector_en = std::sqrt(result.mahalanobis_square / of_distance.quantile(coverage_probability));
+        result.p_pattern = law.of_distance(result.points).upper_tail(square_of_pattern);
+    }
+    // Only what is refuted can be refuted by less than rounding: one number where no pattern is in question.
+    if (result.p_mahalanobis >= k_chance_of_bias_and_pattern && distance.beyond(0) == 0.0) {
+        result.p_pattern = result.p_mahalanobis;
+    }
+    return result;
+}
+
+/// Of several bounds the one that objects least, and how much any of them objects.
+void add_bound(const Agreement& bound, Agreement& result) {
+    result.p_low_least = std::min(result.p_low_least, bound.p_low);
+    result.p_high_least = std::min(result.p_high_least, bound.p_high);
+    result.p_mahalanobis_least = std::min(result.p_mahalanobis_least, bound.p_mahalanobis);
+    for (double Agreement::*largest :
+         {&Agreement::p_low, &Agreement::p_high, &Agreement::p_mahalanobis, &Agreement::p_pattern,
+          &Agreement::p_if_too_small, &Agreement::p_if_too_large, &Agreement::rms_en_high}) {
+        result.*largest = std::max(result.*largest, bound.*largest);
+    }
+    for (double Agreement::*smallest : {&Agreement::power_to_confirm, &Agreement::rms_en_low, &Agreement::vector_en}) {
+        result.*smallest = std::min(result.*smallest, bound.*smallest);
+    }
+}
+
+/// The |E_n| that the largest of all points exceeds with k_chance_of_single_points.
+double largest_by_chance(const MethodDifferences& differences, const VectorXd& inverse_k, double coverage_probability) {
+    constexpr double k_normal = std::numeric_limits<double>::infinity();
+    const auto points = static_cast<std::size_t>(inverse_k.size());
+    if (!have_finite_degrees(differences)) {
+        // largest_en_by_chance() counts in units of the factor of its own probability, here 0.99. E_n counts in units
+        // of the factor for the coverage probability, hence the quotient of the two.
+        return largest_en_by_chance(points, 1.0 - k_chance_of_single_points) *
+               coverage_factor(1.0 - k_chance_of_single_points, k_normal) /
+               coverage_factor(coverage_probability, k_normal);
+    }
+    // Π P(|T_ν| ≤ L U/u) = 0.99: Šidák's limit with the t distribution and the factor of each point.
+    const auto excess = [&](double limit) {
+        double logarithm = -std::log1p(-k_chance_of_single_points);
+        for (Index i = 0; i < inverse_k.size(); ++i) {
+            logarithm += std::log1p(-two_sided_tail_of_t(limit / inverse_k(i), degrees_of(differences, i)));
+        }
+        return logarithm;
+    };
+    double low = 0.0;
+    double high = 1.0;
+    constexpr double k_beyond_all = 1e12;
+    while (excess(high) < 0.0 && high < k_beyond_all) {
+        low = high;
+        high *= 2.0;
+    }
+    constexpr int k_bisections = 60;
+    for (int i = 0; i < k_bisections; ++i) {
+        const double middle = 0.5 * (low + high);
+        (excess(middle) < 0.0 ? low : high) = middle;
+    }
+    return std::max(1.0, high);
 }
 
 void add_deviations_that_are_found(const MethodDifferences& differences, const VectorXd& u, Agreement& result) {
-    // For a true deviation δ, D is normal about δ with standard uncertainty u: |D| > U has the probability P at δ = U +
-    // z_P u. What lies beyond −U on the other side is left out, which makes the true probability larger. The largest of
-    // all points: a deviation of this size is found wherever it occurs.
-    const double z_80 = standard_normal_quantile(0.80);
-    const double z_95 = standard_normal_quantile(0.95);
-    result.found_with_80_percent = (differences.U + z_80 * u).maxCoeff();
-    result.found_with_95_percent = (differences.U + z_95 * u).maxCoeff();
+    // For a true deviation δ, D is about δ with standard uncertainty u: |D| > U has the probability P at δ = U + t_P u,
+    // t_P the quantile of the distribution of D. What lies beyond −U on the other side is left out, which makes the
+    // true probability larger. The largest of all points: a deviation of this size is found wherever it occurs.
+    const auto found = [&](double probability) {
+        double largest = 0.0;
+        for (Index i = 0; i < u.size(); ++i) {
+            // One-sided: P(T ≤ t) = P where ±t has the probability 2 P − 1.
+            const double nu = degrees_of(differences, i);
+            const double t =
+                std::isinf(nu) ? standard_normal_quantile(probability) : coverage_factor(2.0 * probability - 1.0, nu);
+            largest = std::max(largest, differences.U(i) + t * u(i));
+        }
+        return largest;
+    };
+    result.found_with_80_percent = found(0.80);
+    result.found_with_95_percent = found(0.95);
 }
 
-void add_distributions(const MethodDifferences& differences, const VectorXd& u, const MatrixXd& R,
+/// Dᵀ (V + s² diag V)⁻¹ D with the s that rounding of stated numbers may make.
+double square_beyond_rounding(const MatrixXd& R, const VectorXd& zeta) {
+    MatrixXd widened = R;
+    widened.diagonal().array() += k_rounding_of_statements * k_rounding_of_statements;
+    return whitened(widened, zeta).columns.squaredNorm();
+}
+
+void add_distributions(const MethodDifferences& differences, const VectorXd& u, const VectorXd& zeta, const MatrixXd& R,
                        double coverage_probability, Agreement& result) {
     const auto m = static_cast<double>(u.size());
-    // Σ ζ² of correlated points is a sum of χ² with the eigenvalues of their correlation matrix as weights. As if they
-    // were independent, many sound comparisons would be called suspicious.
-    const std::vector<double> of_zeta = spectrum(R);
-    result.p_low = weighted_chi_square_lower_tail(of_zeta, result.sum_of_squared_zeta);
-    result.p_high = weighted_chi_square_upper_tail(of_zeta, result.sum_of_squared_zeta);
     // Σ ζ² has mean m and variance 2 ΣΣ r_ij². A χ² of ν independent points, stretched to the same mean, has the
     // variance 2 m²/ν.
     result.effective_points = m * m / R.squaredNorm();
+    const VectorXd inverse_k = u.cwiseQuotient(differences.U);
     if (result.points > 1) {
-        constexpr double k_normal = std::numeric_limits<double>::infinity();
-        // largest_en_by_chance() counts in units of the factor of its own probability, here 0.99. E_n counts in units
-        // of the factor for the coverage probability, hence the quotient of the two.
-        result.largest_en_by_chance = largest_en_by_chance(result.points, 1.0 - k_chance_of_single_points) *
-                                      coverage_factor(1.0 - k_chance_of_single_points, k_normal) /
-                                      coverage_factor(coverage_probability, k_normal);
+        result.largest_en_by_chance = largest_by_chance(differences, inverse_k, coverage_probability);
     }
     result.count_by_chance =
         count_above_1_by_chance(result.points, std::clamp(result.effective_points, 1.0, m), coverage_probability);
-    add_test_of_uncertainty(differences, u, R, of_zeta, result);
     add_deviations_that_are_found(differences, u, result);
-    // E_n = ζ u/U: another spectrum only where the coverage factors of the points differ.
-    const VectorXd inverse_k = u.cwiseQuotient(differences.U);
-    const bool equal = inverse_k.maxCoeff() - inverse_k.minCoeff() <= k_equal_factors * inverse_k.maxCoeff();
-    const std::vector<double> of_en = equal ? of_zeta : spectrum(inverse_k.asDiagonal() * R * inverse_k.asDiagonal());
-    const double scale = equal ? inverse_k(0) : 1.0;
-    const auto rms = [&](double probability) {
-        return scale * std::sqrt(weighted_chi_square_quantile(of_en, probability) / m);
-    };
-    result.rms_en_low = rms(k_tail_of_band);
-    result.rms_en_high = rms(1.0 - k_tail_of_band);
+    const Whitened distance = whitened(R, zeta);
+    result.rank = static_cast<std::size_t>(distance.rank);
+    result.mahalanobis_square = distance.columns.squaredNorm();
+    result.beyond_covariance = distance.beyond(0);
+    const double square_of_pattern = square_beyond_rounding(R, zeta);
+    // Σ ζ² of correlated points is a sum of χ² with the eigenvalues of their correlation matrix as weights. As if they
+    // were independent, many sound comparisons would be called suspicious.
+    const std::vector<double> of_zeta = spectrum(R);
+    const std::vector<EstimatesBy> laws = laws_of(differences, R);
+    std::optional<Agreement> found;
+    for (const EstimatesBy estimates : laws) {
+        const Agreement bound = under(ScoreLaw(estimates, differences, u, R, of_zeta), inverse_k, distance,
+                                      square_of_pattern, coverage_probability, result);
+        if (!found) {
+            found = bound;
+        }
+        add_bound(bound, *found);
+    }
+    result = *found;
+    result.is_bounded = laws.size() > 1;
 }
 
 }  // namespace
@@ -340,15 +563,7 @@ Agreement agreement(const MethodDifferences& differences, double coverage_probab
     Agreement result;
     result.points = static_cast<std::size_t>(u.size());
     add_scores(differences, zeta, result);
-    add_distributions(differences, u, R, coverage_probability, result);
-    const Whitened whitened_zeta = whitened(R, zeta);
-    result.rank = static_cast<std::size_t>(whitened_zeta.rank);
-    result.mahalanobis_square = whitened_zeta.columns.squaredNorm();
-    result.beyond_covariance = whitened_zeta.beyond(0);
-    result.p_mahalanobis = chi_square_upper_tail(result.mahalanobis_square, static_cast<double>(result.rank));
-    result.vector_en =
-        std::sqrt(result.mahalanobis_square) /
-        ellipsoid_coverage_factor(coverage_probability, result.rank, std::numeric_limits<double>::infinity());
+    add_distributions(differences, u, zeta, R, coverage_probability, result);
     return result;
 }
 
@@ -435,6 +650,86 @@ std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Ve
     return result;
 }
 
+namespace {
+
+/// (value, covariance) of what is asked of a line, as a χ² of so many degrees of freedom.
+double square_of_bias(const Eigen::Vector2d& value, const Eigen::Matrix2d& covariance, const BiasQuestion& question) {
+    if (question.constant && question.slope) {
+        return value.dot(covariance.inverse() * value);
+    }
+    const Index i = question.constant ? 0 : 1;
+    return value(i) * value(i) / covariance(i, i);
+}
+
+/// The same for the slope as it is, and without what the uncertainty of the positions makes of it: a slope between both
+/// is no evidence.
+double least_square_of_bias(const BiasLine& line, const BiasQuestion& question) {
+    // In units of its own u the slope has the size of the constant, whatever the unit of the positions.
+    const double r = line.u_constant > 0.0 && line.u_slope > 0.0
+                         ? std::clamp(line.covariance / (line.u_constant * line.u_slope), -1.0, 1.0)
+                         : 0.0;
+    const Eigen::Matrix2d covariance{{1.0, r}, {r, 1.0}};
+    const double within = std::clamp(question.slope_of_noise, std::min(0.0, line.slope), std::max(0.0, line.slope));
+    const Eigen::Vector2d as_is(line.constant / line.u_constant, line.slope / line.u_slope);
+    const Eigen::Vector2d without(as_is(0), (line.slope - within) / line.u_slope);
+    return std::min(square_of_bias(as_is, covariance, question), square_of_bias(without, covariance, question));
+}
+
+/// The normal quantity with the same two-sided tail and sign as a t.
+double normal_score(double t, double degrees_of_freedom) {
+    if (std::isinf(degrees_of_freedom)) {
+        return t;
+    }
+    constexpr double k_least_tail = 1e-300;
+    const double tail = std::clamp(two_sided_tail_of_t(std::abs(t), degrees_of_freedom), k_least_tail, 1.0);
+    return tail < 1.0 ? std::copysign(two_sided_normal_critical_value(tail), t) : 0.0;
+}
+
+/// χ² of a line in t through the normal scores of ζ of points that do not correlate.
+double square_of_normal_scores(const MethodDifferences& differences, const VectorXd& t, const BiasQuestion& question) {
+    const Index m = t.size();
+    const VectorXd from_centre = t.array() - t.mean();
+    double sum = 0.0;
+    double moment = 0.0;
+    for (Index i = 0; i < m; ++i) {
+        const double z =
+            normal_score(differences.d(i) / std::sqrt(differences.covariance(i, i)), degrees_of(differences, i));
+        sum += z;
+        moment += z * from_centre(i);
+    }
+    // Both columns of the design are orthogonal, so that each has its χ² of one degree of freedom.
+    return (question.constant ? sum * sum / static_cast<double>(m) : 0.0) +
+           (question.slope ? moment * moment / from_centre.squaredNorm() : 0.0);
+}
+
+}  // namespace
+
+std::optional<BiasTest> bias_test(const MethodDifferences& differences, const VectorXd& t,
+                                  const BiasQuestion& question) {
+    const std::optional<BiasLine> line = bias_line(differences, t);
+    if (!line || (!question.constant && !question.slope)) {
+        return std::nullopt;
+    }
+    BiasTest result{.degrees_of_freedom = question.constant && question.slope ? 2 : 1};
+    const double nu = result.degrees_of_freedom;
+    const double square = least_square_of_bias(*line, question);
+    const double p_exact = chi_square_upper_tail(square, nu);
+    const std::vector<EstimatesBy> laws = laws_of(differences, correlation_matrix(differences.covariance));
+    if (laws.front() == EstimatesBy::exact) {
+        result.p = result.p_least = p_exact;
+    } else {
+        result.p = result.p_least = chi_square_upper_tail(square_of_normal_scores(differences, t, question), nu);
+    }
+    if (laws.size() > 1) {
+        const std::vector<double> weights(static_cast<std::size_t>(result.degrees_of_freedom), 1.0);
+        const double p_one = common_t_upper_tail(weights, degrees_of_one_estimate(differences), square);
+        const double p_apart = chi_square_upper_tail(square_of_normal_scores(differences, t, question), nu);
+        result.p = std::max({p_exact, p_one, p_apart});
+        result.p_least = std::min({p_exact, p_one, p_apart});
+    }
+    return result;
+}
+
 double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_probability) {
     require_probability(coverage_probability, "coverage probability");
     if (d.size() == 0 || covariance.rows() != d.size() || covariance.cols() != d.size()) {
@@ -464,14 +759,32 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
                                                                              std::numeric_limits<double>::infinity());
 }
 
-AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en) {
+bool is_too_large(const Agreement& agreement) {
+    return !(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance);
+}
+
+bool is_refuted_pattern(const Agreement& agreement) {
+    return !(agreement.p_pattern >= k_chance_of_bias_and_pattern);
+}
+
+AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en,
+                                   const std::optional<BiasTest>& bias) {
     // In the order of the objections: what refutes the agreement comes before what limits the proof of it. The
     // conditions are negated, so that a number that is none objects.
-    if (!(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance)) {
+    const double p_bias = bias ? bias->p : 1.0;
+    if (is_too_large(agreement) || is_refuted_pattern(agreement) || !(p_bias >= k_chance_of_bias_and_pattern)) {
         return AgreementVerdict::disagreement;
     }
     if (agreement.count_above_1 > agreement.count_by_chance) {
         return AgreementVerdict::points_above_1;
+    }
+    // What one bound of the joint distribution refutes and another does not is neither agreement nor disagreement. Nor is
+    // a pattern that no covariance explains, but rounding of the stated numbers might.
+    const double p_bias_least = bias ? bias->p_least : 1.0;
+    if (!(agreement.p_high_least >= k_significant) ||
+        !(std::min(agreement.p_mahalanobis, agreement.p_mahalanobis_least) >= k_chance_of_bias_and_pattern) ||
+        !(p_bias_least >= k_chance_of_bias_and_pattern)) {
+        return AgreementVerdict::joint_test_open;
     }
     if (worst_plausible_en && !(std::abs(*worst_plausible_en) <= 1.0)) {
         return AgreementVerdict::correlation_unknown;
@@ -483,6 +796,9 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     // it.
     if (!(agreement.p_low >= k_significant)) {
         return AgreementVerdict::uncertainty_too_large;
+    }
+    if (!(agreement.p_low_least >= k_significant)) {
+        return AgreementVerdict::joint_test_open;
     }
     // Before the test itself is looked at: with little power its outcome would be one of chance.
     if (!(agreement.power_to_confirm >= k_least_power_to_confirm)) {

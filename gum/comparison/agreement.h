@@ -16,6 +16,8 @@ struct MethodDifferences {
     Eigen::VectorXd U_method, U_reference;  ///< m, expanded uncertainties of both sides
     /// m×m, of the values of each side; empty: U of the method is held against half and twice of all of `covariance`.
     Eigen::MatrixXd method_covariance = {}, reference_covariance = {};
+    Eigen::VectorXd degrees_of_freedom = {};  ///< m, ν of u(D); empty: all infinite
+    bool one_estimate = false;  ///< finite ν, and the uncertainties of several points come from one estimate
 };
 
 /// What m correlated points say together.
@@ -36,11 +38,20 @@ struct Agreement {
     double mahalanobis_square = 0.0;                     ///< Dᵀ V⁻¹ D with the pseudo-inverse where V is singular
     std::size_t rank = 0;
     double beyond_covariance = 0.0;  ///< size of the vector of ζ outside the range of a singular V, which says it is 0
-    double p_mahalanobis = 0.0;      ///< P(χ²_rank ≥ mahalanobis_square)
-    double vector_en = 0.0;          ///< √mahalanobis_square / k_p, k_p the factor of the joint 95.45 % region (or p)
-    double ratio_reference = 0.0;    ///< rms U of the reference / rms U of the method; infinite where that is 0
-    double p_if_too_small = 0.0;     ///< P(a Σζ² as small or smaller) if U of the method should be twice as large
-    double p_if_too_large = 0.0;     ///< P(a Σζ² as large or larger) if U of the method should be half as large
+    double p_mahalanobis = 1.0;      ///< P(χ²_rank ≥ mahalanobis_square)
+    /// The same where 5 % of u of each point may be rounding of the stated numbers: what refutes a pattern. It sees what
+    /// is beyond a singular V as well.
+    double p_pattern = 1.0;
+    /// Finite ν together with correlations, or with one estimate behind several points: no exact distribution exists.
+    /// p_low, p_high, p_pattern, p_mahalanobis, p_if_… are then the largest of those for infinite ν, for uncertainties
+    /// that were estimated each by itself and for one estimate behind all of them, the band is the widest, the power the
+    /// smallest; and p_…_least are the smallest.
+    bool is_bounded = false;
+    double p_low_least = 1.0, p_high_least = 1.0, p_mahalanobis_least = 1.0;
+    double vector_en = 0.0;        ///< √mahalanobis_square / k_p, k_p the factor of the joint 95.45 % region (or p)
+    double ratio_reference = 0.0;  ///< rms U of the reference / rms U of the method; infinite where that is 0
+    double p_if_too_small = 0.0;   ///< P(a Σζ² as small or smaller) if U of the method should be twice as large
+    double p_if_too_large = 0.0;   ///< P(a Σζ² as large or larger) if U of the method should be half as large
     /// Probability that Σζ² refutes both, and neither p_low nor p_high is below 0.025, where all uncertainties are
     /// right.
     double power_to_confirm = 0.0;
@@ -56,6 +67,9 @@ struct Agreement {
 ///                     k_most_points_of_agreement points
 /// Directions in which V has no variance (eigenvalue of the correlation matrix below 1e-10 of the largest) are left out
 /// of the Mahalanobis numbers, and the rank tells how many remain.
+/// Points that do not correlate, with finite ν of their own: Σζ² is a sum of squares of independent t, exactly where
+/// the ν are those of the estimates; limits of single |E_n| and deviations that are found are those of t as well.
+/// \throws InputError  GC-GUM-0005 for ν
 /// Accuracy: probabilities within 1e-9 (docs/accuracy.md#comparisons-and-robust-statistics).
 [[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability);
 /// The limit that the largest |E_n| of n points exceeds with probability 1 − p at most where all uncertainties are
@@ -94,6 +108,24 @@ struct BiasLine {
 /// \throws InputError  as agreement()
 [[nodiscard]] std::optional<BiasLine> bias_line(const MethodDifferences& differences, const Eigen::VectorXd& t);
 
+/// Whether chance explains the constant and the slope of a bias line.
+struct BiasTest {
+    int degrees_of_freedom = 0;  ///< 2; 1 where only one of both is tested
+    double p = 1.0;              ///< P(a constant and slope as far from 0 or farther)
+    double p_least = 1.0;        ///< where no exact distribution exists: the smallest of the bounds, and p the largest
+};
+/// What a bias is tested for.
+struct BiasQuestion {
+    bool constant = true, slope = true;
+    double slope_of_noise = 0.0;  ///< that the uncertainty of the positions makes: a slope between 0 and it is none
+};
+/// Wald's test of the bias line. With finite ν of points that do not correlate, the normal scores of ζ have a line in t
+/// fitted to them: their weights do not depend on the estimated uncertainties, which makes it exact.
+/// \return nothing where there is no line, or nothing is asked
+/// \throws InputError  as bias_line()
+[[nodiscard]] std::optional<BiasTest> bias_test(const MethodDifferences& differences, const Eigen::VectorXd& t,
+                                                const BiasQuestion& question);
+
 /// E_n for a vector of m quantities with covariance V of the difference: √(Dᵀ V⁻¹ D) / k_p, where k_p² is the
 /// p quantile of chi-square with m degrees of freedom. For m = 1 it is |E_n|.         (after JCGM 102:2011, 6.5.2)
 /// \throws InputError  GC-GUM-0001, -0031 V is singular or has a variance of 0, -0052 to -0054, -0135 as above
@@ -102,8 +134,11 @@ struct BiasLine {
 
 /// What a comparison of methods may be said to show, strongest objection first: the first that holds is the verdict.
 enum class AgreementVerdict {
-    disagreement,                 ///< p_high < 0.025, or the largest |E_n| is above what chance makes of so many points
-    points_above_1,               ///< more points with |E_n| > 1 than chance explains
+    /// p_high < 0.025, the largest |E_n| is above what chance makes of so many points, p_pattern < 0.01, or a bias with
+    /// p < 0.01.
+    disagreement,
+    points_above_1,  ///< more points with |E_n| > 1 than chance explains
+    joint_test_open,  ///< one of the bounds of a joint test objects, and another does not; or only rounding would have to
     correlation_unknown,          ///< agreement only if both methods share nothing: |E_n| > 1 for the worst plausible r
     reference_not_better,         ///< U of the reference ≥ U of the method: it cannot validate it
     uncertainty_too_large,        ///< p_low < 0.025
@@ -120,6 +155,15 @@ enum class AgreementVerdict {
 inline constexpr double k_error_of_confirmation = 0.05;
 inline constexpr double k_least_power_to_confirm = 0.92;
 /// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known
-[[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en);
+/// \param bias  of the bias line; nothing where there is none
+[[nodiscard]] AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en,
+                                                 const std::optional<BiasTest>& bias = std::nullopt);
+/// Whether single differences or their sum of squares are too large: a disagreement for no other reason is one of a
+/// pattern or of a bias.
+[[nodiscard]] bool is_too_large(const Agreement& agreement);
+/// Whether p_pattern refutes the covariance.
+[[nodiscard]] bool is_refuted_pattern(const Agreement& agreement);
+/// Of p of a bias line and of p_pattern: they stand beside p_high, and 1 of 100 comparisons fails each by chance.
+inline constexpr double k_chance_of_bias_and_pattern = 0.01;
 
 }  // namespace gumcert::gum

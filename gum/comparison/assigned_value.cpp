@@ -78,9 +78,7 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
         assigned.weights[static_cast<Eigen::Index>(positions[i])] = reference.weights[static_cast<Eigen::Index>(i)];
     }
     assigned.covariance = Eigen::VectorXd::Zero(size_of(data));
-    // Only for results with a stated u is a covariance with y known. It is taken by way of the correlation, which is
-    // limited to ±1: where u(y) comes from the scatter of results that agree by chance, Σ w_j cov(x_i, x_j) alone may
-    // be larger than u_i u(y).
+    // Only for results with a stated u is a covariance with y known. u_above_scatter() sees to it that it is possible.
     const std::vector<std::size_t> with_u = data.with_u();
     if (!with_u.empty() && reference.u > 0.0) {
         ReferenceValue of_all = reference;
@@ -161,10 +159,59 @@ void add_scatter(const LaboratoryData& data, SpreadUncertainty of_value,
     assigned.scatter = std::move(scatter);
 }
 
+/// u of Σ w_i x_i by the stated uncertainties and their covariance, √(wᵀ V w); of results without u, as if it were 0.
+/// \param weights  of the contributing results
+double u_by_statements(const LaboratoryData& data, const Eigen::VectorXd& weights) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < data.contributing.size(); ++i) {
+        const auto a = static_cast<Eigen::Index>(data.contributing[i]);
+        const double w = weights[static_cast<Eigen::Index>(i)];
+        if (data.covariance.size() == 0) {
+            square += data.has_u(data.contributing[i]) ? w * w * data.u[a] * data.u[a] : 0.0;
+            continue;
+        }
+        for (std::size_t j = 0; j < data.contributing.size(); ++j) {
+            const auto b = static_cast<Eigen::Index>(data.contributing[j]);
+            square += w * weights[static_cast<Eigen::Index>(j)] * data.covariance(a, b);
+        }
+    }
+    return std::sqrt(std::max(square, 0.0));
+}
+
+/// The rule for u of a value whose u comes from the scatter of the results: what the stated uncertainties give it, where
+/// that is larger and the results correlate; or where with the smaller u a result would correlate with the value by more
+/// than 1. Scatter shows nothing of what all results share. Then |cov(x_i, y)| ≤ u_i u(y) holds (Cauchy and Schwarz).
+/// \return nothing where the u of the scatter stays
+std::optional<double> u_above_scatter(const LaboratoryData& data, const Eigen::VectorXd& weights, double u_of_scatter) {
+    constexpr double k_rounding = 1.0 + 1e-9;
+    const double stated = u_by_statements(data, weights);
+    if (!(u_of_scatter > 0.0) || !(stated > u_of_scatter)) {
+        return std::nullopt;
+    }
+    bool beyond = data.covariance.size() > 0;
+    for (std::size_t i = 0; i < data.contributing.size() && !beyond; ++i) {
+        const std::size_t at = data.contributing[i];
+        beyond =
+            data.has_u(at) && std::abs(weights[static_cast<Eigen::Index>(i)]) * data.u[static_cast<Eigen::Index>(at)] >
+                                  u_of_scatter * k_rounding;
+    }
+    return beyond ? std::optional(stated) : std::nullopt;
+}
+
+/// u without the part that add_scatter() adds to every spread.
+double without_common(const LaboratoryData& data, double u) {
+    return std::sqrt(std::max(u * u - common_variance(data), 0.0));
+}
+
 /// A mean whose weights allow for a scatter between laboratories.
-AssignedValue scattered_value(const LaboratoryData& data, const ReferenceValue& reference,
+AssignedValue scattered_value(const LaboratoryData& data, const ReferenceValue& of_scatter,
                               double coverage_probability) {
+    const std::optional<double> stated = u_above_scatter(data, of_scatter.weights, of_scatter.u);
+    ReferenceValue reference = of_scatter;
+    reference.u = stated.value_or(of_scatter.u);
     AssignedValue assigned = linear_value(data, data.contributing, reference);
+    assigned.u_by_statements = stated.has_value();
+    reference.u = stated ? without_common(data, *stated) : of_scatter.u;
     const Eigen::VectorXd x = data.values(data.contributing);
     add_scatter(data, weighted_spread(x, reference, coverage_probability), spread_of_others(x, reference.weights),
                 reference.weights / reference.weights.sum(), assigned);
@@ -187,7 +234,8 @@ Eigen::VectorXd covariance_with_mean(const LaboratoryData& data) {
     return covariance;
 }
 
-AssignedValue robust_value(const LaboratoryData& data, RobustMean kind, const RobustEstimate& estimate) {
+AssignedValue robust_value(const LaboratoryData& data, RobustMean kind, const RobustEstimate& estimate,
+                           double coverage_probability) {
     AssignedValue assigned;
     assigned.value = estimate.location;
     // A scale of 0 says that more than half of the results are equal, not that the value is exactly known.
@@ -198,10 +246,32 @@ AssignedValue robust_value(const LaboratoryData& data, RobustMean kind, const Ro
     assigned.covariance = covariance_with_mean(data);
     const Eigen::VectorXd x = data.values(data.contributing);
     const std::vector<double> values(x.data(), x.data() + x.size());
-    const SpreadUncertainty spread = robust_spread(kind, values);
+    // u²/n is that of the mean. A result with a u far above the others has less of a robust mean than that: where more
+    // would be shared than u and u(y) allow, nothing is taken as shared, which changes u(D) by less than u/n.
+    constexpr double k_possible = 1.0 + 1e-9;
+    for (const std::size_t i : data.contributing) {
+        const auto at = static_cast<Eigen::Index>(i);
+        if (data.covariance.size() == 0 &&
+            assigned.covariance[at] > k_possible * data.u[at] * assigned.u.value_or(0.0)) {
+            assigned.covariance[at] = 0.0;
+        }
+    }
+    SpreadUncertainty spread = robust_spread(kind, values);
+    const Eigen::VectorXd shares = Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size()));
+    if (const std::optional<double> stated =
+            assigned.u && data.covariance.size() > 0 ? u_above_scatter(data, shares, *assigned.u) : std::nullopt) {
+        assigned.u = stated;
+        assigned.u_by_statements = true;
+        // As weighted_spread() does: U(X) is not below k u(X).
+        constexpr double k_normal = std::numeric_limits<double>::infinity();
+        if (spread.u > 0.0 && coverage_factor(coverage_probability, k_normal) * *stated >
+                                  coverage_factor(coverage_probability, spread.degrees_of_freedom) *
+                                      std::hypot(spread.u, std::sqrt(common_variance(data)))) {
+            spread = {.u = without_common(data, *stated)};
+        }
+    }
     if (assigned.u && spread.u > 0.0) {
-        add_scatter(data, spread, robust_spread_of_others(kind, values),
-                    Eigen::VectorXd::Constant(x.size(), 1.0 / static_cast<double>(x.size())), assigned);
+        add_scatter(data, spread, robust_spread_of_others(kind, values), shares, assigned);
         assigned.scatter->factor = kind == RobustMean::median ? median_difference_factor(values.size()) : 1.0;
     } else {
         assigned.u = std::nullopt;
@@ -334,7 +404,9 @@ AssignedValue consensus(const ComparisonScheme& scheme, const LaboratoryData& da
     switch (request.method) {
         case AssignedValueMethod::arithmetic_mean: {
             AssignedValue mean = scattered_value(data, arithmetic_mean(x), p);
-            mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
+            if (!mean.u_by_statements) {
+                mean.degrees_of_freedom = static_cast<double>(chosen.size() - 1);
+            }
             if (!(*mean.u > 0.0)) {
                 // Equal results say that digits are missing, not that the value is exactly known.
                 mean.u = std::nullopt;
@@ -344,13 +416,14 @@ AssignedValue consensus(const ComparisonScheme& scheme, const LaboratoryData& da
         }
         case AssignedValueMethod::median:
             return request.median_by_trials ? median_by_trials(scheme, data)
-                                            : robust_value(data, RobustMean::median, median_with_made(values));
+                                            : robust_value(data, RobustMean::median, median_with_made(values), p);
         case AssignedValueMethod::algorithm_a:
             return robust_value(data, RobustMean::algorithm_a,
                                 algorithm_a(values, request.exact_constants ? AlgorithmAConstants::exact
-                                                                            : AlgorithmAConstants::published));
+                                                                            : AlgorithmAConstants::published),
+                                p);
         case AssignedValueMethod::q_hampel:
-            return robust_value(data, RobustMean::q_hampel, q_hampel(values));
+            return robust_value(data, RobustMean::q_hampel, q_hampel(values), p);
         case AssignedValueMethod::largest_consistent_subset:
             return largest_subset(data, request.alpha);
         case AssignedValueMethod::dersimonian_laird:

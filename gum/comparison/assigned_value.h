@@ -36,6 +36,8 @@ struct AssignedValue {
     double value = 0.0;
     std::optional<double> u;  ///< 0: taken as exactly known; none: cannot be stated
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
+    /// u is not that of the scatter, but that which the stated uncertainties and their covariance give the value.
+    bool u_by_statements = false;
     std::optional<ResultUncertainty> stated;  ///< where one result, or the scheme, states it
     /// n, where the value is linear in the results, y = Σ w_i x_i; empty else
     Eigen::VectorXd weights;

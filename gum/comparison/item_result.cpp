@@ -61,6 +61,7 @@ void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const 
         result.consistency_of_all = consistency_test(data.at(data.contributing), data.item->assigned_value.alpha);
     }
     result.subset_unique = assigned.subset_unique;
+    result.u_by_statements = assigned.u_by_statements;
     for (const std::size_t i : assigned.in_another_subset) {
         result.in_another_subset.push_back(participant(i));
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -519,12 +520,43 @@ void require_possible_search(const LaboratoryResults& results, double alpha) {
     }
 }
 
+/// Results in ascending order of x, then of u: of subsets that tie the same one is taken in whatever order the results
+/// are listed.
+std::vector<Eigen::Index> order_of_values(const LaboratoryResults& results) {
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(results.x.size()));
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+        return results.x(a) != results.x(b) ? results.x(a) < results.x(b) : results.u(a) < results.u(b);
+    });
+    return order;
+}
+
+LaboratoryResults in_order(const LaboratoryResults& results, const std::vector<Eigen::Index>& order) {
+    LaboratoryResults sorted{.x = results.x(order), .u = results.u(order)};
+    if (results.covariance.size() > 0) {
+        sorted.covariance = results.covariance(order, order);
+    }
+    return sorted;
+}
+
+/// Positions in the given order, ascending.
+std::vector<std::size_t> as_listed(const Members& members, const std::vector<Eigen::Index>& order) {
+    std::vector<std::size_t> listed;
+    for (const std::uint32_t member : members) {
+        listed.push_back(static_cast<std::size_t>(order[member]));
+    }
+    std::sort(listed.begin(), listed.end());
+    return listed;
+}
+
 }  // namespace
 
 ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, double alpha) {
     require_possible_search(results, alpha);
+    const std::vector<Eigen::Index> order = order_of_values(results);
+    const LaboratoryResults sorted = in_order(results, order);
     const std::optional<Largest> largest =
-        results.covariance.size() == 0 ? largest_of_independent(results, alpha) : largest_of_correlated(results, alpha);
+        results.covariance.size() == 0 ? largest_of_independent(sorted, alpha) : largest_of_correlated(sorted, alpha);
     if (!largest) {
         throw NoResultError(Diagnostic{
             .code = "GC-GUM-0134",
@@ -534,9 +566,9 @@ ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, dou
             .action = "Review the uncertainties, or choose a median or a random-effects mean."});
     }
     ConsistentSubset subset;
-    subset.members.assign(largest->subset.members.begin(), largest->subset.members.end());
+    subset.members = as_listed(largest->subset.members, order);
     subset.unique = largest->unique;
-    subset.in_another.assign(largest->in_another.begin(), largest->in_another.end());
+    subset.in_another = as_listed(largest->in_another, order);
     const LaboratoryResults members = selected_results(results, subset.members);
     subset.mean = spread_weights(weighted_mean(members), subset.members, static_cast<std::size_t>(results.x.size()));
     subset.test = consistency_test(members, alpha);

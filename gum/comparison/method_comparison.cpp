@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "gum/argument_check.h"
@@ -20,6 +21,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double k_rounding_of_correlation = 1e-9;
+constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
 
 /// The differences of all points, and what both sides contribute to their uncertainty.
 struct Differences {
@@ -68,11 +70,35 @@ double correlation_of(const MethodComparison& comparison, std::size_t i) {
     return std::clamp(r, -1.0, 1.0);
 }
 
+/// ν of u(D) by Welch and Satterthwaite. What both sides share cancels in u(D), but not in what is estimated.
+double degrees_of_difference(const ComparedPoint& point, double u_difference) {
+    constexpr double k_least = 1.0;
+    const double nu = point.nu.value_or(k_infinity);
+    const double reference_nu = point.reference_nu.value_or(k_infinity);
+    const double of_method = point.u / u_difference;
+    const double of_reference = point.reference_u / u_difference;
+    const double inverse = std::pow(of_method, 4) / nu + std::pow(of_reference, 4) / reference_nu;
+    return inverse > 0.0 ? std::max(k_least, 1.0 / inverse) : k_infinity;
+}
+
+/// Whether several points have the same u with the same finite ν: estimates that were made apart are never equal.
+bool is_one_estimate(const std::vector<ComparedPoint>& points) {
+    std::set<std::pair<double, double>> of_method;
+    std::set<std::pair<double, double>> of_reference;
+    return std::any_of(points.begin(), points.end(), [&](const ComparedPoint& point) {
+        return (point.nu && std::isfinite(*point.nu) && !of_method.emplace(*point.nu, point.u).second) ||
+               (point.reference_nu && std::isfinite(*point.reference_nu) &&
+                !of_reference.emplace(*point.reference_nu, point.reference_u).second);
+    });
+}
+
 Differences differences_of(const MethodComparison& comparison) {
     const auto m = static_cast<Index>(comparison.points.size());
     Differences differences;
     MethodDifferences& all = differences.all;
     all.d.resize(m);
+    all.degrees_of_freedom.resize(m);
+    all.one_estimate = is_one_estimate(comparison.points);
     all.U.resize(m);
     all.U_method.resize(m);
     all.U_reference.resize(m);
@@ -106,6 +132,7 @@ Differences differences_of(const MethodComparison& comparison) {
         const bool at_limit = std::abs(at_point.en) == 1.0;
         all.d(at) = at_limit ? std::copysign(at_point.U_difference, at_point.en) : at_point.difference;
         all.U(at) = at_point.U_difference;
+        all.degrees_of_freedom(at) = degrees_of_difference(point, at_point.u_difference);
         all.U_method(at) = of_method.U;
         all.U_reference(at) = of_reference.U;
         // The u of the score itself, which does not cancel for r close to 1: ζ of the point and the joint tests use one
@@ -195,6 +222,8 @@ MethodDifferences selected(const MethodDifferences& all, const std::vector<Index
     chosen.d = all.d(points);
     chosen.covariance = all.covariance(points, points);
     chosen.U = all.U(points);
+    chosen.degrees_of_freedom = all.degrees_of_freedom(points);
+    chosen.one_estimate = all.one_estimate;
     chosen.U_method = all.U_method(points);
     chosen.U_reference = all.U_reference(points);
     chosen.method_covariance = all.method_covariance(points, points);
@@ -230,29 +259,6 @@ MethodDifferences for_bias_line(const MethodComparison& comparison, MethodDiffer
     return differences;
 }
 
-std::optional<MethodBias> bias_of(const MethodComparison& comparison, const MethodDifferences& differences,
-                                  const std::vector<Index>& points) {
-    Eigen::VectorXd t(differences.d.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const ComparedPoint& point = comparison.points[static_cast<std::size_t>(points[i])];
-        if (comparison.bias_against_position && !point.position) {
-            return std::nullopt;
-        }
-        t(static_cast<Index>(i)) = comparison.bias_against_position ? *point.position : point.reference_value;
-    }
-    const std::optional<BiasLine> line = bias_line(for_bias_line(comparison, differences), t);
-    if (!line) {
-        return std::nullopt;
-    }
-    // Normal: the covariance of the differences is stated, not estimated from what the line leaves.
-    const double k = coverage_factor(comparison.coverage_probability, k_infinity);
-    return MethodBias{.line = *line,
-                      .U_constant = k * line->u_constant,
-                      .U_slope = k * line->u_slope,
-                      .against_position = comparison.bias_against_position,
-                      .span = t.maxCoeff() - t.minCoeff()};
-}
-
 /// Slope of the bias line that the uncertainty of the reference values alone makes: their errors stand in t, and with
 /// the other sign in D. Expected value of Σ (t − t̄)(D − D̄) from the covariance of both, over Σ (t − t̄)²; what all
 /// points share moves t̄ and turns nothing. To first order, for equal weights.
@@ -274,6 +280,109 @@ double slope_of_noise(const MethodComparison& comparison, const std::vector<Inde
     return spread > 0.0 ? (covariance.trace() - covariance.sum() / n) / spread : 0.0;
 }
 
+/// Whether the reference values spread so little that a line against them shows their own noise.
+bool is_noise(const MethodComparison& comparison, const std::vector<Index>& points) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double variance = 0.0;
+    const double first = comparison.points[static_cast<std::size_t>(points.front())].reference_value;
+    for (const Index i : points) {
+        const ComparedPoint& point = comparison.points[static_cast<std::size_t>(i)];
+        const double value = point.reference_value - first;  // large values would lose their digits
+        sum += value;
+        squares += value * value;
+        variance += point.reference_u * point.reference_u;
+    }
+    const auto count = static_cast<double>(points.size());
+    const double spread = std::max(0.0, squares / count - sum * sum / (count * count));
+    return spread < k_noise_of_positions * k_noise_of_positions * variance / count;
+}
+
+std::optional<MethodBias> bias_of(const MethodComparison& comparison, const MethodDifferences& differences,
+                                  const std::vector<Index>& points) {
+    Eigen::VectorXd t(differences.d.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ComparedPoint& point = comparison.points[static_cast<std::size_t>(points[i])];
+        if (comparison.bias_against_position && !point.position) {
+            return std::nullopt;
+        }
+        t(static_cast<Index>(i)) = comparison.bias_against_position ? *point.position : point.reference_value;
+    }
+    const MethodDifferences of_line = for_bias_line(comparison, differences);
+    const std::optional<BiasLine> line = bias_line(of_line, t);
+    if (!line) {
+        return std::nullopt;
+    }
+    // Normal: the covariance of the differences is stated, not estimated from what the line leaves.
+    const double k = coverage_factor(comparison.coverage_probability, k_infinity);
+    const bool slope_is_noise = !comparison.bias_against_position && is_noise(comparison, points);
+    const BiasQuestion question{.constant = !comparison.mean_taken_off,
+                                .slope = !slope_is_noise,
+                                .slope_of_noise = slope_of_noise(comparison, points)};
+    return MethodBias{.line = *line,
+                      .U_constant = k * line->u_constant,
+                      .U_slope = k * line->u_slope,
+                      .against_position = comparison.bias_against_position,
+                      .span = t.maxCoeff() - t.minCoeff(),
+                      .slope_is_noise = slope_is_noise,
+                      .test = bias_test(of_line, t, question)};
+}
+
+/// The comparison with the findings on the uncertainties corrected.
+MethodComparison corrected(const MethodComparison& comparison) {
+    MethodComparison result = comparison;
+    const double f = comparison.audited_factor;
+    const double of_reference = comparison.reference_audited_factor;
+    const auto scale = [](double factor, double& u, double& U, std::optional<EnUncertainty>& of_scores) {
+        u *= factor;
+        U *= factor;
+        if (of_scores) {
+            of_scores->U *= factor;
+        }
+    };
+    for (ComparedPoint& point : result.points) {
+        scale(f, point.u, point.U, point.of_scores);
+        scale(of_reference, point.reference_u, point.reference_U, point.reference_of_scores);
+    }
+    result.covariance *= f * f;
+    result.reference_covariance *= of_reference * of_reference;
+    result.cross_covariance *= f * of_reference;
+    result.audited_factor = result.reference_audited_factor = 1.0;
+    return result;
+}
+
+std::optional<double> largest_of(const std::optional<EnVariant>& variant) {
+    return variant ? std::optional(variant->largest_absolute_en) : std::nullopt;
+}
+
+/// Directions of their own have no line in common.
+bool has_bias_line(const MethodSummary& row, const MethodResult& result) {
+    return row.direction != "all" || result.summaries.size() == 1;
+}
+
+/// What a comparison with these findings corrected is judged to be.
+void add_corrected_verdicts(const MethodComparison& comparison, MethodResult& result) {
+    const MethodComparison better = corrected(comparison);
+    const Differences differences = differences_of(better);
+    for (MethodSummary& row : result.summaries) {
+        const MethodDifferences chosen = selected(differences.all, row.points);
+        std::optional<double> worst;
+        for (const Index i : row.points) {
+            if (comparison.correlation_unknown) {
+                const auto at = static_cast<std::size_t>(i);
+                worst = std::max(worst.value_or(0.0),
+                                 std::abs(worst_en(differences.method[at], differences.reference[at])));
+            }
+        }
+        std::optional<BiasTest> test;
+        if (has_bias_line(row, result)) {
+            const std::optional<MethodBias> bias = bias_of(better, chosen, row.points);
+            test = bias ? bias->test : std::nullopt;
+        }
+        row.verdict_audited = agreement_verdict(agreement(chosen, result.score_probability), worst, test);
+    }
+}
+
 }  // namespace
 
 MethodResult compare_methods(const MethodComparison& comparison) {
@@ -289,13 +398,14 @@ MethodResult compare_methods(const MethodComparison& comparison) {
         row.agreement = agreement(chosen, p);
         row.worst = variant_of(result.scores, row.points, &MethodScore::en_worst);
         row.audited = variant_of(result.scores, row.points, &MethodScore::en_audited);
-        row.verdict =
-            agreement_verdict(row.agreement, row.worst ? std::optional(row.worst->largest_absolute_en) : std::nullopt);
-        // Directions of their own have no line in common.
-        if (row.direction != "all" || result.summaries.size() == 1) {
+        if (has_bias_line(row, result)) {
             row.bias = bias_of(comparison, chosen, row.points);
         }
         row.slope_of_noise = slope_of_noise(comparison, row.points);
+        row.verdict = agreement_verdict(row.agreement, largest_of(row.worst), row.bias ? row.bias->test : std::nullopt);
+    }
+    if (comparison.is_audited()) {
+        add_corrected_verdicts(comparison, result);
     }
     return result;
 }

@@ -56,6 +56,10 @@ struct MethodBias {
     double U_constant = 0.0, U_slope = 0.0;
     bool against_position = false;  ///< else against the reference value
     double span = 0.0;              ///< of the positions, or of the reference values
+    /// The reference values spread by less than five times their standard uncertainty: the slope against them contains
+    /// their own errors, and is no evidence of anything.
+    bool slope_is_noise = false;
+    std::optional<BiasTest> test = {};  ///< that chance explains the line, of what of it can be evidence
 };
 
 /// What the points of one direction say together, or those of all directions.
@@ -65,7 +69,9 @@ struct MethodSummary {
     Agreement agreement;
     std::optional<EnVariant> worst = {};  ///< where r is not known; the largest is infinite where nothing bounds it
     std::optional<EnVariant> audited = {};
-    AgreementVerdict verdict = AgreementVerdict::disagreement;
+    AgreementVerdict verdict = AgreementVerdict::disagreement;  ///< of the uncertainties as stated
+    /// With findings on the uncertainties corrected, where there are such: the method stands only where both do.
+    std::optional<AgreementVerdict> verdict_audited = {};
     std::optional<MethodBias> bias = {};
     /// Slope of the bias line that the uncertainty of the reference values alone makes: their errors stand in t, and
     /// with the other sign in D. To first order, for equal weights; 0 against positions.
@@ -81,7 +87,9 @@ struct MethodResult {
 
 /// Compares a method with a reference method.
 ///
-/// Differences are judged with their full covariance, V + V_ref − C − Cᵀ (gum/comparison/agreement.h).
+/// Differences are judged with their full covariance, V + V_ref − C − Cᵀ (gum/comparison/agreement.h), and with the
+/// degrees of freedom of their uncertainties by Welch and Satterthwaite (JCGM 100:2008, G.4.1). Equal finite ν and equal
+/// u of several points of a side are one estimate.
 /// \throws InputError, NoResultError  GC-COMPARE-0201 sizes that do not fit, -0202 a correlation beyond 1, -0203 a
 ///                     direction that is called "all"; those of score() and agreement() with the point in `where`
 [[nodiscard]] MethodResult compare_methods(const MethodComparison& comparison);

@@ -74,7 +74,9 @@ struct ConsistentSubset {
     std::vector<std::size_t> members;  ///< ascending
     ReferenceValue mean;               ///< of the members; weights over all n, 0 outside
     ConsistencyTest test;              ///< of the members
-    bool unique = true;                ///< no other subset of this size has the same chi-square (within 1e-9 relative)
+    /// No other subset of this size has the same chi-square (within 1e-9 relative). Of those that have, one is taken that
+    /// does not depend on the order in which the results are listed, and nothing else speaks for it.
+    bool unique = true;
     /// Ascending: results outside that another consistent subset of this size holds. The choice against them is that of
     /// the smallest chi-square, and no more. Of more than 100 results outside, those after the first 100 count as such.
     std::vector<std::size_t> in_another = {};

@@ -80,6 +80,26 @@ void require_explained_difference(const Scene& scene, const ScoredResult& point)
     }
 }
 
+/// r of a result and the assigned value. Beyond 1 it is refused, and not made 1: u_D would be that of no quantity.
+double correlation_with_value(const Scene& scene, std::size_t position, double u, double u_X, double covariance) {
+    constexpr double k_rounding = 1e-6;            // of the covariance of stated numbers
+    constexpr double k_rounding_of_trials = 0.02;  // where all three variances come from trials
+    if (!(u_X > 0.0) || !(u > 0.0) || covariance == 0.0) {
+        return 0.0;
+    }
+    const double r = covariance / (u * u_X);
+    if (!(std::abs(r) <= 1.0 + (scene.assigned.intervals ? k_rounding_of_trials : k_rounding))) {
+        refuse("GC-GUM-0030",
+               (scene.data.where.empty() ? "result of " : scene.data.where + ", result of ") +
+                   scene.scheme.participants[scene.data.results[position]->participant].id,
+               "a covariance of " + text::shortest(covariance) +
+                   " with the assigned value, beside u = " + text::shortest(u) + " and u(X) = " + text::shortest(u_X),
+               "must lie between -1 and 1",
+               "Correct the covariance or the sources of the result and of the assigned value.");
+    }
+    return std::clamp(r, -1.0, 1.0);
+}
+
 /// u_D, U_D and with them E_n and ζ.
 void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResult& point) {
     const auto at = static_cast<Eigen::Index>(position);
@@ -88,7 +108,7 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
     const double covariance = scene.assigned.covariance[at];
     // A result that is part of the value, or shares a source with it, correlates with it. With r = 0 the uncertainty of
     // D would be too large for r > 0: a failure would stay hidden.
-    const double r = u_X > 0.0 ? std::clamp(covariance / (u * u_X), -1.0, 1.0) : 0.0;
+    const double r = correlation_with_value(scene, position, u, u_X, covariance);
     point.u_difference = uncertainty_of_difference(u, u_X, r);
     point.correlation = r;
     if (is_scored_by_scatter(scene)) {
@@ -292,7 +312,8 @@ void add_verdict(const Scene& scene, std::size_t position, ScoredResult& point) 
     for (const auto& [score, signal] : signals) {
         strongest = std::max(strongest, signal);
     }
-    if (strongest != Signal::none && rests_on_choice(scene, position)) {
+    // No signal is as much a statement as one is: with the other subset the result might have one.
+    if (rests_on_choice(scene, position)) {
         point.verdict = Verdict::inconclusive;
         return;
     }
@@ -366,6 +387,14 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
     return point;
 }
 
+/// Where what a group shares is not known, a result that would be above 1 with it is not cleared by a smaller E_n.
+void leave_open(ScoredResult& point) {
+    if (point.verdict == Verdict::none && point.en_worst && signal_of_en(*point.en_worst) != Signal::none) {
+        point.verdict = Verdict::inconclusive;
+        point.verdict_by.push_back(Score::en_worst);
+    }
+}
+
 /// U of every result over the median of the U of all others, all of them for the probability of the scores.
 void hold_against_others(std::vector<ScoredResult>& points) {
     std::vector<double> sorted;
@@ -413,6 +442,7 @@ std::vector<ScoredResult> scored_results(const ComparisonScheme& scheme, const L
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (change[i] && *change[i] < 0.0 && points[i].en) {
                 score_with_unknown_group(scene, *change[i], points[i]);
+                leave_open(points[i]);
             }
         }
     }

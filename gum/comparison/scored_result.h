@@ -12,15 +12,17 @@
 namespace gumcert::gum {
 
 /// The scores of a result.
-enum class Score { z, z_prime, en, zeta, en_audited, difference };
+enum class Score { z, z_prime, en, zeta, en_audited, en_worst, difference };
 
 /// What the scores of a result say together.
 enum class Verdict {
-    no_score,      ///< nothing decides, or it is the reference laboratory
-    none,          ///< no signal
-    warning,       ///< the strongest of all scores
-    action,        ///< the strongest of all scores
-    inconclusive,  ///< a signal that rests on the choice between consistent subsets; or no signal, but the assigned value is too uncertain to clear anybody
+    no_score,  ///< nothing decides, or it is the reference laboratory
+    none,      ///< no signal
+    warning,   ///< the strongest of all scores
+    action,    ///< the strongest of all scores
+    /// The choice between consistent subsets decides; or there is no signal, but the assigned value is too uncertain to
+    /// clear anybody, or E_n is above 1 for the worst plausible correlation.
+    inconclusive,
 };
 
 /// A stated u against u(X) and 1.5 s*.
@@ -59,7 +61,8 @@ struct ScoredResult {
     std::optional<double> en_worst = {};            ///< for the worst plausible correlation in a group
     std::optional<double> en_audited = {};          ///< with findings on the uncertainties corrected
     Verdict verdict = Verdict::no_score;
-    std::vector<Score> verdict_by = {};  ///< scores that give a warning or an action
+    /// Scores that give a warning or an action; en_worst alone where it leaves a result open that no score speaks against.
+    std::vector<Score> verdict_by = {};
     UncertaintyRealism realism = UncertaintyRealism::not_judged;
     std::optional<double> U_over_cmc = {};
     std::optional<double> U_over_median = {};  ///< of the U of all other laboratories

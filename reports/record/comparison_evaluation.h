@@ -21,6 +21,10 @@ struct BiasLineSummary {
     Shown<double> slope = {}, U_slope = {};
     double u_slope = 0.0, chi_square = 0.0;
     Shown<double> p_value = {};
+    /// P(a constant and slope as far from 0 or farther), of what of both can be evidence; where no exact distribution
+    /// exists the largest of its bounds, and the smallest one. None: nothing of the line is evidence.
+    Shown<std::optional<double>> p_no_bias = {};
+    std::optional<double> p_no_bias_least = {};
 };
 
 /// One way to get a reference value from the results of an item.
@@ -107,6 +111,7 @@ struct ComparisonItemEvaluation {
     std::vector<std::string> not_contributing = {};   ///< ids, stated in the job
     std::vector<std::string> not_consistent = {};     ///< ids outside the largest consistent subset
     std::vector<std::string> in_another_subset = {};  ///< of them, those that another consistent one of this size holds
+    bool subset_is_tied = false;                      ///< another one has the same chi-square: the choice is arbitrary
     std::vector<std::string> missing = {};            ///< ids without a result
     std::vector<ResultWeight> weights = {};           ///< where the assigned value is linear in the results
     std::optional<ConsistencySummary> consistency = {};
@@ -136,6 +141,8 @@ struct VectorScore {
     double mahalanobis_square = 0.0;
     Shown<double> vector_En = {}, max_abs_En = {};
     std::int64_t quantities = 0;
+    std::string signal =
+        {};  ///< "action" where vector_En is above 1, else "none"; "" in a record of an earlier release
 };
 
 /// One laboratory over all items and rounds.

@@ -27,6 +27,8 @@ void describe(Archive& a, Struct& r) {
     a("U_slope", r.U_slope, Range::not_negative);
     a("chi_square", r.chi_square, Range::not_negative);
     a("p_value", r.p_value, Range::probability);
+    a.added("p_no_bias", r.p_no_bias, Range::probability);
+    a.added("p_no_bias_least", r.p_no_bias_least, Range::probability);
 }
 
 template <class Archive, certificate::Described<ReferenceEstimate> Struct>
@@ -151,6 +153,7 @@ void describe(Archive& a, Struct& r) {
     a("not_contributing", r.not_contributing);
     a("not_consistent", r.not_consistent);
     a.added("in_another_subset", r.in_another_subset);
+    a.added("subset_is_tied", r.subset_is_tied);
     a("missing", r.missing);
     a("weights", r.weights);
     a("consistency", r.consistency);
@@ -191,6 +194,7 @@ void describe(Archive& a, Struct& r) {
     a("vector_En", r.vector_En, Range::not_negative);
     a("max_abs_En", r.max_abs_En, Range::not_negative);
     a("quantities", r.quantities, Range::not_negative);
+    a.added("signal", r.signal, {"", "none", "action"});
 }
 
 template <class Archive, certificate::Described<ParticipantSummary> Struct>
@@ -313,11 +317,15 @@ void describe(Archive& a, Struct& r) {
     a.added("rms_En_high", r.rms_En_high, Range::not_negative);
     a.added("p_low", r.p_low, Range::probability);
     a.added("p_high", r.p_high, Range::probability);
+    a.added("p_low_least", r.p_low_least, Range::probability);
+    a.added("p_high_least", r.p_high_least, Range::probability);
     a.added("D_fail", r.D_fail, Range::not_negative);
     a.added("D_fail_largest", r.D_fail_largest, Range::not_negative);
     a.added("effective_points", r.effective_points, Range::not_negative);
     a.added("mahalanobis_square", r.mahalanobis_square, Range::not_negative);
     a.added("p_mahalanobis", r.p_mahalanobis, Range::probability);
+    a.added("p_mahalanobis_least", r.p_mahalanobis_least, Range::probability);
+    a.added("p_pattern", r.p_pattern, Range::probability);
     a.added("vector_En", r.vector_En, Range::not_negative);
     a.added("rank", r.rank, Range::not_negative);
     a.added("ratio_reference", r.ratio_reference, Range::not_negative);
@@ -333,10 +341,22 @@ void describe(Archive& a, Struct& r) {
     a.added("max_abs_En_audited", r.max_abs_En_audited, Range::not_negative);
     a.added("count_above_1_audited", r.count_above_1_audited, Range::not_negative);
     a.added("published_mean_abs_En", r.published_mean_abs_En, Range::not_negative);
-    a.added("verdict", r.verdict,
-            {"", "validated", "agreement_reference_limited", "agreement_few_points", "uncertainty_not_confirmed",
-             "uncertainty_too_large", "reference_not_better", "correlation_unknown", "points_above_1", "side_refuted",
-             "disagreement"});
+    static constexpr std::initializer_list<const char*> k_words = {"",
+                                                                   "validated",
+                                                                   "agreement_reference_limited",
+                                                                   "agreement_few_points",
+                                                                   "uncertainty_not_confirmed",
+                                                                   "uncertainty_too_large",
+                                                                   "reference_not_better",
+                                                                   "correlation_unknown",
+                                                                   "joint_test_open",
+                                                                   "points_above_1",
+                                                                   "falls_with_finding",
+                                                                   "side_refuted",
+                                                                   "disagreement"};
+    a.added("verdict", r.verdict, k_words);
+    a.added("verdict_by", r.verdict_by, {"", "size", "pattern", "bias"});
+    a.added("verdict_audited", r.verdict_audited, k_words);
     a.added("bias", r.bias);
 }
 

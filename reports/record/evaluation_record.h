@@ -426,6 +426,11 @@ struct ComparisonSummary {
     Shown<double> mean_abs_En = {}, max_abs_En = {}, rms_En = {};
     Shown<std::optional<double>> rms_En_low = {}, rms_En_high = {};  ///< 95 % band where uncertainties are right
     Shown<std::optional<double>> p_low = {}, p_high = {};            ///< given the correlations of the points
+    /// Where finite degrees of freedom and correlations leave the joint distribution open: the smallest of its bounds,
+    /// p_low and so on being the largest; none where it is known.
+    Shown<std::optional<double>> p_low_least = {}, p_high_least = {};
+    std::optional<double> p_mahalanobis_least = {};
+    Shown<std::optional<double>> p_pattern = {};  ///< p_mahalanobis where 5 % of u of each point may be rounding
     /// Smallest U_D of the points: the smallest deviation that would have failed; and the largest one
     Shown<std::optional<double>> D_fail = {}, D_fail_largest = {};
     Shown<std::optional<double>> effective_points = {};
@@ -443,7 +448,11 @@ struct ComparisonSummary {
     Shown<std::optional<double>> mean_abs_En_audited = {}, max_abs_En_audited = {};
     std::optional<std::int64_t> count_above_1_audited = {};
     Shown<std::optional<double>> published_mean_abs_En = {};  ///< of a publication that the job names
-    std::string verdict = {};  ///< word of gum::AgreementVerdict, e.g. "validated"; "" where not judged
+    /// Word of gum::AgreementVerdict, e.g. "validated"; "falls_with_finding" where what is stated would stand, but not
+    /// what it is with the findings on the uncertainties corrected; "" where not judged.
+    std::string verdict = {};
+    std::string verdict_by = {};       ///< of "disagreement": "size", "pattern" or "bias"
+    std::string verdict_audited = {};  ///< with the findings corrected; "" where there is none
     std::optional<BiasLineSummary> bias = {};
 };
 

@@ -200,6 +200,11 @@ void open_results(CertificateBuilder& builder, const Wording& words, const Compa
     }
 }
 
+/// Whether the assigned value is too uncertain to judge a result.
+bool is_not_cleared(const ComparisonPoint& p) {
+    return p.signal == "inconclusive" && p.signal_by.empty();
+}
+
 /// That the results contradict each other, and whom the scores cannot clear.
 void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
     const ComparisonItemEvaluation& item = *compared.item;
@@ -215,11 +220,18 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
         }
     }
     if (!item.in_another_subset.empty()) {
-        builder.paragraph(words.filled("comparison_scores", "another_subset",
+        builder.paragraph(words.filled("comparison_scores",
+                                       item.subset_is_tied ? "another_subset_tied" : "another_subset",
                                        {{"item", compared.name}, {"others", some_of(words, item.in_another_subset)}}));
         return;
     }
-    const std::vector<std::string> names = with_signal(compared.points, "inconclusive");
+    // A result that only the correlation leaves open is told with those whose agreement is open.
+    std::vector<std::string> names;
+    for (const ComparisonPoint* p : compared.points) {
+        if (is_not_cleared(*p)) {
+            names.push_back(p->participant);
+        }
+    }
     if (!names.empty()) {
         builder.paragraph(
             words.filled("comparison_scores", item.u.number ? "cannot_clear" : "cannot_clear_unknown",
@@ -266,8 +278,7 @@ void answer_of_many_items(CertificateBuilder& builder, const Wording& words, con
     sentence_of_items(builder, words, items, "another_subset_items",
                       [](const ComparedItem& i) { return !i.item->in_another_subset.empty(); });
     sentence_of_items(builder, words, items, "inconclusive_items", [](const ComparedItem& i) {
-        return i.item->in_another_subset.empty() &&
-               any_point(i, [](const ComparisonPoint& p) { return p.signal == "inconclusive"; });
+        return i.item->in_another_subset.empty() && any_point(i, is_not_cleared);
     });
     sentence_of_items(builder, words, items, "open_items",
                       [](const ComparedItem& i) { return any_point(i, agreement_is_open); });
@@ -295,6 +306,22 @@ void answer_of_items(CertificateBuilder& builder, const Wording& words, const st
             builder.paragraph(sentence);
         }
         open_results(builder, words, compared);
+    }
+}
+
+/// Quantities that are judged together and lie outside their joint region, whatever the scores apart say.
+void vectors_in_brief(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
+    std::vector<std::string> names;
+    for (const VectorScore& vector : c.vectors) {
+        if (vector.signal == "action" || (vector.signal.empty() && vector.vector_En.number > 1.0)) {
+            names.push_back(vector.participant + " (" + vector.name +
+                            (vector.round.empty() ? "" : ", " + vector.round) + ")");
+        }
+    }
+    if (!names.empty()) {
+        builder.paragraph(words.filled(
+            "comparison", "vectors_in_brief",
+            {{"count", count(names.size())}, {"all", count(c.vectors.size())}, {"names", some_of(words, names)}}));
     }
 }
 
@@ -807,6 +834,7 @@ void laboratory_answer(CertificateBuilder& builder, const Wording& words, const 
     for (std::size_t i = 0; i < std::min(items.size(), k_most_side_by_side); ++i) {
         compared = compared.empty() ? items[i].name : compared + "; " + items[i].name;
     }
+    vectors_in_brief(builder, words, c);
     factors_in_brief(builder, words, c);
     items_without_result(builder, words, c);
     if (items.size() > k_most_side_by_side) {

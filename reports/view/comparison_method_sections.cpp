@@ -35,9 +35,11 @@ Text direction_name(const Wording& words, const std::string& direction) {
 
 /// The gravest verdict of all directions: what holds for the method as a whole. Nothing where nothing was judged.
 const ComparisonSummary* gravest(const Comparison& c) {
-    static constexpr std::array<const char*, 10> k_order = {"disagreement",
+    static constexpr std::array<const char*, 12> k_order = {"disagreement",
                                                             "side_refuted",
+                                                            "falls_with_finding",
                                                             "points_above_1",
+                                                            "joint_test_open",
                                                             "correlation_unknown",
                                                             "reference_not_better",
                                                             "uncertainty_too_large",
@@ -66,19 +68,34 @@ Text verdict_name(const Wording& words, const Comparison& c, const std::string& 
     return words("comparison_verdict_name", alone ? "no_objection" : verdict);
 }
 
+std::string count(const std::optional<std::int64_t>& v) {
+    return v ? plain(*v) : "";
+}
+
 /// What the verdict shows, what it does not show, and what to do.
 Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
-    const bool scatter_only = s.verdict == "disagreement" && s.count_above_1 == 0;
-    return words.filled("comparison_verdict", scatter_only ? "disagreement_scatter" : s.verdict,
-                        {{"count", plain(s.count_above_1)},
-                         {"points", plain(s.points)},
-                         {"effective", words.number(s.effective_points.text)},
-                         {"power", words.number(s.power_to_confirm.text)},
-                         {"largest", words.number(s.max_abs_En.text)},
-                         {"worst", words.number(s.max_abs_En_worst.text)},
-                         {"p_low", words.number(s.p_low.text)},
-                         {"p_high", words.number(s.p_high.text)},
-                         {"ratio", words.number(s.ratio_reference.text)}});
+    std::string key = s.verdict;
+    if (s.verdict == "disagreement") {
+        key = s.verdict_by == "pattern" || s.verdict_by == "bias" ? "disagreement_" + s.verdict_by
+              : s.count_above_1 == 0                              ? "disagreement_scatter"
+                                                                  : key;
+    }
+    return words.filled(
+        "comparison_verdict", key,
+        {{"p_pattern", words.number(s.p_pattern.text)},
+         {"p_bias", words.number(s.bias ? s.bias->p_no_bias.text : "")},
+         {"audited", count(s.count_above_1_audited)},
+         {"largest_audited", words.number(s.max_abs_En_audited.text)},
+         {"corrected", s.verdict_audited.empty() ? Text() : words("comparison_verdict_name", s.verdict_audited)},
+         {"count", plain(s.count_above_1)},
+         {"points", plain(s.points)},
+         {"effective", words.number(s.effective_points.text)},
+         {"power", words.number(s.power_to_confirm.text)},
+         {"largest", words.number(s.max_abs_En.text)},
+         {"worst", words.number(s.max_abs_En_worst.text)},
+         {"p_low", words.number(s.p_low.text)},
+         {"p_high", words.number(s.p_high.text)},
+         {"ratio", words.number(s.ratio_reference.text)}});
 }
 
 /// Each side that its own evaluation refutes, with what refutes it.
@@ -129,10 +146,6 @@ struct Companion {
 
 std::string band(const std::string& low, const std::string& high) {
     return low.empty() || high.empty() ? low + high : low + " – " + high;
-}
-
-std::string count(const std::optional<std::int64_t>& v) {
-    return v ? plain(*v) : "";
 }
 
 using Summary = ComparisonSummary;
@@ -270,22 +283,24 @@ void bias_lines(CertificateBuilder& builder, const Wording& words, const Compari
         if (s.bias) {
             against = s.bias->against;
             rows.push_back({direction_name(words, s.direction), s.bias->centre.text, s.bias->constant.text,
-                            s.bias->U_constant.text, s.bias->slope.text, s.bias->U_slope.text, s.bias->p_value.text});
+                            s.bias->U_constant.text, s.bias->slope.text, s.bias->U_slope.text, s.bias->p_no_bias.text,
+                            s.bias->p_value.text});
         }
     }
     const bool position = against == "position";
     const std::string t_unit = position ? position_unit : gum::unit_for_people(c.unit);
     const std::string slope_unit = !position ? "" : t_unit.empty() ? unit : unit + "/" + t_unit;
     builder.paragraph(words("comparison", position ? "bias_position" : "bias_reference_value"));
-    builder.table("bias", words("comparison", "bias_table"),
-                  {{words("label", "direction"), ""},
-                   {words("comparison", "centre"), t_unit, true},
-                   {words("comparison", "constant"), unit, true},
-                   {words("label", "U"), unit, true},
-                   {words("comparison", "slope"), slope_unit, true},
-                   {words("label", "U"), slope_unit, true},
-                   {words("label", "p_value_short"), "", true}},
-                  rows);
+    table_of_filled_columns(builder, "bias", words("comparison", "bias_table"),
+                            {{words("label", "direction"), ""},
+                             {words("comparison", "centre"), t_unit, true},
+                             {words("comparison", "constant"), unit, true},
+                             {words("label", "U"), unit, true},
+                             {words("comparison", "slope"), slope_unit, true},
+                             {words("label", "U"), slope_unit, true},
+                             {words("comparison", "p_no_bias"), "", true},
+                             {words("label", "p_value_short"), "", true}},
+                            rows);
 }
 
 /// The points that a table shows: all, or of many those above 1 in the order of the record.

@@ -379,6 +379,11 @@ inline reports::EvaluationRecord sample_methods_record(std::size_t points_of_dir
         s.effective_points.number = 5.4;
         s.mahalanobis_square = 8.2;
         s.p_mahalanobis.number = 0.77;
+        s.p_pattern = {0.78, "0.78"};
+        s.p_low_least = {0.19, "0.19"};
+        s.p_high_least = {0.75, "0.75"};
+        s.p_mahalanobis_least = 0.7;
+        s.verdict_audited = "uncertainty_too_large";
         s.vector_En.number = 0.61;
         s.rank = 12;
         s.ratio_reference.number = 3.0;

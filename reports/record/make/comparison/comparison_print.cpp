@@ -1,5 +1,10 @@
 #include "reports/record/make/comparison/comparison_print.h"
 
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "gum/comparison/scores.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
 #include "text/numbers.h"
@@ -14,7 +19,52 @@ constexpr int k_decimals_of_score = 2;
 constexpr double k_least_probability = 1e-300;
 constexpr const char* k_below_least = "<1E-300";
 
+enum class SideOf { en, z, allowed };
+
+/// What a score calls for.
+gum::Signal signal_of(double score, SideOf kind) {
+    constexpr double k_all_that_is_allowed = 100.0;  // %
+    switch (kind) {
+        case SideOf::en:
+            return gum::signal_of_en(score);
+        case SideOf::z:
+            return gum::signal_of_z(score);
+        case SideOf::allowed:
+            break;
+    }
+    return std::abs(score) > k_all_that_is_allowed ? gum::Signal::action : gum::Signal::none;
+}
+
+std::string printed_on_its_side(const std::optional<double>& score, SideOf kind) {
+    constexpr int k_most_decimals = 17;
+    if (!score) {
+        return "";
+    }
+    const gum::Signal signal = signal_of(*score, kind);
+    for (int decimals = k_decimals_of_score; decimals <= k_most_decimals; ++decimals) {
+        std::string text = gum::round_to_quantum(*score, decimals);
+        double printed = 0.0;
+        const auto read = std::from_chars(text.data(), text.data() + text.size(), printed);
+        if (read.ec == std::errc() && signal_of(printed, kind) == signal) {
+            return text;
+        }
+    }
+    return text::shortest(*score);
+}
+
 }  // namespace
+
+std::string printed_en(const std::optional<double>& en) {
+    return printed_on_its_side(en, SideOf::en);
+}
+
+std::string printed_z(const std::optional<double>& score) {
+    return printed_on_its_side(score, SideOf::z);
+}
+
+std::string printed_share_of_allowed(const std::optional<double>& percent) {
+    return printed_on_its_side(percent, SideOf::allowed);
+}
 
 std::string printed_value(double value, const std::optional<double>& U) {
     return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, reports::k_digits_of_u).value : text::shortest(value);

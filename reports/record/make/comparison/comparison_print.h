@@ -21,6 +21,12 @@ namespace gumcert::reports {
 [[nodiscard]] std::string printed_as_stated(const std::optional<double>& number);
 /// Two decimals, as of a score or a coverage factor; "" for nothing.
 [[nodiscard]] std::string printed_score(const std::optional<double>& score);
+/// |E_n|, ζ, z or z', and P_A in %: two decimals, and as many more as it takes for the printed number to call for the
+/// same signal as the number does (gum::signal_of_en(), gum::signal_of_z(), above 100 %). A score of 1.0004 beside an
+/// action is not printed as 1.00. "" for nothing.
+[[nodiscard]] std::string printed_en(const std::optional<double>& en);
+[[nodiscard]] std::string printed_z(const std::optional<double>& score);
+[[nodiscard]] std::string printed_share_of_allowed(const std::optional<double>& percent);
 /// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.
 [[nodiscard]] std::string printed_probability(const std::optional<double>& probability);
 

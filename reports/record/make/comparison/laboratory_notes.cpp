@@ -146,7 +146,8 @@ void add_checks_of_items(ItemMessages& messages) {
 
 bool has_inconclusive(const gum::LaboratoryComparison& comparison, const gum::ItemResult& item) {
     return std::any_of(comparison.results.begin(), comparison.results.end(), [&](const gum::ScoredResult& result) {
-        return result.item == item.item && result.round == item.round && result.verdict == gum::Verdict::inconclusive;
+        return result.item == item.item && result.round == item.round && result.verdict == gum::Verdict::inconclusive &&
+               result.verdict_by.empty();
     });
 }
 
@@ -261,8 +262,9 @@ std::string subset_remark(const gum::ItemResult& item, const ComparisonItemEvalu
         remark += item.subset_unique ? " Another subset of the same size, with " + names +
                                            ", is consistent as well; the one with the smallest chi-square was taken."
                                      : " Another subset of the same size, with " + names +
-                                           ", has the same chi-square: the choice between them is arbitrary.";
-        remark += " No signal is given to a result that either of them holds.";
+                                           ", has the same chi-square: the choice between them is arbitrary, though "
+                                           "it does not depend on the order of the laboratories.";
+        remark += " No result that either of them holds is judged.";
     }
     return remark;
 }
@@ -333,6 +335,17 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
     }
 }
 
+/// That u(X) is not that of the scatter.
+void add_remark_on_statements(const gum::LaboratoryComparison& comparison, std::vector<std::string>& remarks) {
+    if (any_item(comparison, [](const gum::ItemResult& item) { return item.u_by_statements; })) {
+        remarks.emplace_back(
+            "u(X) is the larger one of what the scatter of the results and of what their stated uncertainties and "
+            "correlations give the value: here the latter, because scatter does not show what results share, or "
+            "because "
+            "they agree by chance.");
+    }
+}
+
 void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& remarks) {
     const auto& [job, comparison, record] = evaluated;
     constexpr std::size_t k_few_for_robust = 12;
@@ -343,6 +356,7 @@ void add_remarks_on_value(const Evaluated& evaluated, std::vector<std::string>& 
             "taken as that of their mean, which is exact for normal results of equal uncertainty.");
     }
     add_remarks_on_coverage(evaluated, remarks);
+    add_remark_on_statements(evaluated.comparison, remarks);
     if (any_item(comparison,
                  [](const gum::ItemResult& item) { return is_robust(item) && item.contributing < k_few_for_robust; })) {
         remarks.emplace_back(
@@ -378,6 +392,16 @@ void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::Labor
         remarks.emplace_back(
             "Laboratories of one group may share effects, and the job states no correlation for the group. En is given "
             "for none, and beside it for the worst that is plausible: that the smaller uncertainty is shared whole.");
+    }
+    if (comparison.summary && comparison.summary->agreement && comparison.summary->agreement->is_bounded) {
+        remarks.emplace_back(
+            "Uncertainties have finite degrees of freedom, and the differences from the assigned value correlate: no "
+            "exact joint distribution is known.");
+        remarks.emplace_back(
+            "p_low and p_high are the largest of those for normal scores, for "
+            "uncertainties that were estimated each by itself, and for one estimate behind all of them, and the band "
+            "of "
+            "the rms En is the widest.");
     }
     if (comparison.items.size() > 1) {
         remarks.emplace_back(
@@ -424,7 +448,8 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
                           " a standard uncertainty below that of the assigned value.");
     }
     const std::size_t inconclusive = count_results(comparison, [&](const gum::ScoredResult& point) {
-        return point.verdict == gum::Verdict::inconclusive && !is_of_one_of_several_subsets(comparison, point);
+        return point.verdict == gum::Verdict::inconclusive && point.verdict_by.empty() &&
+               !is_of_one_of_several_subsets(comparison, point);
     });
     if (inconclusive > 0) {
         remarks.push_back("The assigned value is less certain than " + std::to_string(inconclusive) +

@@ -90,6 +90,8 @@ const char* word_of(gum::Score score) {
             return "zeta";
         case gum::Score::en_audited:
             return "En_audited";
+        case gum::Score::en_worst:
+            return "En_worst";
         case gum::Score::difference:
             break;
     }
@@ -218,7 +220,7 @@ reports::PairEquivalence pair_record(const gum::ComparisonScheme& scheme, const 
     pair.d = {from.d, printed_difference(from.d, from.U, std::nullopt)};
     pair.u = from.u;
     pair.U = shown(from.U, printed_uncertainty);
-    pair.En = shown(from.en, printed_score);
+    pair.En = shown(from.en, printed_en);
     return pair;
 }
 
@@ -304,6 +306,7 @@ ComparisonItemEvaluation item_record(const gum::ComparisonScheme& scheme, const 
     item.not_contributing = ids(scheme, from.not_contributing);
     item.not_consistent = ids(scheme, from.not_consistent);
     item.in_another_subset = ids(scheme, from.in_another_subset);
+    item.subset_is_tied = !from.subset_unique;
     item.missing = ids(scheme, from.missing);
     for (const gum::ItemResult::Weight& weight : from.weights) {
         item.weights.push_back({scheme.participants[weight.participant].id,
@@ -346,13 +349,13 @@ void add_scores(const gum::ScoredResult& from, const ComparisonItemEvaluation& i
     point.U_D = shown(U_D, printed_uncertainty);
     point.D_low = shown_difference(from.low);
     point.D_high = shown_difference(from.high);
-    point.En = shown(from.en, printed_score);
-    point.zeta = shown(from.zeta, printed_score);
-    point.z = shown(from.z, printed_score);
-    point.z_prime = shown(from.z_prime, printed_score);
-    point.P_A = shown(from.percent_of_allowed, printed_score);
-    point.En_worst = shown(from.en_worst, printed_score);
-    point.En_audited = shown(from.en_audited, printed_score);
+    point.En = shown(from.en, printed_en);
+    point.zeta = shown(from.zeta, printed_z);
+    point.z = shown(from.z, printed_z);
+    point.z_prime = shown(from.z_prime, printed_z);
+    point.P_A = shown(from.percent_of_allowed, printed_share_of_allowed);
+    point.En_worst = shown(from.en_worst, printed_en);
+    point.En_audited = shown(from.en_audited, printed_en);
     if (from.percent) {
         const double to_percent = 100.0 / std::abs(from.assigned_value);
         const auto in_percent = [&](const std::optional<double>& number) {
@@ -415,6 +418,10 @@ void add_agreement(const gum::Agreement& agreement, reports::ComparisonSummary& 
     row.rms_En_high = shown(agreement.rms_en_high, printed_score);
     row.p_low = shown(agreement.p_low, printed_probability);
     row.p_high = shown(agreement.p_high, printed_probability);
+    if (agreement.is_bounded) {
+        row.p_low_least = shown(agreement.p_low_least, printed_probability);
+        row.p_high_least = shown(agreement.p_high_least, printed_probability);
+    }
     row.effective_points = shown(agreement.effective_points, printed_uncertainty);
     row.ratio_reference = shown(agreement.ratio_reference, printed_uncertainty);
 }
@@ -425,15 +432,15 @@ reports::ComparisonSummary summary_record(const gum::ScoreSummary& from) {
     row.points = static_cast<std::int64_t>(from.scores.points);
     row.count_above_1 = static_cast<std::int64_t>(from.scores.count_above_1);
     row.mean_abs_En = shown(from.scores.mean_absolute_en, printed_score);
-    row.max_abs_En = shown(from.scores.largest_absolute_en, printed_score);
+    row.max_abs_En = shown(from.scores.largest_absolute_en, printed_en);
     row.rms_En = shown(from.scores.rms_en, printed_score);
     if (from.worst) {
-        row.max_abs_En_worst = shown(from.worst->largest_absolute_en, printed_score);
+        row.max_abs_En_worst = shown(from.worst->largest_absolute_en, printed_en);
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
     }
     if (from.audited) {
         row.mean_abs_En_audited = shown(from.audited->mean_absolute_en, printed_score);
-        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_score);
+        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_en);
         row.count_above_1_audited = static_cast<std::int64_t>(from.audited->count_above_1);
     }
     row.D_fail = shown(from.d_fail_smallest, printed_uncertainty);
@@ -457,7 +464,7 @@ reports::ParticipantSummary participant_record(const gum::ComparisonParticipant&
     summary.inconclusive = static_cast<std::int64_t>(from.inconclusive);
     if (from.scores) {
         summary.mean_abs_En = shown(from.scores->mean_absolute_en, printed_score);
-        summary.max_abs_En = shown(from.scores->largest_absolute_en, printed_score);
+        summary.max_abs_En = shown(from.scores->largest_absolute_en, printed_en);
         summary.rms_En = shown(from.scores->rms_en, printed_score);
     }
     return summary;
@@ -469,9 +476,10 @@ reports::VectorScore vector_record(const gum::ComparisonScheme& scheme, const gu
     score.participant = scheme.participants[from.participant].id;
     score.round = scheme.rounds[from.round];
     score.mahalanobis_square = from.mahalanobis_square;
-    score.vector_En = shown(from.vector_en, printed_score);
-    score.max_abs_En = shown(from.largest_absolute_en, printed_score);
+    score.vector_En = shown(from.vector_en, printed_en);
+    score.max_abs_En = shown(from.largest_absolute_en, printed_en);
     score.quantities = static_cast<std::int64_t>(from.quantities);
+    score.signal = gum::signal_of_en(from.vector_en) == gum::Signal::action ? "action" : "none";
     return score;
 }
 

@@ -71,10 +71,10 @@ ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodSc
     point.correlation = score.correlation;
     put_pair(score.difference, score.U_difference, point.D, point.U_D);
     point.u_D = score.u_difference;
-    point.En = shown(score.en, printed_score);
-    point.zeta = shown(score.zeta, printed_score);
-    point.En_worst = shown(finite(score.en_worst), printed_score);
-    point.En_audited = shown(score.en_audited, printed_score);
+    point.En = shown(score.en, printed_en);
+    point.zeta = shown(score.zeta, printed_z);
+    point.En_worst = shown(finite(score.en_worst), printed_en);
+    point.En_audited = shown(score.en_audited, printed_en);
     point.signal = calls_for_action(score.en) || calls_for_action(score.en_audited) ? "action" : "none";
     if (calls_for_action(score.en)) {
         point.signal_by.emplace_back("En");
@@ -93,6 +93,8 @@ const char* word_of(gum::AgreementVerdict verdict) {
             return "disagreement";
         case gum::AgreementVerdict::points_above_1:
             return "points_above_1";
+        case gum::AgreementVerdict::joint_test_open:
+            return "joint_test_open";
         case gum::AgreementVerdict::correlation_unknown:
             return "correlation_unknown";
         case gum::AgreementVerdict::reference_not_better:
@@ -127,12 +129,17 @@ void add_method_agreement(const gum::Agreement& agreement, ComparisonSummary& ro
     row.points = static_cast<std::int64_t>(agreement.points);
     row.count_above_1 = static_cast<std::int64_t>(agreement.count_above_1);
     row.mean_abs_En = shown(agreement.mean_absolute_en, printed_score);
-    row.max_abs_En = shown(agreement.largest_absolute_en, printed_score);
+    row.max_abs_En = shown(agreement.largest_absolute_en, printed_en);
     row.rms_En = shown(agreement.rms_en, printed_score);
     row.rms_En_low = shown(agreement.rms_en_low, printed_score);
     row.rms_En_high = shown(agreement.rms_en_high, printed_score);
     row.p_low = shown(agreement.p_low, printed_probability);
     row.p_high = shown(agreement.p_high, printed_probability);
+    if (agreement.is_bounded) {
+        row.p_low_least = shown(agreement.p_low_least, printed_probability);
+        row.p_high_least = shown(agreement.p_high_least, printed_probability);
+        row.p_mahalanobis_least = agreement.p_mahalanobis_least;
+    }
     row.D_fail = shown(agreement.d_fail_smallest, printed_uncertainty);
     row.D_fail_largest = shown(agreement.d_fail_largest, printed_uncertainty);
     row.effective_points = shown(agreement.effective_points, printed_points);
@@ -144,7 +151,8 @@ void add_method_agreement(const gum::Agreement& agreement, ComparisonSummary& ro
     row.found_with_95_percent = shown(agreement.found_with_95_percent, printed_uncertainty);
     row.mahalanobis_square = agreement.mahalanobis_square;
     row.p_mahalanobis = shown(agreement.p_mahalanobis, printed_probability);
-    row.vector_En = shown(agreement.vector_en, printed_score);
+    row.p_pattern = shown(agreement.p_pattern, printed_probability);
+    row.vector_En = shown(agreement.vector_en, printed_en);
     row.rank = static_cast<std::int64_t>(agreement.rank);
     row.ratio_reference = shown(finite(agreement.ratio_reference), printed_ratio);
 }
@@ -163,6 +171,10 @@ reports::BiasLineSummary bias_record(const gum::MethodBias& from) {
     bias.U_slope = {from.U_slope, slope.U};
     bias.chi_square = from.line.chi_square;
     bias.p_value = shown(from.line.p_value, printed_probability);
+    if (from.test) {
+        bias.p_no_bias = shown(from.test->p, printed_probability);
+        bias.p_no_bias_least = from.test->p_least;
+    }
     return bias;
 }
 
@@ -172,14 +184,27 @@ ComparisonSummary summary_record(const gum::MethodSummary& from) {
     add_method_agreement(from.agreement, row);
     if (from.worst) {
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
-        row.max_abs_En_worst = shown(finite(from.worst->largest_absolute_en), printed_score);
+        row.max_abs_En_worst = shown(finite(from.worst->largest_absolute_en), printed_en);
     }
     if (from.audited) {
         row.mean_abs_En_audited = shown(from.audited->mean_absolute_en, printed_score);
-        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_score);
+        row.max_abs_En_audited = shown(from.audited->largest_absolute_en, printed_en);
         row.count_above_1_audited = static_cast<std::int64_t>(from.audited->count_above_1);
     }
     row.verdict = word_of(from.verdict);
+    if (from.verdict == gum::AgreementVerdict::disagreement) {
+        row.verdict_by = gum::is_too_large(from.agreement)         ? "size"
+                         : gum::is_refuted_pattern(from.agreement) ? "pattern"
+                                                                   : "bias";
+    }
+    if (from.verdict_audited) {
+        row.verdict_audited = word_of(*from.verdict_audited);
+        // The verdicts are in the order of the objections. A method is no better than what it is with its faults
+        // corrected.
+        if (*from.verdict_audited < from.verdict) {
+            row.verdict = "falls_with_finding";
+        }
+    }
     if (from.bias) {
         row.bias = bias_record(*from.bias);
     }

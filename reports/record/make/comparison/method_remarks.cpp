@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
@@ -20,11 +21,11 @@ using reports::Comparison;
 using reports::ComparisonSummary;
 
 constexpr double k_significant = 0.025;  // of p_low and p_high
-constexpr double k_nearly_all = 0.95;    // of the points count as independent
+constexpr double k_all = 1.0 - 1e-9;
+constexpr double k_nearly_all = 0.95;  // of the points count as independent
 constexpr double k_negligible_reference = 1.0 / 3.0;
-constexpr double k_noise_of_positions = 5.0;  // spread of reference values over their u, for a slope to mean much
-constexpr double k_visible_slope = 0.1;       // of U of the slope
-constexpr double k_visible_beyond = 0.05;     // of a standard uncertainty, a point
+constexpr double k_visible_slope = 0.1;    // of U of the slope
+constexpr double k_visible_beyond = 0.05;  // of a standard uncertainty, a point
 
 /// The sentences of one comparison.
 class Remarks {
@@ -43,6 +44,8 @@ public:
         reference_uncertainty();
         too_small_differences();
         too_large_differences();
+        joint_distribution();
+        pattern();
         singular_covariance();
         failing_differences();
         test_of_uncertainty();
@@ -188,6 +191,71 @@ private:
         }
     }
 
+    /// What the joint numbers rest on where uncertainties have finite degrees of freedom.
+    void joint_distribution() {
+        const bool finite =
+            std::any_of(comparison_.points.begin(), comparison_.points.end(), [](const gum::ComparedPoint& point) {
+                return (point.nu && std::isfinite(*point.nu)) ||
+                       (point.reference_nu && std::isfinite(*point.reference_nu));
+            });
+        if (!finite || whole().agreement.points < 2) {
+            return;
+        }
+        if (!whole().agreement.is_bounded) {
+            say("The uncertainties have finite degrees of freedom: p_low, p_high, the band of the rms En, the power "
+                "and "
+                "the limits of single points are those of Student's distribution, for uncertainties that were "
+                "estimated "
+                "each by itself.");
+            return;
+        }
+        say("The uncertainties have finite degrees of freedom, and the points correlate or rest on one estimate: no "
+            "exact joint distribution is known.");
+        say("p_low, p_high and the p of the Mahalanobis distance are the largest of "
+            "those for normal scores, for uncertainties that were estimated each by itself, and for one estimate "
+            "behind "
+            "all of them, and the band of the rms En is the widest.");
+        const auto open = [&](const std::string& name, double largest, double least, double limit) {
+            if (largest >= limit && least < limit) {
+                say(name + " lies between " + printed_probability(least) + " and " + printed_probability(largest) +
+                    ", on both sides of its limit: no verdict rests on it.");
+            }
+        };
+        const gum::Agreement& row = whole().agreement;
+        open("p_low", row.p_low, row.p_low_least, k_significant);
+        open("p_high", row.p_high, row.p_high_least, k_significant);
+        open("The p of the Mahalanobis distance", row.p_mahalanobis, row.p_mahalanobis_least,
+             gum::k_chance_of_bias_and_pattern);
+    }
+
+    /// Points that do not correlate have no pattern but their sizes.
+    static bool is_of_pattern(const gum::Agreement& row) {
+        return row.effective_points < k_all * static_cast<double>(row.points);
+    }
+
+    /// Differences that contradict their covariance, whatever their sizes.
+    void pattern() {
+        const std::string refuted =
+            clauses([](const gum::Agreement& row) { return is_of_pattern(row) && gum::is_refuted_pattern(row); },
+                    [](const ComparisonSummary& row) { return row.p_pattern.text; });
+        if (!refuted.empty()) {
+            say("The differences do not vary together as their covariance lets expect (p " + refuted +
+                "): an effect is missing, or correlations are stated "
+                "that "
+                "there are not.");
+        }
+        const std::string by_rounding = clauses(
+            [](const gum::Agreement& row) {
+                return is_of_pattern(row) && !gum::is_refuted_pattern(row) &&
+                       row.p_mahalanobis < gum::k_chance_of_bias_and_pattern;
+            },
+            [](const ComparisonSummary& row) { return row.p_mahalanobis.text; });
+        if (!by_rounding.empty()) {
+            say("The p of the Mahalanobis distance is small (" + by_rounding +
+                "), but rounding of the stated numbers by 5 % of u would explain it: no verdict rests on it.");
+        }
+    }
+
     void singular_covariance() {
         const gum::Agreement& row = whole().agreement;
         if (row.rank >= row.points) {
@@ -254,32 +322,51 @@ private:
         }
     }
 
-    /// Whether the reference values of a row spread so little that a line against them shows their own noise.
-    [[nodiscard]] bool is_noise(const gum::MethodSummary& row) const {
-        double sum = 0.0;
-        double squares = 0.0;
-        double variance = 0.0;
-        const double first = comparison_.points[static_cast<std::size_t>(row.points.front())].reference_value;
-        for (const Eigen::Index i : row.points) {
-            const gum::ComparedPoint& point = comparison_.points[static_cast<std::size_t>(i)];
-            const double value = point.reference_value - first;  // large values would lose their digits
-            sum += value;
-            squares += value * value;
-            variance += point.reference_u * point.reference_u;
+    /// p₀ of the bias lines that something holds for, as clauses().
+    template <class HoldsForLine>
+    [[nodiscard]] std::string bias_clauses(const HoldsForLine& holds) const {
+        std::string text;
+        for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
+            const gum::MethodSummary& row = result_.summaries[i];
+            const std::optional<BiasLineSummary>& printed = record_.summary[i].bias;
+            if (row.bias && row.bias->test && printed && holds(*row.bias)) {
+                text += (text.empty() ? "" : ", ") + printed->p_no_bias.text + direction_of(row);
+            }
         }
-        const auto count = static_cast<double>(row.points.size());
-        const double spread = std::max(0.0, squares / count - sum * sum / (count * count));
-        return spread < k_noise_of_positions * k_noise_of_positions * variance / count;
+        return text;
     }
 
-    [[nodiscard]] bool is_bias_of_noise(const gum::MethodSummary& row) const {
-        return row.bias && !row.bias->against_position && is_noise(row);
+    /// Whether chance explains the bias lines.
+    void bias_by_chance() {
+        constexpr double k_limit = gum::k_chance_of_bias_and_pattern;
+        const std::string refuted = bias_clauses([](const gum::MethodBias& bias) { return bias.test->p < k_limit; });
+        if (!refuted.empty()) {
+            say("Chance does not explain constant and slope of the bias line (p\u2080 " + refuted + ").");
+        }
+        const std::string open = bias_clauses(
+            [](const gum::MethodBias& bias) { return bias.test->p >= k_limit && bias.test->p_least < k_limit; });
+        if (!open.empty()) {
+            say("Whether chance explains constant and slope of the bias line is open: one bound of p\u2080 is below "
+                "its "
+                "limit, and another is not (" +
+                open + ").");
+        }
+        const std::string chance = bias_clauses([](const gum::MethodBias& bias) {
+            return bias.test->p_least >= k_limit &&
+                   (std::abs(bias.line.constant) > bias.U_constant || std::abs(bias.line.slope) > bias.U_slope);
+        });
+        if (!chance.empty()) {
+            say("A constant or a slope of the bias line is larger than its expanded uncertainty, and chance explains "
+                "that (p\u2080 " +
+                chance + ").");
+        }
     }
 
     void bias_lines() {
         std::string noisy;
         std::string turned;
-        for (const gum::MethodSummary& row : result_.summaries) {
+        for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
+            const gum::MethodSummary& row = result_.summaries[i];
             if (!row.bias) {
                 continue;
             }
@@ -291,7 +378,7 @@ private:
             const bool constant = std::abs(bias.line.constant) > bias.U_constant;
             const bool slope =
                 std::abs(bias.line.slope) > bias.U_slope && std::abs(bias.line.slope - of_noise) > bias.U_slope;
-            if (constant || slope) {
+            if ((constant || slope) && bias.test && bias.test->p < gum::k_chance_of_bias_and_pattern) {
                 say("The differences" + direction_of(row) + " have a systematic part: the " +
                     (constant && slope ? "constant and the slope"
                      : constant        ? "constant"
@@ -299,17 +386,18 @@ private:
                     " of the bias line " + (constant && slope ? "are" : "is") +
                     " larger than the expanded uncertainty.");
             }
-            if (is_bias_of_noise(row)) {
+            if (bias.slope_is_noise) {
                 noisy += (noisy.empty() ? "" : ", ") + (row.direction == "all" ? std::string() : row.direction);
             }
         }
+        bias_by_chance();
         if (!turned.empty()) {
             say("Errors of the reference values stand in the reference value, and with the other sign in the "
                 "difference. Their uncertainty alone turns the bias line by about this slope: " +
                 turned + ". A slope is evidence of a scale error only as far as it differs from that.");
         }
         if (std::any_of(result_.summaries.begin(), result_.summaries.end(),
-                        [&](const gum::MethodSummary& row) { return is_bias_of_noise(row); })) {
+                        [](const gum::MethodSummary& row) { return row.bias && row.bias->slope_is_noise; })) {
             say("The reference values" + (noisy.empty() || result_.summaries.size() == 1 ? "" : " (" + noisy + ")") +
                 " spread by less than five times their standard uncertainty: the slope of a bias line against them "
                 "contains their own uncertainty, and is no evidence of a scale error.");

@@ -270,6 +270,173 @@ TEST(Agreement, PseudoInverseOfManyPointsIsThatOfFew) {
     EXPECT_GT(few.beyond_covariance, 0.5);
 }
 
+// ---- finite degrees of freedom
+// ------------------------------------------------------------------------------------------
+
+double normal_of(std::mt19937_64& engine) {  // Box-Muller: the same numbers with every standard library
+    const double a = (static_cast<double>(engine() >> 11U) + 0.5) * 0x1p-53;
+    const double b = (static_cast<double>(engine() >> 11U) + 0.5) * 0x1p-53;
+    return std::sqrt(-2.0 * std::log(a)) * std::cos(2.0 * std::numbers::pi * b);
+}
+
+/// Honest differences: true u of 1, each estimated with ν degrees of freedom (all at once: by one estimate).
+MethodDifferences honest(std::mt19937_64& engine, Index m, int nu, double r, bool at_once) {
+    VectorXd d(m);
+    VectorXd u(m);
+    const auto estimate = [&] {
+        double sum = 0.0;
+        for (int i = 0; i < nu; ++i) {
+            sum += std::pow(normal_of(engine), 2);
+        }
+        return nu > 0 ? std::sqrt(sum / nu) : 1.0;
+    };
+    const double common = normal_of(engine);
+    const double of_all = estimate();
+    for (Index i = 0; i < m; ++i) {
+        d(i) = std::sqrt(r) * common + std::sqrt(1.0 - r) * normal_of(engine);
+        u(i) = at_once ? of_all : estimate();
+    }
+    MethodDifferences differences = differences_of(d, MatrixXd(u.asDiagonal() * equicorrelated(m, r) * u.asDiagonal()));
+    const double degrees = nu > 0 ? nu : std::numeric_limits<double>::infinity();
+    differences.degrees_of_freedom = VectorXd::Constant(m, degrees);
+    differences.one_estimate = at_once && nu > 0;
+    differences.U = coverage_factor(k_p, degrees) * u;
+    return differences;
+}
+
+TEST(FiniteDegrees, SumOfSquaresIsOneOfSquaredT) {
+    // 4·10⁵ trials of 20 t₄: P(Σ t² ≥ 42.4) = 0.309 ± 0.001; χ² says 0.0025.
+    MethodDifferences differences = independent_points(20, 0.5 * std::sqrt(42.4 / 20.0));
+    EXPECT_NEAR(agreement(differences, k_p).p_high, 0.00245, 1e-5);
+    differences.degrees_of_freedom = VectorXd::Constant(20, 4.0);
+    const Agreement of = agreement(differences, k_p);
+    EXPECT_NEAR(of.p_high, 0.3091, 0.0015);
+    EXPECT_NEAR(of.p_low + of.p_high, 1.0, 1e-9);
+    EXPECT_FALSE(of.is_bounded);
+    EXPECT_NEAR(of.p_mahalanobis, of.p_high, 1e-12);
+    EXPECT_GT(of.rms_en_high, 1.0) << "t with 4 degrees of freedom, in units of U = 2 u";
+    EXPECT_NE(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
+}
+
+TEST(FiniteDegrees, LargestByChanceIsThatOfT) {
+    MethodDifferences differences = independent_points(20, 0.3);
+    differences.degrees_of_freedom = VectorXd::Constant(20, 4.0);
+    const double k = coverage_factor(k_p, 4.0);
+    differences.U = VectorXd::Constant(20, k);
+    EXPECT_NEAR(agreement(differences, k_p).largest_en_by_chance, coverage_factor(std::pow(0.99, 1.0 / 20.0), 4.0) / k,
+                1e-9);
+    EXPECT_NEAR(agreement(differences, k_p).found_with_95_percent, k + 2.1318468, 1e-6);  // t_0.95(4)
+}
+
+TEST(FiniteDegrees, MeetCorrelationsInBounds) {
+    MethodDifferences differences = differences_of(VectorXd::Constant(10, 1.8), equicorrelated(10, 0.3));
+    differences.degrees_of_freedom = VectorXd::Constant(10, 4.0);
+    const Agreement of = agreement(differences, k_p);
+    EXPECT_TRUE(of.is_bounded);
+    EXPECT_LT(of.p_high_least, 0.025);
+    EXPECT_GT(of.p_high, 0.025);
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::joint_test_open);
+    differences.degrees_of_freedom.setConstant(1e7);  // nothing is left open
+    const Agreement many = agreement(differences, k_p);
+    differences.degrees_of_freedom.resize(0);
+    const Agreement infinite = agreement(differences, k_p);
+    EXPECT_NEAR(many.p_low_least, std::min(infinite.p_low, chi_square_lower_tail(32.4, 10.0)), 1e-6);
+    EXPECT_NEAR(many.p_high, infinite.p_high, 1e-6);
+}
+
+/// The law: whatever the degrees of freedom, the correlations and the way of estimation, honest comparisons are called a
+/// disagreement no more often than the limits say: 2.5 % by the sum, 1 % each by the largest |E_n|, the pattern and
+/// the bias.
+TEST(FiniteDegrees, HonestComparisonsDisagreeAtTheLevel) {
+    constexpr double k_level = 0.055;
+    std::mt19937_64 engine(5);
+    for (const int nu : {3, 4, 10, 50, 0}) {
+        for (const double r : {0.0, 0.5}) {
+            for (const bool at_once : {false, true}) {
+                if (nu == 0 && at_once) {
+                    continue;
+                }
+                const Index m = nu % 4 == 0 ? 20 : 8;
+                const VectorXd t = VectorXd::LinSpaced(m, 0.0, 100.0);
+                const bool is_exact = nu == 0 || (r == 0.0 && !at_once);  // bounds take longer, and leave room
+                const int runs = is_exact ? 200 : 40;
+                int disagreements = 0;
+                for (int run = 0; run < runs; ++run) {
+                    const MethodDifferences of = honest(engine, m, nu, r, at_once);
+                    disagreements += agreement_verdict(agreement(of, k_p), std::nullopt, bias_test(of, t, {})) ==
+                                             AgreementVerdict::disagreement
+                                         ? 1
+                                         : 0;
+                }
+                EXPECT_LE(disagreements, runs * k_level + 3.0 * std::sqrt(runs * k_level))
+                    << "nu " << nu << ", r " << r << ", one estimate " << at_once;
+            }
+        }
+    }
+}
+
+// ---- pattern and bias
+// ------------------------------------------------------------------------------------------
+
+TEST(Pattern, RefutesWhatTheSumOfSquaresDoesNotSee) {
+    // Pairs of points with r = 0.95 that differ in opposite senses.
+    const Index m = 40;
+    MatrixXd R = MatrixXd::Identity(m, m);
+    VectorXd d(m);
+    for (Index i = 0; i < m; i += 2) {
+        R(i, i + 1) = R(i + 1, i) = 0.95;
+        d(i) = 0.9;
+        d(i + 1) = -0.9;
+    }
+    const Agreement of = agreement(differences_of(d, R), k_p);
+    EXPECT_GT(of.p_high, 0.025);
+    EXPECT_LT(of.p_mahalanobis, 1e-30);
+    EXPECT_TRUE(is_refuted_pattern(of));
+    EXPECT_FALSE(is_too_large(of));
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
+}
+
+TEST(Pattern, RoundingOfStatedNumbersRefutesNothing) {
+    // 12 points that share all but 1 % of u: values that are rounded by 4 % of u differ by more than that.
+    const Index m = 12;
+    VectorXd d = VectorXd::Constant(m, 0.4);
+    for (Index i = 0; i < m; ++i) {
+        d(i) += i % 2 == 0 ? 0.04 : -0.04;
+    }
+    const Agreement of = agreement(differences_of(d, equicorrelated(m, 1.0 - 1e-4)), k_p);
+    EXPECT_LT(of.p_mahalanobis, 0.01);
+    EXPECT_FALSE(is_refuted_pattern(of));
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::joint_test_open);
+    // The same of points that share everything: the pseudo-inverse does not see it.
+    EXPECT_FALSE(is_refuted_pattern(agreement(differences_of(d, equicorrelated(m, 1.0)), k_p)));
+    const VectorXd larger = (10.0 * (d.array() - 0.4)).matrix();
+    EXPECT_TRUE(is_refuted_pattern(agreement(differences_of(larger, equicorrelated(m, 1.0)), k_p)));
+}
+
+TEST(BiasTest, AConstantOfOneStandardUncertaintyIsNoChance) {
+    const VectorXd t = VectorXd::LinSpaced(20, 0.0, 100.0);
+    const MethodDifferences differences = differences_of(VectorXd::Ones(20), MatrixXd::Identity(20, 20));
+    const BiasTest both = bias_test(differences, t, {}).value();
+    EXPECT_EQ(both.degrees_of_freedom, 2);
+    EXPECT_NEAR(both.p, std::exp(-10.0), 1e-12);  // χ² = 20 with 2 degrees of freedom
+    EXPECT_EQ(both.p_least, both.p);
+    EXPECT_EQ(agreement_verdict(agreement(differences, k_p), std::nullopt, both), AgreementVerdict::disagreement);
+    EXPECT_NE(agreement_verdict(agreement(differences, k_p), std::nullopt), AgreementVerdict::disagreement);
+    EXPECT_NEAR(bias_test(differences, t, {.slope = false}).value().p, chi_square_upper_tail(20.0, 1.0), 1e-15);
+    EXPECT_NEAR(bias_test(differences, t, {.constant = false}).value().p, 1.0, 1e-9);
+    EXPECT_FALSE(bias_test(differences, t, {.constant = false, .slope = false}));
+    EXPECT_FALSE(bias_test(differences, VectorXd::Ones(20), {}));
+}
+
+TEST(BiasTest, ASlopeThatTheReferenceMakesIsNoEvidence) {
+    const VectorXd t = VectorXd::LinSpaced(20, -1.0, 1.0);
+    const MethodDifferences differences = differences_of(2.0 * t, MatrixXd::Identity(20, 20));
+    EXPECT_LT(bias_test(differences, t, {}).value().p, 0.01);
+    EXPECT_NEAR(bias_test(differences, t, {.slope_of_noise = 2.0}).value().p, 1.0, 1e-9);
+    EXPECT_NEAR(bias_test(differences, t, {.slope_of_noise = 9.0}).value().p, 1.0, 1e-9);
+    EXPECT_LT(bias_test(differences, t, {.slope_of_noise = -2.0}).value().p, 0.01);
+}
+
 TEST(Agreement, Refusals) {
     const auto code = [](const MethodDifferences& differences) {
         return code_of<InputError>([&] { (void)agreement(differences, k_p); });
@@ -288,6 +455,11 @@ TEST(Agreement, Refusals) {
     bad = good;
     bad.U(2) = 0.0;
     EXPECT_EQ(code(bad), "GC-GUM-0031");
+    bad = good;
+    bad.degrees_of_freedom = VectorXd{{4.0, 0.0, 4.0}};
+    EXPECT_EQ(code(bad), "GC-GUM-0005");
+    bad.degrees_of_freedom.resize(2);
+    EXPECT_EQ(code(bad), "GC-GUM-0135");
     bad = good;
     bad.covariance(0, 1) = 0.3;
     EXPECT_EQ(code(bad), "GC-GUM-0052");
@@ -392,6 +564,7 @@ Agreement sound() {
     Agreement of;
     of.p_low = 0.5;
     of.p_high = 0.5;
+    of.p_mahalanobis = of.p_pattern = 0.5;
     of.effective_points = 20.0;
     of.power_to_confirm = 0.95;
     of.p_if_too_small = of.p_if_too_large = 0.01;
@@ -576,8 +749,25 @@ TEST(Verdict, TheStrongestObjectionIsStated) {
     EXPECT_EQ(agreement_verdict(of, 3.0), AgreementVerdict::disagreement);
 }
 
+TEST(Verdict, WhatOneBoundRefutesIsOpen) {
+    for (double Agreement::*p : {&Agreement::p_low_least, &Agreement::p_high_least, &Agreement::p_mahalanobis_least}) {
+        Agreement of = sound();
+        of.*p = 0.009;
+        EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::joint_test_open);
+        of.p_high = 0.01;
+        EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
+    }
+    EXPECT_EQ(agreement_verdict(sound(), std::nullopt, BiasTest{.p = 0.02, .p_least = 0.009}),
+              AgreementVerdict::joint_test_open);
+    EXPECT_EQ(agreement_verdict(sound(), std::nullopt, BiasTest{.p = 0.02, .p_least = 0.02}),
+              AgreementVerdict::validated);
+}
+
 TEST(Verdict, NumbersThatAreNoneNeverPass) {
     Agreement of = sound();
+    of.p_pattern = std::nan("");
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
+    of = sound();
     of.p_if_too_large = std::nan("");
     EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_not_confirmed);
     of.power_to_confirm = std::nan("");

@@ -92,6 +92,48 @@ TEST(MethodSummaries, BiasLineAndWhatNoiseMakesOfIt) {
     EXPECT_NEAR(result.summaries[0].slope_of_noise, -(0.03 - 0.01) / 20000.0, 1e-15);
 }
 
+TEST(MethodSummaries, DegreesOfFreedomReachTheJointTests) {
+    // Σζ² = 42.4 of 20 points, by χ² a disagreement; every u of the method was estimated from 5 readings.
+    MethodComparison comparison = methods_with(std::vector<double>(20, std::sqrt(1.01 * 42.4 / 20.0)));
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        comparison.points[i].value -= i % 2 == 0 ? 2.0 * std::sqrt(1.01 * 42.4 / 20.0) : 0.0;
+    }
+    EXPECT_EQ(compare_methods(comparison).summaries[0].verdict, AgreementVerdict::disagreement);
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        comparison.points[i].nu = 4.0 + 1e-6 * static_cast<double>(i);
+    }
+    const MethodSummary apart = compare_methods(comparison).summaries[0];
+    EXPECT_FALSE(apart.agreement.is_bounded);
+    EXPECT_NEAR(apart.agreement.p_high, 0.2988, 0.0005);  // nu of D is 4.08
+    EXPECT_NE(apart.verdict, AgreementVerdict::disagreement);
+    for (ComparedPoint& point : comparison.points) {
+        point.nu = 4.0;
+    }
+    EXPECT_TRUE(compare_methods(comparison).summaries[0].agreement.is_bounded) << "one u and one nu are one estimate";
+}
+
+TEST(MethodSummaries, VerdictOfCorrectedUncertainties) {
+    // Σζ² fits u as it stands, and not u · 0.577.
+    std::vector<double> differences;
+    for (int i = 0; i < 20; ++i) {
+        differences.push_back(i % 2 == 0 ? 1.0 : -1.0);
+    }
+    MethodComparison comparison = methods_with(differences);
+    EXPECT_EQ(compare_methods(comparison).summaries[0].verdict, AgreementVerdict::validated);
+    EXPECT_FALSE(compare_methods(comparison).summaries[0].verdict_audited);
+    comparison.audited_factor = 0.577;
+    const MethodSummary audited = compare_methods(comparison).summaries[0];
+    EXPECT_EQ(audited.verdict, AgreementVerdict::validated);
+    EXPECT_EQ(audited.verdict_audited, AgreementVerdict::disagreement);
+    MethodComparison corrected = methods_with(differences);
+    for (ComparedPoint& point : corrected.points) {
+        point.u *= 0.577;
+        point.U *= 0.577;
+    }
+    corrected.covariance *= 0.577 * 0.577;
+    EXPECT_EQ(compare_methods(corrected).summaries[0].verdict, *audited.verdict_audited);
+}
+
 TEST(MethodRefusals, SizesCorrelationsAndNames) {
     MethodComparison sizes = methods_with({0.9, -1.1});
     sizes.covariance.resize(1, 1);

@@ -193,16 +193,78 @@ TEST(ScoredResults, TakeUOfADistributionAsItIs) {
     EXPECT_EQ(scores_of(stated)[0].verdict, Verdict::action) << "by k and nu alone it is brought to t";
 }
 
+/// The law: with stated correlations u_D is that of the stated covariance or larger, the correlation with the value is one,
+/// and U_D is not below u_D, for every value that is made of all results alike.
+TEST(ScoredResults, StrongCorrelationsHideNoDifference) {
+    const std::vector<double> x{10.02, 9.97, 10.05, 9.99, 10.0, 9.94};
+    for (const double r : {0.0, 0.3, 0.6, 0.9, 0.99}) {
+        for (const AssignedValueMethod method : {AssignedValueMethod::arithmetic_mean, AssignedValueMethod::median,
+                                                 AssignedValueMethod::algorithm_a, AssignedValueMethod::q_hampel}) {
+            test::StatedComparison stated = test::comparison_of(x, std::vector<double>(6, 0.1));
+            stated.scheme.items[0].assigned_value.method = method;
+            for (std::size_t i = 0; i < 6 && r > 0.0; ++i) {
+                for (std::size_t j = 0; j < i; ++j) {
+                    stated.scheme.correlations.push_back({.first = j, .second = i, .r = r});
+                }
+            }
+            // u²(x_i − mean) = u² (1 − r) 5/6
+            const double least = 0.1 * std::sqrt((1.0 - r) * 5.0 / 6.0);
+            for (const ScoredResult& score : scores_of(stated)) {
+                const std::string where = std::to_string(r) + " method " + std::to_string(static_cast<int>(method));
+                EXPECT_LE(std::abs(*score.correlation), 1.0) << where;
+                EXPECT_GE(*score.U_difference, *score.u_difference) << where;
+                if (r == 0.0) {
+                    continue;
+                }
+                EXPECT_GE(*score.u_difference, least * (1.0 - 1e-9)) << where;
+                EXPECT_GE(*score.U_assigned, 1.9 * *score.u_assigned) << where;
+                const bool scatter_is_smaller = r >= 0.6;
+                if (method == AssignedValueMethod::arithmetic_mean && scatter_is_smaller) {
+                    EXPECT_NEAR(*score.u_difference, least, 1e-9) << where;
+                    EXPECT_NEAR(*score.u_assigned, 0.1 * std::sqrt((1.0 + 5.0 * r) / 6.0), 1e-9) << where;
+                }
+            }
+        }
+    }
+}
+
+TEST(ScoredResults, ACorrelationBeyond1IsRefused) {
+    test::StatedComparison stated = test::comparison_of({10.0, 10.1}, {0.1, 0.1});
+    AssignedValueRequest& request = stated.scheme.items[0].assigned_value;
+    request.method = AssignedValueMethod::given;
+    request.value = 10.0;
+    request.uncertainty = test::u_with_k_2(0.05);
+    const LaboratoryData data = stated.data();
+    AssignedValue assigned = assigned_value(stated.scheme, data);
+    assigned.covariance[1] = 0.0051;  // more than u u(X)
+    EXPECT_EQ(test::code_of<InputError>([&] {
+                  (void)scored_results(stated.scheme, data, assigned, item_result(stated.scheme, data, assigned));
+              }),
+              "GC-GUM-0030");
+}
+
+TEST(ScoredResults, AGroupOfUnknownCorrelationLeavesAResultOpen) {
+    test::StatedComparison stated = test::comparison_of({10.0, 10.32, 10.0}, {0.1, 0.15, 0.15});
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::reference;
+    stated.scheme.items[0].assigned_value.participant = "L1";
+    stated.scheme.participants[0].group = stated.scheme.participants[1].group = "NMI-X";
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_LT(std::abs(*scores[1].en), 1.0);
+    EXPECT_GT(std::abs(*scores[1].en_worst), 1.0);
+    EXPECT_EQ(scores[1].verdict, Verdict::inconclusive);
+    EXPECT_THAT(scores[1].verdict_by, ElementsAre(Score::en_worst));
+    EXPECT_EQ(scores[2].verdict, Verdict::none);
+}
+
 TEST(ScoredResults, NoSignalRestsOnTheChoiceOfASubset) {
     test::StatedComparison stated = test::comparison_of({10.0, 10.05, 11.0, 11.05, 20.0}, {0.1, 0.1, 0.1, 0.1, 0.1});
     stated.scheme.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
     const std::vector<ScoredResult> scores = scores_of(stated);
     EXPECT_GT(std::abs(*scores[2].en), 1.0);
     for (const std::size_t in_one_of_them : {0U, 1U, 2U, 3U}) {
-        EXPECT_NE(scores[in_one_of_them].verdict, Verdict::action) << in_one_of_them;
+        EXPECT_EQ(scores[in_one_of_them].verdict, Verdict::inconclusive) << in_one_of_them;
         EXPECT_TRUE(scores[in_one_of_them].verdict_by.empty());
     }
-    EXPECT_EQ(scores[2].verdict, Verdict::inconclusive);
     EXPECT_EQ(scores[4].verdict, Verdict::action) << "no consistent pair holds it";
 }
 

@@ -33,7 +33,9 @@ using ::testing::Not;
 const std::vector<std::string> k_languages = {"en", "de", "zh-Hant", "es"};
 const std::vector<std::string> k_verdicts = {"disagreement",
                                              "side_refuted",
+                                             "falls_with_finding",
                                              "points_above_1",
+                                             "joint_test_open",
                                              "correlation_unknown",
                                              "reference_not_better",
                                              "uncertainty_too_large",
@@ -442,6 +444,18 @@ TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
                 HasSubstr("Agreement at these points and that the uncertainties are right are not shown"));
     EXPECT_THAT(first(with_verdicts({"agreement_few_points", "agreement_reference_limited", "validated"})),
                 HasSubstr("Whether the uncertainty of the method is right cannot be told"));
+    EXPECT_THAT(first(with_verdicts({"joint_test_open", "validated"})), HasSubstr("cannot be told"));
+    EvaluationRecord falls = with_verdicts({"falls_with_finding", "points_above_1"});
+    falls.comparison->summary[0].verdict_audited = "disagreement";
+    EXPECT_THAT(first(falls), HasSubstr("the verdict is “disagreement”"));
+    for (const auto& [by, sentence] :
+         {std::pair{"pattern", "do not vary together"}, {"bias", "a constant or a slope"}}) {
+        EvaluationRecord record = with_verdicts({"disagreement"});
+        for (ComparisonSummary& s : record.comparison->summary) {
+            s.verdict_by = by;
+        }
+        EXPECT_THAT(first(record), HasSubstr(sentence));
+    }
     EXPECT_THAT(first(with_verdicts({""})), HasSubstr("do not allow a verdict"));
     EvaluationRecord scatter = with_verdicts({"disagreement"});
     for (ComparisonSummary& s : scatter.comparison->summary) {

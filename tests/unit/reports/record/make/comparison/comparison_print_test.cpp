@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <optional>
+#include <random>
+#include <string>
+
+#include "gum/comparison/scores.h"
 
 namespace gumcert::reports {
 namespace {
@@ -21,6 +27,29 @@ TEST(ComparisonPrint, WithoutUncertainty) {
     EXPECT_EQ(printed_value(24.9, 0.0), "24.9");
     EXPECT_EQ(printed_uncertainty(0.0), "0");
     EXPECT_EQ(printed_uncertainty(std::nullopt), "");
+}
+
+/// The law: the printed score calls for what the score calls for.
+TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
+    EXPECT_EQ(printed_en(1.0), "1.00");
+    EXPECT_EQ(printed_en(0.996), "1.00") << "no signal, as 1.00 has none";
+    EXPECT_EQ(printed_en(1.0004), "1.0004");
+    EXPECT_EQ(printed_en(-1.0049), "-1.005");
+    EXPECT_EQ(printed_z(2.995), "2.995");
+    EXPECT_EQ(printed_z(3.0), "3.00");
+    EXPECT_EQ(printed_z(2.004), "2.004");
+    EXPECT_EQ(printed_z(-1.996), "-2.00");
+    EXPECT_EQ(printed_share_of_allowed(100.003), "100.003");
+    EXPECT_EQ(printed_en(std::nullopt), "");
+    std::mt19937_64 engine(9);
+    for (int i = 0; i < 20000; ++i) {
+        const double limit = std::array{1.0, 2.0, 3.0}[static_cast<std::size_t>(i) % 3];
+        const double distance = std::pow(10.0, -15.0 * static_cast<double>(engine() >> 11U) * 0x1p-53);
+        const double score = (engine() % 2U == 0 ? 1.0 : -1.0) * (limit + (engine() % 2U == 0 ? distance : -distance));
+        EXPECT_EQ(gum::signal_of_z(std::stod(printed_z(score))), gum::signal_of_z(score)) << printed_z(score);
+        EXPECT_EQ(gum::signal_of_en(std::stod(printed_en(score))), gum::signal_of_en(score)) << printed_en(score);
+        EXPECT_EQ(std::stod(printed_share_of_allowed(100.0 * score)) > 100.0, 100.0 * score > 100.0);
+    }
 }
 
 TEST(ComparisonPrint, AProbabilityIsNeverPrintedAsZero) {

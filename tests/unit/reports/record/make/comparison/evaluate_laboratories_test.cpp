@@ -539,14 +539,15 @@ TEST(EvaluateLaboratories, OrderOfTheResultsDoesNotMatter) {
 }
 
 TEST(EvaluateLaboratories, MeanOfEqualResultsWithLargeUncertainties) {
-    // s/√n is 0.0025 where the stated uncertainties give 1/√4: no r below 1 describes what a result and that mean
-    // share.
+    // s/√n is 0.0025 where the stated uncertainties give 1/√4: with that u(X) a result would correlate with the mean by
+    // more than 1.
     ComparisonJob job = job_of({10.00, 10.01, 10.00, 10.00}, {1.0, 1.0, 1.0, 1.0});
     job.items[0].assigned_value.method = AssignedValueMethod::arithmetic_mean;
     const reports::Comparison comparison = evaluated(job);
-    EXPECT_DOUBLE_EQ(*comparison.points[0].correlation, 1.0);
-    EXPECT_NEAR(*comparison.points[0].u_D, 1.0 - 0.0025, 1e-12);
-    EXPECT_EQ(comparison.items[0].k.text, "3.31") << "three degrees of freedom";
+    EXPECT_DOUBLE_EQ(*comparison.points[0].correlation, 0.5);
+    EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.75), 1e-12);
+    EXPECT_EQ(comparison.items[0].k.text, "2.00");
+    EXPECT_THAT(comparison.remarks, testing::Contains(HasSubstr("u(X) is the larger one")));
 }
 
 TEST(EvaluateLaboratories, SeveralItemsAndRounds) {

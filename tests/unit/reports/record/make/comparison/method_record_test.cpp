@@ -285,12 +285,46 @@ TEST(MethodRecord, SinglePointsAbove1AreHeldAgainstChance) {
     EXPECT_THAT(joined_remarks(compared(comparison_of(sound()))), Not(HasSubstr("limit")));
 }
 
+TEST(MethodRecord, AgreementThatFallsWithAFinding) {
+    MethodComparison comparison = comparison_of(many(3));
+    EXPECT_EQ(compared(comparison).summary.front().verdict_audited, "");
+    comparison.audited_factor = 0.577;
+    const reports::ComparisonSummary falls = compared(comparison).summary.front();
+    EXPECT_EQ(falls.verdict, "falls_with_finding");
+    EXPECT_EQ(falls.verdict_audited, "disagreement");
+    EXPECT_EQ(falls.verdict_by, "");
+    comparison.audited_factor = 0.95;
+    EXPECT_EQ(compared(comparison).summary.front().verdict, "validated");
+    comparison.audited_factor = 0.2;
+    comparison.points[0].value += 9.0;
+    EXPECT_EQ(compared(comparison).summary.front().verdict, "disagreement") << "it does not stand as stated";
+}
+
+TEST(MethodRecord, SaysWhatItsJointNumbersRestOn) {
+    MethodComparison comparison = comparison_of(many(3));
+    EXPECT_THAT(joined_remarks(compared(comparison)), Not(HasSubstr("finite degrees of freedom")));
+    for (std::size_t i = 0; i < comparison.points.size(); ++i) {
+        comparison.points[i].nu = 4.0 + static_cast<double>(i);
+    }
+    EXPECT_THAT(joined_remarks(compared(comparison)), HasSubstr("are those of Student's distribution"));
+    EXPECT_FALSE(compared(comparison).summary.front().p_high_least.number);
+    comparison.covariance.array() += 0.25;
+    EXPECT_THAT(joined_remarks(compared(comparison)), HasSubstr("no exact joint distribution is known"));
+    EXPECT_TRUE(compared(comparison).summary.front().p_high_least.number);
+}
+
 TEST(MethodRecord, FewPointsConfirmNoUncertainty) {
     EXPECT_EQ(compared(comparison_of(many(3))).summary.front().verdict, "validated");
     EXPECT_EQ(compared(comparison_of(many(2))).summary.front().verdict, "agreement_few_points");
     MethodComparison shared = comparison_of(many(3));
     shared.covariance.setConstant(0.8);
     shared.covariance.diagonal().setConstant(1.0);
+    EXPECT_EQ(compared(shared).summary.front().verdict, "disagreement") << "they differ by more than they may";
+    EXPECT_EQ(compared(shared).summary.front().verdict_by, "pattern");
+    EXPECT_THAT(joined_remarks(compared(shared)), HasSubstr("do not vary together as their covariance lets expect"));
+    for (ComparedPoint& point : shared.points) {
+        point.value = point.reference_value + 0.5 + 0.45 * (point.value - point.reference_value);
+    }
     EXPECT_EQ(compared(shared).summary.front().verdict, "agreement_few_points");
 }
 
@@ -361,7 +395,10 @@ TEST(MethodRecord, BiasLineAgainstThePosition) {
     EXPECT_NEAR(bias.u_slope, std::sqrt(1.01 / 175000.0), 1e-12);
     EXPECT_EQ(bias.slope.text, "0.0050");
     EXPECT_EQ(bias.U_slope.text, "0.0048");
+    EXPECT_EQ(record.summary.front().verdict, "disagreement");
+    EXPECT_EQ(bias.p_no_bias.number, bias.p_no_bias_least);
     EXPECT_THAT(joined_remarks(record), HasSubstr("have a systematic part"));
+    EXPECT_THAT(joined_remarks(record), HasSubstr("Chance does not explain constant and slope of the bias line"));
     EXPECT_THAT(joined_remarks(record), Not(HasSubstr("no evidence of a scale error")));
     comparison.points[2].position.reset();
     EXPECT_FALSE(compared(comparison).summary.front().bias);

@@ -1,0 +1,109 @@
+#include "gum/weighted_t_square.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "gum/quantity/diagnostic.h"
+#include "gum/weighted_chi_square.h"
+#include "tests/unit/gum/printed.h"
+
+namespace gumcert::gum {
+namespace {
+
+using test::code_of;
+
+constexpr double k_infinite = std::numeric_limits<double>::infinity();
+
+TEST(SquaredT, OneIsFisherF) {
+    for (const double nu : {1.0, 3.0, 4.5, 10.0, 100.0, 1e4, 1e7}) {
+        const boost::math::fisher_f_distribution<double> F(1.0, nu);
+        for (const double x : {0.01, 0.5, 1.0, 4.0, 20.0}) {
+            const std::vector<SquaredT> one{{.weight = 3.0, .degrees_of_freedom = nu}};
+            EXPECT_NEAR(squared_t_lower_tail(one, 3.0 * x), cdf(F, x), 1e-9) << nu << " " << x;
+            EXPECT_NEAR(squared_t_upper_tail(one, 3.0 * x), cdf(complement(F, x)), 1e-9) << nu << " " << x;
+        }
+        EXPECT_NEAR(squared_t_quantile(std::vector<SquaredT>{{1.0, nu}}, 0.95), quantile(F, 0.95), 1e-6) << nu;
+    }
+}
+
+TEST(SquaredT, InfiniteDegreesAreChiSquare) {
+    const std::vector<double> weights{0.5, 1.0, 1.0, 4.0};
+    std::vector<SquaredT> terms;
+    for (const double weight : weights) {
+        terms.push_back({weight, k_infinite});
+    }
+    for (const double x : {0.1, 2.0, 6.5, 30.0}) {
+        EXPECT_NEAR(squared_t_lower_tail(terms, x), weighted_chi_square_lower_tail(weights, x), 1e-9) << x;
+        EXPECT_NEAR(squared_t_upper_tail(terms, x), weighted_chi_square_upper_tail(weights, x), 1e-9) << x;
+    }
+    EXPECT_NEAR(squared_t_quantile(terms, 0.9), weighted_chi_square_quantile(weights, 0.9), 1e-7);
+}
+
+TEST(SquaredT, OfDifferentTermsByTrials) {
+    const std::vector<SquaredT> terms{{1.0, 2.0}, {0.3, 5.0}, {2.0, k_infinite}, {1.5, 30.0}};
+    std::mt19937_64 engine(8);
+    const auto uniform = [&] { return (static_cast<double>(engine() >> 11U) + 0.5) * 0x1p-53; };
+    constexpr int k_trials = 200000;
+    const double median = squared_t_quantile(terms, 0.5);
+    const double upper = squared_t_quantile(terms, 0.95);
+    int below = 0;
+    int above = 0;
+    for (int i = 0; i < k_trials; ++i) {
+        double sum = 0.0;
+        for (const SquaredT& term : terms) {  // Bailey (1994): the polar method for t
+            const double nu = term.degrees_of_freedom;
+            const double u = uniform();
+            const double radius = std::isinf(nu) ? -2.0 * std::log(u) : nu * std::expm1(-2.0 / nu * std::log(u));
+            sum += term.weight * radius * std::pow(std::cos(6.283185307179586 * uniform()), 2);
+        }
+        below += sum <= median ? 1 : 0;
+        above += sum > upper ? 1 : 0;
+    }
+    EXPECT_NEAR(below, 0.5 * k_trials, 4.0 * std::sqrt(0.25 * k_trials));
+    EXPECT_NEAR(above, 0.05 * k_trials, 4.0 * std::sqrt(0.0475 * k_trials));
+}
+
+TEST(SquaredT, FarTailsAreStatedByTheirLimit) {
+    const std::vector<SquaredT> terms(20, SquaredT{1.0, 1e4});
+    EXPECT_EQ(squared_t_upper_tail(terms, 400.0), k_least_tail_of_t);
+    EXPECT_EQ(squared_t_lower_tail(terms, -1.0), 0.0);
+    EXPECT_EQ(squared_t_upper_tail(terms, 0.0), 1.0);
+}
+
+TEST(CommonT, EqualWeightsAreFisherF) {
+    for (const double nu : {1.0, 4.0, 30.0, 1e5}) {
+        const boost::math::fisher_f_distribution<double> F(20.0, nu);
+        const std::vector<double> weights(20, 2.0);
+        for (const double x : {0.2, 1.0, 2.12, 5.0}) {
+            EXPECT_NEAR(common_t_upper_tail(weights, nu, 40.0 * x) / cdf(complement(F, x)), 1.0, 1e-7)
+                << nu << " " << x;
+            EXPECT_NEAR(common_t_lower_tail(weights, nu, 40.0 * x) / cdf(F, x), 1.0, 1e-7) << nu << " " << x;
+        }
+        EXPECT_NEAR(common_t_quantile(weights, nu, 0.975) / (40.0 * quantile(F, 0.975)), 1.0, 1e-6) << nu;
+    }
+    EXPECT_NEAR(common_t_upper_tail(std::vector<double>{1.0, 3.0}, k_infinite, 5.0),
+                weighted_chi_square_upper_tail(std::vector<double>{1.0, 3.0}, 5.0), 1e-12);
+}
+
+TEST(SquaredT, Refusals) {
+    const auto code = [](SquaredT term) {
+        return code_of<InputError>([&] { (void)squared_t_lower_tail(std::vector<SquaredT>{term}, 1.0); });
+    };
+    EXPECT_EQ(code({-1.0, 4.0}), "GC-GUM-0002");
+    EXPECT_EQ(code({0.0, 4.0}), "GC-GUM-0003");
+    EXPECT_EQ(code({1.0, 0.0}), "GC-GUM-0005");
+    EXPECT_EQ(code_of<InputError>([] {
+                  (void)squared_t_quantile(std::vector<SquaredT>{{1.0, 4.0}}, 1.0);
+              }),
+              "GC-GUM-0004");
+    EXPECT_EQ(code_of<InputError>([] { (void)common_t_lower_tail(std::vector<double>{1.0}, -1.0, 1.0); }),
+              "GC-GUM-0005");
+}
+
+}  // namespace
+}  // namespace gumcert::gum
