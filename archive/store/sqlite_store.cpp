@@ -532,8 +532,7 @@ std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
     if (!fs::is_regular_file(file, error)) {
         refuse_store("GC-ARCHIVE-0001", file,
                      fs::exists(file, error) ? "is a folder, a pipe or a device, and no file" : "there is no such file",
-                     "an archive is begun before it is used",
-                     "check the name, or begin one with gumcert archive init");
+                     "an archive is begun before it is used", "check the name, or begin one with gumcert archive init");
     }
     refuse_network_share(file.parent_path());
     if (access == Access::read_and_write) {
