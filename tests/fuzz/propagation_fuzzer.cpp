@@ -142,6 +142,7 @@ void compare_trials(const gum::EquationModel& model, const gum::Propagation& fir
                                                                       .adaptive = {},
                                                                       .seed = seed,
                                                                       .streams = {},
+                                                                      .has_no_variance = {},
                                                                       .threads = 1,
                                                                       .regions = false,
                                                                       .histogram = false,
