@@ -124,6 +124,15 @@ std::string issuer_of(X509* certificate) {
     return name_text(X509_get_issuer_name(certificate));
 }
 
+std::string serial_of(X509* certificate) {
+    BIGNUM* const number = ASN1_INTEGER_to_BN(X509_get0_serialNumber(certificate), nullptr);
+    char* const digits = number == nullptr ? nullptr : BN_bn2dec(number);
+    BN_free(number);
+    std::string text = digits == nullptr ? std::string() : std::string(digits);
+    OPENSSL_free(digits);
+    return text;
+}
+
 std::vector<std::string> names_of(X509* certificate) {
     std::vector<std::string> names;
     const X509_NAME* subject = X509_get_subject_name(certificate);

@@ -21,6 +21,8 @@ namespace gumcert::signing {
 /// Names as RFC 2253 writes them: "CN=…,O=…".
 [[nodiscard]] std::string subject_of(X509* certificate);
 [[nodiscard]] std::string issuer_of(X509* certificate);
+/// Its serial number as XML signatures write it, decimal.
+[[nodiscard]] std::string serial_of(X509* certificate);
 
 /// CN, O and OU of the subject as UTF-8, each by itself.
 [[nodiscard]] std::vector<std::string> names_of(X509* certificate);

@@ -145,29 +145,41 @@ bool has_foreign_attribute(const xmlNode* element) {
     return std::any_of(children.begin(), children.end(), has_foreign_attribute);
 }
 
+/// What the text of an element within a signature may be, beside blanks.
+enum class TextOf {
+    nothing,
+    base64,
+    certificate,  ///< a name or a number of a certificate of the signature, which says nothing that it does not say
+};
+
 /// An element that may stand within a signature, beside what the signature covers.
 struct OwnPart {
     const char* name_space;
     std::string_view name;
     std::string_view attributes = "Id";  ///< names, with blanks between
-    bool has_base64 = false;             ///< else it has no text
+    TextOf text = TextOf::nothing;
 };
-constexpr std::array<OwnPart, 33> k_own_parts = {{
+constexpr std::array<OwnPart, 38> k_own_parts = {{
     {k_dsig_namespace, "Signature"},
-    {k_dsig_namespace, "SignatureValue", "Id", true},
+    {k_dsig_namespace, "SignatureValue", "Id", TextOf::base64},
     {k_dsig_namespace, "KeyInfo"},
+    {k_dsig_namespace, "KeyName", "Id", TextOf::certificate},
     {k_dsig_namespace, "X509Data"},
-    {k_dsig_namespace, "X509Certificate", "", true},
-    {k_dsig_namespace, "X509SKI", "", true},
-    {k_dsig_namespace, "X509CRL", "", true},
-    {k_dsig_11_namespace, "X509Digest", "Algorithm", true},
+    {k_dsig_namespace, "X509SubjectName", "", TextOf::certificate},
+    {k_dsig_namespace, "X509IssuerSerial"},
+    {k_dsig_namespace, "X509IssuerName", "", TextOf::certificate},
+    {k_dsig_namespace, "X509SerialNumber", "", TextOf::certificate},
+    {k_dsig_namespace, "X509Certificate", "", TextOf::base64},
+    {k_dsig_namespace, "X509SKI", "", TextOf::base64},
+    {k_dsig_namespace, "X509CRL", "", TextOf::base64},
+    {k_dsig_11_namespace, "X509Digest", "Algorithm", TextOf::base64},
     {k_dsig_namespace, "KeyValue"},
     {k_dsig_namespace, "RSAKeyValue"},
-    {k_dsig_namespace, "Modulus", "", true},
-    {k_dsig_namespace, "Exponent", "", true},
+    {k_dsig_namespace, "Modulus", "", TextOf::base64},
+    {k_dsig_namespace, "Exponent", "", TextOf::base64},
     {k_dsig_11_namespace, "ECKeyValue"},
     {k_dsig_11_namespace, "NamedCurve", "URI"},
-    {k_dsig_11_namespace, "PublicKey", "", true},
+    {k_dsig_11_namespace, "PublicKey", "", TextOf::base64},
     {k_dsig_namespace, "Object"},
     {k_xades_namespace, "QualifyingProperties", "Id Target"},
     {k_xades_namespace, "UnsignedProperties"},
@@ -178,15 +190,34 @@ constexpr std::array<OwnPart, 33> k_own_parts = {{
     {k_xades_namespace, "ArchiveTimeStamp"},
     {k_xades_141_namespace, "ArchiveTimeStamp"},
     {k_dsig_namespace, "CanonicalizationMethod", "Algorithm"},
-    {k_xades_namespace, "EncapsulatedTimeStamp", "Id Encoding", true},
+    {k_xades_namespace, "EncapsulatedTimeStamp", "Id Encoding", TextOf::base64},
     {k_xades_namespace, "CertificateValues"},
-    {k_xades_namespace, "EncapsulatedX509Certificate", "Id Encoding", true},
+    {k_xades_namespace, "EncapsulatedX509Certificate", "Id Encoding", TextOf::base64},
     {k_xades_namespace, "RevocationValues"},
     {k_xades_namespace, "CRLValues"},
-    {k_xades_namespace, "EncapsulatedCRLValue", "Id Encoding", true},
+    {k_xades_namespace, "EncapsulatedCRLValue", "Id Encoding", TextOf::base64},
     {k_xades_namespace, "OCSPValues"},
-    {k_xades_namespace, "EncapsulatedOCSPValue", "Id Encoding", true},
+    {k_xades_namespace, "EncapsulatedOCSPValue", "Id Encoding", TextOf::base64},
 }};
+
+/// Whether two names are one, "CN=A, O=B" and "O=B,CN=A": programs write the parts in either order, with or without blanks.
+bool is_same_distinguished_name(std::string_view a, std::string_view b) {
+    const auto parts_of = [](std::string_view name) {
+        std::vector<std::string> parts(1);
+        bool is_escaped = false;
+        for (const char c : name) {
+            if (c == ',' && !is_escaped) {
+                parts.emplace_back();
+            } else if (!(c == ' ' && parts.back().empty())) {
+                parts.back() += c;
+            }
+            is_escaped = c == '\\' && !is_escaped;
+        }
+        std::sort(parts.begin(), parts.end());
+        return parts;
+    };
+    return parts_of(a) == parts_of(b);
+}
 
 bool is_base64_or_blank(std::string_view text) {
     constexpr std::string_view k_characters =
@@ -206,7 +237,8 @@ bool is_among(std::string_view list, std::string_view word) {
 }
 
 /// The first part of a signature that is none of a signature's, in words. The signature leaves itself out of what it covers,
-/// so anything could have been put there later: elements and attributes are those of the list, texts are Base64, and there is
+/// so anything could have been put there later: elements and attributes are those of the list, texts are Base64 or name a
+/// certificate (check_names), and there is
 /// no comment and no processing instruction, which canonical XML may leave out of what is covered, too.
 /// \param covered  parts that it covers nevertheless
 /// \return "" if there is none
@@ -236,7 +268,8 @@ std::string foreign_part(const xmlNode* element, const std::array<const xmlNode*
             case XML_TEXT_NODE: {
                 const std::string_view text =
                     child->content == nullptr ? "" : reinterpret_cast<const char*>(child->content);
-                if (!is_covered && !(own->has_base64 ? is_base64_or_blank(text) : is_blank(text))) {
+                if (!is_covered && own->text != TextOf::certificate &&
+                    !(own->text == TextOf::base64 ? is_base64_or_blank(text) : is_blank(text))) {
                     return "text in " + name_of(element);
                 }
                 break;
@@ -277,6 +310,7 @@ public:
         report_.format = "XMLDSig";
         check_shape();
         find_certificate();
+        check_names();
         if (report_.findings.empty()) {
             check_values();
         }
@@ -456,6 +490,35 @@ private:
         }
         if (properties_ != nullptr) {
             choose_by_digest();
+        }
+    }
+
+    /// KeyInfo may name the certificate that it brings, as programs of others do: a text that names none of the
+    /// certificates is none of a signature's.
+    void check_names() {
+        for (const xmlNode* element : elements_) {
+            if (!is_inside(element, signature_) || chain_.empty()) {
+                continue;
+            }
+            const auto is = [&](const char* name) { return is_element(element, k_dsig_namespace, name); };
+            const bool is_name = is("KeyName") || is("X509SubjectName") || is("X509IssuerName");
+            if (!is_name && !is("X509SerialNumber")) {
+                continue;
+            }
+            const std::string text = text_of(element);
+            const bool fits = std::any_of(chain_.begin(), chain_.end(), [&](const CertificateHandle& certificate) {
+                const std::vector<std::string> parts = names_of(certificate.get());
+                return is_name ? is_same_distinguished_name(text, subject_of(certificate.get())) ||
+                                     is_same_distinguished_name(text, issuer_of(certificate.get())) ||
+                                     std::find(parts.begin(), parts.end(), text) != parts.end()
+                               : text == serial_of(certificate.get());
+            });
+            if (!fits) {
+                error("GC-SIGN-0120",
+                      "text in " + name_of(element) + " that names none of its certificates is not covered by it",
+                      "a signature holds nothing but its own parts, so that nothing in it can be taken for what was "
+                      "signed");
+            }
         }
     }
 

@@ -132,6 +132,24 @@ TEST_F(XmlAttack, NothingCanBeAddedWithinTheSignature) {
     EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo Id=\"U = 1 nm\">")), "GC-SIGN-0120");
     EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo Id=\"key-1\">")), "valid");
     EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo>U = 1 nm")), "GC-SIGN-0120");
+    // Programs of others name the certificate: what it says itself may stand there, and nothing else.
+    const std::string subject = verify(good_).signatures.front().signer;
+    std::string spaced = subject;
+    for (std::size_t at = spaced.find(','); at != std::string::npos; at = spaced.find(',', at + 2)) {
+        spaced.insert(at + 1, " ");
+    }
+    for (const std::string& name : {subject, spaced}) {
+        const std::string element = "<ds:X509SubjectName>" + name + "</ds:X509SubjectName>";
+        EXPECT_EQ(error_of(replaced(good_, "<ds:X509Data>", "<ds:X509Data>" + element)), "valid") << name;
+        const std::string other = "<ds:X509SubjectName>" + name + ",OU=U = 1 nm</ds:X509SubjectName>";
+        EXPECT_EQ(error_of(replaced(good_, "<ds:X509Data>", "<ds:X509Data>" + other)), "GC-SIGN-0120") << name;
+    }
+    EXPECT_EQ(error_of(replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo><ds:KeyName>" + subject + "</ds:KeyName>")),
+              "valid");
+    const std::string serial = "<ds:X509IssuerSerial><ds:X509IssuerName>" + subject +
+                               "</ds:X509IssuerName><ds:X509SerialNumber>123456789</ds:X509SerialNumber>"
+                               "</ds:X509IssuerSerial>";
+    EXPECT_EQ(error_of(replaced(good_, "<ds:X509Data>", "<ds:X509Data>" + serial)), "GC-SIGN-0120");
     EXPECT_EQ(error_of(replaced(good_, "</xades:QualifyingProperties>",
                                 "<xades:UnsignedProperties><xades:UnsignedSignatureProperties><xades:CounterSignature>"
                                 "U = 1 nm</xades:CounterSignature></xades:UnsignedSignatureProperties>"
