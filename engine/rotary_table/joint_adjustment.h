@@ -118,8 +118,9 @@ private:
     std::vector<std::size_t> scale_priors_, temperature_priors_;
 };
 
-/// Where the repeatability of the table acts: the foot, on the rotary axis, of the centroid of the reflectors, or the point
-/// of the axis that is stated, in the frame of the table, [m]. A translation of "the table" is one of a point, and the same deviation seen from another point of
+/// Where the repeatability of the table acts, in the frame of the table, [m]: the point of the axis that is stated; else, of
+/// one that is estimated, the foot on the axis of the centroid of the reflectors, and of one that is given, the foot of the
+/// origin of the fixture, of which the error motions are. A translation of "the table" is one of a point, and the same deviation seen from another point of
 /// the axis has other translations. The origin of the fixture coordinates is where a CMM happened to put it; the centroid
 /// moves with the reflectors (ADR 0071).
 [[nodiscard]] Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up);

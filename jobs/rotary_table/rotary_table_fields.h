@@ -106,8 +106,8 @@ void describe(Archive& a, engine::TableRepeatability& r) {
     a("u_axial_arcsec", r.u_axial, In{not_negative("″"), gum::k_arcsecond}, "The rotation about the axis.");
     a("u_tilt_arcsec", r.u_tilt, In{not_negative("″"), gum::k_arcsecond}, "Each of the other two rotations.");
     a("at_mm", r.axial_position, In{k_fixture_coordinate, gum::k_millimetre},
-      "Coordinate along the rotary axis, in the frame of the fixture, of the point whose translations these are; the "
-      "centroid of the reflectors when left out.");
+      "Coordinate along the rotary axis, in the frame of the fixture, of the point whose translations these are; "
+      "left out: the centroid of the reflectors where it is estimated, 0 where it is given.");
 }
 
 template <class Archive>

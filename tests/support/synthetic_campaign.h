@@ -293,6 +293,7 @@ inline Campaign simulate(const CampaignPlan& plan) {
     // The table deviates about the foot of the centroid of the reflectors on the axis.
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     foot[a] = truth.fixture.col(a).mean() + plan.repeatability_off;
+    measurement.table_repeatability.axial_position = foot[a];
     Vector6 spread;
     spread << Eigen::Vector3d::Constant(plan.table_linear), Eigen::Vector3d::Constant(plan.table_tilt);
     spread[3 + a] = plan.table_axial;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
@@ -287,6 +288,26 @@ TEST(JointAdjustment, StatedUncertaintyOfAPerfectTableIsHonest) {
     EXPECT_GT(perfect.rms.minCoeff(), 0.85);
     EXPECT_LT(perfect.rms.maxCoeff(), 1.15);
     EXPECT_NEAR(perfect.chi_square_per_degree, 1.0, 0.05);
+}
+
+/// What is estimated acts where the reflectors are, what is given where the error motions are, both where it is stated.
+TEST(JointAdjustment, RepeatabilityActsAtAPoint) {
+    CampaignPlan plan;
+    RotaryTableMeasurement measurement = simulate(plan).measurement;
+    const int axial = axial_coordinate(measurement.axis);
+    const double centroid = measurement.fixture.col(axial).mean();
+    const auto acts_at = [&](RepeatabilityMode mode, std::optional<double> position) {
+        measurement.table_repeatability.mode = mode;
+        measurement.table_repeatability.axial_position = position;
+        const Eigen::Vector3d point = repeatability_point(measurement, RigidMotion{});
+        EXPECT_EQ(point[(axial + 1) % 3], 0.0);
+        EXPECT_EQ(point[(axial + 2) % 3], 0.0);
+        return point[axial];
+    };
+    EXPECT_DOUBLE_EQ(acts_at(RepeatabilityMode::estimate, std::nullopt), centroid);
+    EXPECT_DOUBLE_EQ(acts_at(RepeatabilityMode::given, std::nullopt), 0.0);
+    EXPECT_DOUBLE_EQ(acts_at(RepeatabilityMode::estimate, -0.4), -0.4);
+    EXPECT_DOUBLE_EQ(acts_at(RepeatabilityMode::given, -0.4), -0.4);
 }
 
 TEST(JointAdjustment, RepeatabilityIgnoredIsUncertaintyUnderstated) {
