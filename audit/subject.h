@@ -29,9 +29,9 @@ struct AuditedScore {
     /// |E_n| above 1 is a signal to act on. Not where the evaluation gives none, because the value that the result was held
     /// against is one of several.
     bool is_signal = true;
-    /// Scores of its direction, where the evaluation has no objection to them together: chance explains one that is no
-    /// larger than it makes the largest of so many.
-    std::optional<std::size_t> points_without_objection;
+    /// Whether the evaluation has no objection to the scores of its direction together: by the distribution that it
+    /// took, with its degrees of freedom, the largest of them is one of chance.
+    bool is_without_objection = false;
 };
 
 /// What was compared with one assigned value: an item in one round, or everything where there are no items.

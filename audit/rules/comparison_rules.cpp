@@ -12,7 +12,6 @@
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
 #include "certificate/text_words.h"
-#include "gum/comparison/agreement.h"
 #include "gum/comparison/robust_statistics.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
@@ -435,8 +434,7 @@ void no_action_on_record(const AuditSubject& subject, FindingCollector& findings
             finding.kind = kind;
             findings.add(std::move(finding), severity);
         };
-        if (score->points_without_objection &&
-            en <= gum::largest_en_by_chance(*score->points_without_objection, subject.comparison->score_probability)) {
+        if (score->is_without_objection) {
             add("score/by_chance",
                 say("|E_n| = {en:number} is above 1, and so many of the scores are by chance alone", shown),
                 FindingSeverity::information);

@@ -1,6 +1,7 @@
 #include "audit/sources/record_subject.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -423,23 +424,19 @@ TakenU taken_by_en(const reports::Comparison& comparison, const std::optional<do
                      : TakenU{.U = stated_U.value_or(0.0), .probability = probability.value_or(wanted)};
 }
 
-/// The number of points of the direction of a point, where the evaluation has no objection to their scores together.
-std::optional<std::size_t> points_without_objection(const reports::Comparison& comparison,
-                                                    const reports::ComparisonPoint& point) {
+/// Whether the evaluation has no objection to the scores of the direction of a point together. Its verdict has held the
+/// largest of them against the limit of so many: another limit here would contradict it.
+bool is_without_objection(const reports::Comparison& comparison, const reports::ComparisonPoint& point) {
     const std::string direction = point.direction.empty() ? "all" : point.direction;
     const auto found = std::find_if(comparison.summary.begin(), comparison.summary.end(),
                                     [&direction](const auto& row) { return row.direction == direction; });
     if (found == comparison.summary.end() || found->verdict.empty() || found->points < 1 ||
         found->count_above_1 > found->count_by_chance.value_or(-1)) {
-        return std::nullopt;
+        return false;
     }
     // Chance is reckoned from uncertainties that nothing refutes.
-    for (const char* const objection : {"disagreement", "points_above_1", "side_refuted"}) {
-        if (found->verdict == objection) {
-            return std::nullopt;
-        }
-    }
-    return static_cast<std::size_t>(found->points);
+    constexpr std::array<std::string_view, 3> k_objections{"disagreement", "points_above_1", "side_refuted"};
+    return std::find(k_objections.begin(), k_objections.end(), found->verdict) == k_objections.end();
 }
 
 AuditedScore score_of(const reports::Comparison& comparison, const reports::ComparisonPoint& point) {
@@ -478,7 +475,7 @@ AuditedScore score_of(const reports::Comparison& comparison, const reports::Comp
     // A result without a score of its uncertainty has no correlation to state.
     score.correlation_known = point.correlation.has_value() || (!point.En.number && !point.zeta.number);
     score.is_signal = point.signal != "inconclusive" && point.signal != "none";
-    score.points_without_objection = points_without_objection(comparison, point);
+    score.is_without_objection = is_without_objection(comparison, point);
     return score;
 }
 

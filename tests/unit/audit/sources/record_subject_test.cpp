@@ -315,14 +315,14 @@ TEST(SubjectOfRecord, ExplainsByChanceWhatTheVerdictOfItsDirectionDoesNotObjectT
     comparison.points[1].direction = "y";
     comparison.points[1].En.number = 1.22;
     const std::vector<AuditedScore> scores = subject_of(record, "record.json").comparison->scores;
-    EXPECT_FALSE(scores[0].points_without_objection);
-    EXPECT_EQ(scores[1].points_without_objection, 12U);
+    EXPECT_FALSE(scores[0].is_without_objection);
+    EXPECT_TRUE(scores[1].is_without_objection);
     comparison.summary[1].count_above_1 = 4;
-    EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].points_without_objection);
+    EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].is_without_objection);
     for (const char* const objection : {"", "points_above_1", "side_refuted", "disagreement"}) {
         comparison.summary[1].count_above_1 = 3;
         comparison.summary[1].verdict = objection;
-        EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].points_without_objection) << objection;
+        EXPECT_FALSE(subject_of(record, "record.json").comparison->scores[1].is_without_objection) << objection;
     }
 }
 
