@@ -186,6 +186,41 @@ JointRegion law_ellipsoid(const Budget& budget, const BudgetPointResult& point, 
     return region;
 }
 
+namespace {
+
+/// Whether the trials are about what is reported, within what is not seen in three digits of a factor: then the region
+/// of the trials is that of the results, whichever method they are reported by.
+bool trials_are_about(const MonteCarloResult& trials, const Eigen::VectorXd& value, const Eigen::MatrixXd& covariance) {
+    constexpr double k_same = 0.01;
+    const Eigen::Index m = value.size();
+    if (covariance.rows() != m || trials.covariance.rows() != m || !covariance.allFinite()) {
+        return false;
+    }
+    const Eigen::VectorXd u = covariance.diagonal().cwiseSqrt();
+    for (Eigen::Index i = 0; i < m; ++i) {
+        if (!(std::abs(trials.outputs[static_cast<std::size_t>(i)].mean - value(i)) <= k_same * u(i))) {
+            return false;
+        }
+        for (Eigen::Index j = 0; j < m; ++j) {
+            if (!(std::abs(trials.covariance(i, j) - covariance(i, j)) <= k_same * u(i) * u(j))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+JointRegion region_of_trials(const MonteCarloRegions& from) {
+    JointRegion region;
+    region.of_trials = true;
+    region.ellipsoid_factor = from.ellipsoid_factor;
+    region.rectangle_factor = from.parallelepiped_factor;
+    region.no_ellipsoid_because = from.ellipsoid_factor ? "" : "singular";
+    return region;
+}
+
+}  // namespace
+
 std::optional<JointRegion> joint_region(const Budget& budget, const BudgetPointResult& point,
                                         const Eigen::MatrixXd& covariance) {
     const double p = budget.coverage_probability;
@@ -200,6 +235,11 @@ std::optional<JointRegion> joint_region(const Budget& budget, const BudgetPointR
         }
     }
     const auto of_trials = std::count(by_monte_carlo.begin(), by_monte_carlo.end(), true);
+    const bool has_regions =
+        point.monte_carlo && point.monte_carlo->regions && point.monte_carlo->coverage_probability == p;
+    if (has_regions && (of_trials == m || trials_are_about(*point.monte_carlo, value, covariance))) {
+        return region_of_trials(*point.monte_carlo->regions);
+    }
     if (of_trials == 0) {
         JointRegion region = law_ellipsoid(budget, point, p);
         BudgetPointResult asked = point;
@@ -222,13 +262,6 @@ std::optional<JointRegion> joint_region(const Budget& budget, const BudgetPointR
     }
     JointRegion region;
     region.of_trials = true;
-    if (of_trials == m && point.monte_carlo->regions && point.monte_carlo->coverage_probability == p) {
-        const MonteCarloRegions& from = *point.monte_carlo->regions;
-        region.ellipsoid_factor = from.ellipsoid_factor;
-        region.rectangle_factor = from.parallelepiped_factor;
-        region.no_ellipsoid_because = from.ellipsoid_factor ? "" : "singular";
-        return region;
-    }
     if (!budget.simultaneous.empty() || covariance.rows() != m || !covariance.allFinite()) {
         return std::nullopt;
     }

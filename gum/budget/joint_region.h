@@ -37,9 +37,10 @@ struct JointRegion {
 
 /// The region of all results of a point, for the coverage probability of the budget.
 ///
-/// All by the law of propagation: k_p as above; k_q the largest of the factors that the results have for 1 − (1 − p)/m
+/// Where trials were made for the same p, and their means and covariance are those that are reported within 1 % of u: the
+/// region of the trials (JCGM 102:2011, 7.7). Else, all by the law of propagation: k_p as above; k_q the largest of the factors that the results have for 1 − (1 − p)/m
 /// by the distributions that their k comes from, so that all intervals hold together with p at least (Bonferroni). All
-/// by Monte Carlo, for the same p: those of its trials. Else a result of the law is y + J (X − x), one of Monte Carlo that of its
+/// by Monte Carlo: those of its trials. Else a result of the law is y + J (X − x), one of Monte Carlo that of its
 /// model, and both factors are those that hold the fraction p of 10^6 draws about what is reported.
 /// \param covariance  reported_covariance
 /// \return nothing where results of Monte Carlo have no variance, or come from readings that were taken together
