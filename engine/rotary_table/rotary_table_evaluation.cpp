@@ -654,13 +654,21 @@ void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMea
     }
 }
 
-/// Components that enter with clearly more than the residuals give.
-void note_undetermined_components(RotaryTableSolution& solution) {
+/// Components that enter with clearly more than the residuals give. A warning where what is added to a distance is more
+/// than its own noise: then U is governed by it.
+void note_undetermined_components(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement) {
     constexpr double k_clearly = 1.1;  // a standard deviation that is a tenth larger
-    for (const VarianceComponent& component : solution.components) {
+    const Eigen::RowVector3d centroid = measurement.fixture.colwise().mean();
+    const double lever = (measurement.fixture.rowwise() - centroid).rowwise().norm().maxCoeff();
+    const double noise = solution.components[length_noise].value;
+    for (std::size_t c = 0; c < solution.components.size(); ++c) {
+        const VarianceComponent& component = solution.components[c];
         if (!component.used || !component.residuals_give || component.value < k_clearly * *component.residuals_give) {
             continue;
         }
+        const double added =
+            std::sqrt(component.value * component.value - *component.residuals_give * *component.residuals_give) *
+            (c == table_linear ? 1.0 : lever);
         solution.notes.push_back(
             {"GC-VARIANCE-0007", "variance components, " + component.name,
              "the residuals give " + size_of(component, *component.residuals_give) +
@@ -671,7 +679,7 @@ void note_undetermined_components(RotaryTableSolution& solution) {
              "state the repeatability of the table where it is known from earlier work (\"mode\": \"given\"), or "
              "measure "
              "more stations, reflectors or passes; either makes U smaller",
-             gum::Severity::warning});
+             added > noise ? gum::Severity::warning : gum::Severity::note});
     }
 }
 
@@ -1014,7 +1022,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
              "the stated uncertainties rest on the last values",
              "give the repeatability of the table instead of estimating it", gum::Severity::warning});
     }
-    note_undetermined_components(solution);
+    note_undetermined_components(solution, measurement);
     if (iteration.estimated().length && !iteration.step.length_separable) {
         solution.notes.push_back({"GC-VARIANCE-0002", "variance components",
                                   "one distance a visit of the table: the length noise is kept as stated",
