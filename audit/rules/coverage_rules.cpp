@@ -383,9 +383,12 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         const double least = gum::standard_normal_quantile(0.5 + 0.5 * *words.p);
         // Without rows only the document knows ν_eff; where it does not say, it may be as small as 1.
         const bool is_normal = budget.claims.distribution == "normal";
-        const double stated_nu = budget.claims.nu_eff ? budget.claims.nu_eff->interval().low
-                                 : is_normal          ? std::numeric_limits<double>::infinity()
-                                                      : 1.0;
+        // A convolution, or trials, have a k of their own: degrees of freedom beside it do not bound it.
+        const bool has_own_k = !budget.claims.distribution.empty() && !is_normal_or_student(budget.claims.distribution);
+        const double stated_nu = has_own_k              ? 1.0
+                                 : budget.claims.nu_eff ? budget.claims.nu_eff->interval().low
+                                 : is_normal            ? std::numeric_limits<double>::infinity()
+                                                        : 1.0;
         const double fewest = std::floor(budget.rows.empty() ? stated_nu : shown.allowed.nu_eff.low);
         // k of p grows when ν_eff falls: from that of the normal distribution to that of the fewest degrees of freedom
         // that the rows, or the document, leave open.

@@ -287,6 +287,12 @@ TEST_F(AuditProgram, ReadsACertificateAndTheOneInItsPdf) {
     ASSERT_NE(planted.find(k), std::string::npos);
     planted.replace(planted.find(k), k.size(), "<si:coverageFactor>1.80</si:coverageFactor>");
     write_bytes(out / "planted.xml", planted);
+    EXPECT_EQ(finding(audit_json(out / "planted.xml"), "K03"), nullptr) << "its distribution has a k of its own";
+    const std::string begin = "<si:distribution>";
+    const std::size_t name = planted.find(begin) + begin.size();
+    ASSERT_LT(begin.size(), name);
+    planted.replace(name, planted.find('<', name) - name, "normal");
+    write_bytes(out / "planted.xml", planted);
     EXPECT_NE(finding(audit_json(out / "planted.xml"), "K03"), nullptr);
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -125,6 +126,9 @@ TEST(SubjectOfCertificate, HoldsTheFactorAgainstTheStatedDistribution) {
         EXPECT_EQ(is_accused(k, ""), number < 1.63) << k << ": a rectangular contribution may dominate";
         for (const char* const name : {"convolution", "Convolution", "monte_carlo", "arcsine"}) {
             EXPECT_FALSE(is_accused(k, name)) << k << " " << name;
+            AuditSubject subject = subject_of_text(document(uncertainty("0.31", k, "0.9545", name)));
+            subject.budgets.at(0).claims.nu_eff = exact_number(std::numeric_limits<double>::infinity(), "");
+            EXPECT_FALSE(finds(subject, "K03")) << k << " " << name << ": its nu_eff is not that of a t-distribution";
         }
     }
 }

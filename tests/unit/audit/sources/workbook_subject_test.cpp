@@ -143,18 +143,18 @@ TEST(SubjectOfWorkbook, CountsTheReadingsOfAStandardDeviation) {
                                                            {"C2", "2"},
                                                            {"D2", "normal"},
                                                            {"E2", "=B2/C2"},
+                                                           {"J2", "1.001"},
+                                                           {"K2", "=STDEV(J2:J5)"},
                                                            {"A3", "repeatability"},
                                                            {"B3", formula},
                                                            {"C3", "1"},
                                                            {"D3", "normal"},
                                                            {"E3", "=B3/C3"},
-                                                           {"A5", "u_c"},
-                                                           {"B5", "=SQRT(SUMSQ(E2:E3))"},
-                                                           {"J2", "1.001"},
                                                            {"J3", "1.003"},
                                                            {"J4", "1.002"},
-                                                           {"J5", last},
-                                                           {"K2", "=STDEV(J2:J5)"}});
+                                                           {"A5", "u_c"},
+                                                           {"B5", "=SQRT(SUMSQ(E2:E3))"},
+                                                           {"J5", last}});
         const AuditSubject subject = subject_of(made, "b.xlsx");
         return subject.budgets.empty() ? std::nullopt : subject.budgets[0].rows.at(1).n;
     };
