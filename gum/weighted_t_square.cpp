@@ -17,6 +17,17 @@
 namespace gumcert::gum {
 namespace {
 
+/// The principal root, from functions of real numbers that are the same on every processor (ADR 0058).
+std::complex<double> square_root(const std::complex<double>& z) {
+    const double larger = std::sqrt(0.5 * (std::abs(z.real()) + std::hypot(z.real(), z.imag())));
+    if (!(larger > 0.0)) {
+        return 0.0;
+    }
+    const double smaller = 0.5 * std::abs(z.imag()) / larger;
+    return z.real() >= 0.0 ? std::complex<double>(larger, std::copysign(smaller, z.imag()))
+                           : std::complex<double>(smaller, std::copysign(larger, z.imag()));
+}
+
 // S = χ²_ν/ν with y = ln S has the density e^(ν/2 (y − e^y)) but for a constant.
 constexpr double k_largest_step_of_scale = 0.1;    // of y; the transform has a singularity 0.4 from the real axis
 constexpr double k_step_in_deviations = 0.5;       // of its standard deviation √(2/ν), about
@@ -96,7 +107,7 @@ public:
             for (const auto& [weight, count] : group.terms) {
                 std::complex<double> of_one = 0.0;
                 for (const ScaleNode& node : group.nodes) {
-                    of_one += node.probability / std::sqrt(1.0 + 2.0 * weight * s / node.scale);
+                    of_one += node.probability / square_root(1.0 + 2.0 * weight * s / node.scale);
                 }
                 logarithm += static_cast<double>(count) * std::log(of_one);
             }
@@ -110,9 +121,14 @@ public:
         const double size = k_size_of_contour * k_nodes_of_contour / x;
         double sum = 0.0;
         for (int k = 0; k <= k_nodes_of_contour; ++k) {
-            const std::complex<double> at(-k_bend_of_contour, static_cast<double>(k) * step);
-            const std::complex<double> s = size * (1.0 + std::sin(at));
-            const std::complex<double> slope = size * std::cos(at);  // ds/du over i
+            // sin and cos of -a + iy
+            const double y = static_cast<double>(k) * step;
+            const double sine = -std::sin(k_bend_of_contour);
+            const double cosine = std::cos(k_bend_of_contour);
+            const std::complex<double> s =
+                size * std::complex<double>(1.0 + sine * std::cosh(y), cosine * std::sinh(y));
+            const std::complex<double> slope =
+                size * std::complex<double>(cosine * std::cosh(y), -sine * std::sinh(y));  // ds/du over i
             const std::complex<double> transform = (*this)(s);
             const std::complex<double> term = std::exp(s * x) * (upper ? 1.0 - transform : transform) / s * slope;
             sum += (k == 0 ? 0.5 : 1.0) * term.real();
