@@ -157,10 +157,14 @@ Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std:
 
 Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up) {
     const int axial = axial_coordinate(measurement.axis);
-    Eigen::Vector3d point = measurement.fixture.colwise().mean().transpose();
+    const std::optional<double>& stated = measurement.table_repeatability.axial_position;
     // What is stated without a point is stated of the error motions, and they are those of the origin.
-    const bool is_given = measurement.table_repeatability.mode == RepeatabilityMode::given;
-    point[axial] = measurement.table_repeatability.axial_position.value_or(is_given ? 0.0 : point[axial]);
+    const bool is_of_origin = !stated && measurement.table_repeatability.mode == RepeatabilityMode::given;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    if (!is_of_origin) {
+        point = measurement.fixture.colwise().mean().transpose();
+        point[axial] = stated.value_or(point[axial]);
+    }
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     foot[axial] = (set_up * point)[axial];
     return foot;

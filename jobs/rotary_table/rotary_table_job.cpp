@@ -85,7 +85,7 @@ void read_length_uncertainty(const RotaryTableReading& reading, const JsonObject
 void read_repeatability(const RotaryTableReading& reading, const JsonObject& object) {
     engine::TableRepeatability& repeatability = reading.job().measurement.table_repeatability;
     JobReader reader(object);
-    reader.read(repeatability, {"mode"});
+    reader.read(repeatability, {"mode", "at_mm"});
     const bool is_given = repeatability.mode == engine::RepeatabilityMode::given;
     bool any = false;
     bool all_read = true;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "tests/cli/program.h"
 
@@ -13,6 +15,20 @@ namespace {
 using nlohmann::json;
 
 const fs::path k_example = fs::path(GUMCERT_SOURCE_DIR) / "examples" / "rotary_table";
+
+/// Of the reflectors of the example, along its axis: where a repeatability acts that was estimated, [mm].
+double centroid_along_x() {
+    std::istringstream fixture(bytes_of(k_example / "fixture.csv"));
+    double sum = 0.0;
+    int reflectors = 0;
+    for (std::string line; std::getline(fixture, line);) {
+        if (line.starts_with('R')) {
+            sum += std::stod(line.substr(line.find(',') + 1));
+            ++reflectors;
+        }
+    }
+    return sum / reflectors;
+}
 
 /// A small copy of the shipped plan: eight angles, a coarse grid.
 class Plan : public ProgramTest {
@@ -338,7 +354,8 @@ TEST_F(Plan, ParametersHaveTheUncertaintyThatAnEvaluationStates) {
     job_["table_repeatability"] = {{"mode", "given"},
                                    {"u_linear_um", component("linear")},
                                    {"u_axial_arcsec", component("axial")},
-                                   {"u_tilt_arcsec", component("tilt")}};
+                                   {"u_tilt_arcsec", component("tilt")},
+                                   {"at_mm", centroid_along_x()}};
     const json data = planned();
     std::map<std::string, double> u;
     for (const json& parameter : data["expected"]["table_parameters"]) {
@@ -486,7 +503,8 @@ TEST_F(Plan, MeasuredLengthsGiveTheLayoutButNotTheResult) {
     job_["table_repeatability"] = {{"mode", "given"},
                                    {"u_linear_um", component("linear")},
                                    {"u_axial_arcsec", component("axial")},
-                                   {"u_tilt_arcsec", component("tilt")}};
+                                   {"u_tilt_arcsec", component("tilt")},
+                                   {"at_mm", centroid_along_x()}};
     const json data = planned();
     EXPECT_EQ(data["expected"]["observations"], rotary["adjustment"]["observations"]);
     ASSERT_EQ(data["expected"]["angles"].size(), rotary["errors"].size());

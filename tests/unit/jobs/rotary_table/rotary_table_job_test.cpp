@@ -1064,9 +1064,10 @@ TEST_F(DiskJobTest, TellsWhatCannotBeRead) {
         (void)read_rotary_table_job(folder_ / "job.json");
         FAIL() << "accepted";
     } catch (const gum::StorageError& error) {
-        EXPECT_EQ(gum::message(error.diagnostics().at(0)),
-                  "lengths.csv — cannot be read: it is a folder — every file of a job must be a readable file "
-                  "— check the name and the rights of the file");
+        EXPECT_EQ(
+            gum::message(error.diagnostics().at(0)),
+            "lengths.csv — cannot be read: it is a folder; it is named at job.json#/observations/lengths (line 6, "
+            "column 32) — every file of a job must be a readable file — check the name and the rights of the file");
     }
 }
 
