@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
@@ -99,20 +100,25 @@ bool stands(const std::string& document, const std::vector<std::string>& texts) 
     return false;
 }
 
-/// The numbers of the lists of one name in a digital certificate, "NaN" where a row has none; none without such a list.
+/// The numbers of the lists of one name in a digital certificate, NaN where no list has one for a row: a list for each
+/// kind of statement has the rows of its own. None without such a list.
 std::vector<double> list_of(const std::string& dcc, const std::string& name) {
-    const std::size_t from = dcc.find("<si:" + name + ">");
-    if (from == std::string::npos) {
-        return {};
-    }
-    const std::size_t start = from + name.size() + 5;
-    std::istringstream words(dcc.substr(start, dcc.find('<', start) - start));
     std::vector<double> numbers;
-    for (std::string word; words >> word;) {
-        numbers.push_back(std::stod(word));
-    }
-    if (numbers.size() == 1) {
-        numbers.resize(k_points, numbers.front());  // one for all
+    for (std::size_t from = dcc.find("<si:" + name + ">"); from != std::string::npos;
+         from = dcc.find("<si:" + name + ">", from + 1)) {
+        const std::size_t start = from + name.size() + 5;
+        std::istringstream words(dcc.substr(start, dcc.find('<', start) - start));
+        std::vector<double> list;
+        for (std::string word; words >> word;) {
+            list.push_back(std::stod(word));
+        }
+        if (list.size() == 1) {
+            list.resize(k_points, list.front());  // one for all
+        }
+        numbers.resize(list.size(), std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            numbers[i] = std::isfinite(numbers[i]) ? numbers[i] : list[i];
+        }
     }
     return numbers;
 }

@@ -55,8 +55,9 @@ public:
     [[nodiscard]] reports::ReportedResult reported(std::size_t i, const gum::Unit& unit) const {
         const gum::BudgetPointResult& at = point(i);
         const double y = at.propagation.value(0);
+        const double rounding = at.model->rounding(gum::input_estimates(*at.model))(0);
         const auto in = [&](const gum::Unit& of) {
-            return reported_of(at.outputs.front(), of.from_si(y), of, budget_.job);
+            return reported_of(at.outputs.front(), recorded_value(y, rounding, of), of, budget_.job);
         };
         reports::ReportedResult taken = in(unit);
         // Whether an interval prints as symmetric is decided in the unit that the budget reports in.

@@ -345,6 +345,7 @@ EvaluationRecord with_trials(double value, double low, double high) {
     m.validation.reset();
     m.symmetric.number = {low, high};
     record.results[0].monte_carlo = m;
+    record.results[0].printed = {.value = "12.35", .U = "0.25", .unit = "m"};
     return record;
 }
 
