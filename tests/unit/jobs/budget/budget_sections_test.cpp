@@ -98,7 +98,7 @@ TEST(BudgetSections, KeepWhatTheirPointsStateForPrintOnly) {
                                               "m": {"unit": "g"}, "c": {"unit": "g", "value": 1, "u": 0.1}})j";
     const std::string with = R"j(, "sections": {"load": {"model": ["E = m - c"], "points": [
         {"m_N": 50, "m": {"value": 50.1, "u": 0.1}}, {"m_N": 100, "m": {"value": 100.2, "u": 0.1}}],
-        "tables": [{"columns": [{"show": "column", "of": "m_N"}, {"show": "value", "of": "E"}]}]},
+        "tables": [{"columns": ["m_N", "E", "U"]}]},
         "zero": {"model": ["Z = c*2"], "outputs": {"Z": {}}}})j";
     const BudgetJob job = read_budget(inputs + with);
     const auto column = std::find_if(job.point_columns.begin(), job.point_columns.end(),
