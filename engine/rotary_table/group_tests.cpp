@@ -406,6 +406,7 @@ public:
         // that its effects elsewhere are not reported as causes of their own.
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
+            misfit_of_fixture_ = largest_fixture_misfit();
             last = {best_visit(), best_change(), best_place(),           best_pair(),
                     best_drift(), best_index(),  best_place_at_angles(), best_place_from_visit()};
             const std::optional<Candidate> worst = least_probable(last);
@@ -887,12 +888,11 @@ private:
         FixedParts(seen.size(), 1)
             .run(adjustment_.adjustment().workers(),
                  [&](std::size_t m, std::size_t, std::size_t) { found[m] = find(seen[m]); });
-        const double misfit_of_fixture = largest_fixture_misfit();
         std::optional<Candidate> best;
         for (std::size_t m = 0; m < seen.size(); ++m) {
             // A reflector that stands elsewhere all the time, and a fixture of another size, leave something in a part of
             // the visits as well: where they explain more, at the same weights, it is they.
-            if (found[m].chi_square < std::max(0.0, misfit_of_fixture)) {
+            if (found[m].chi_square < misfit_of_fixture_) {
                 continue;
             }
             Visits::Effect effect(visits_.size());
@@ -1008,7 +1008,6 @@ private:
                 first[pair] = std::min(first[pair], g);
             }
         }
-        const double misfit_of_fixture = largest_fixture_misfit();
         std::optional<Candidate> best;
         for (std::size_t pair = 0; pair < effects.size(); ++pair) {
             if (first[pair] == visits_.size()) {
@@ -1023,7 +1022,7 @@ private:
             const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
             // A displaced reflector and a fixture of another size leave something between each station and reflector:
             // where they explain more, at the same weights, it is they.
-            if (chi_square < misfit_of_fixture) {
+            if (chi_square < misfit_of_fixture_) {
                 continue;
             }
             GroupTest test =
@@ -1428,6 +1427,7 @@ private:
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
     mutable std::map<std::pair<int, double>, double> limits_;  ///< by degrees of freedom and level
+    double misfit_of_fixture_ = 0.0;                           ///< largest_fixture_misfit() of this round
     double used_scale_ = 1.0, pose_scale_ = 1.0;               ///< of common errors, of poses
     std::vector<bool> moved_;                                  ///< by station: its angles were found to be others
     /// Cᵀ M C of angles that are off, with which each later round begins.
