@@ -148,6 +148,11 @@ private:
     Eigen::Index fixture_size_;
 };
 
+/// What is stated without a point is stated of the error motions, and they are those of the origin.
+bool acts_at_origin(const TableRepeatability& table) {
+    return !table.axial_position && table.mode == RepeatabilityMode::given;
+}
+
 }  // namespace
 
 Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std::size_t angle) {
@@ -155,15 +160,20 @@ Eigen::Matrix3d nominal_rotation(const RotaryTableMeasurement& measurement, std:
                          measurement.angles[angle] - measurement.angles[measurement.home]);
 }
 
+double repeatability_position(const RotaryTableMeasurement& measurement) {
+    if (acts_at_origin(measurement.table_repeatability)) {
+        return 0.0;
+    }
+    return measurement.table_repeatability.axial_position.value_or(
+        measurement.fixture.col(axial_coordinate(measurement.axis)).mean());
+}
+
 Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up) {
     const int axial = axial_coordinate(measurement.axis);
-    const std::optional<double>& stated = measurement.table_repeatability.axial_position;
-    // What is stated without a point is stated of the error motions, and they are those of the origin.
-    const bool is_of_origin = !stated && measurement.table_repeatability.mode == RepeatabilityMode::given;
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    if (!is_of_origin) {
+    if (!acts_at_origin(measurement.table_repeatability)) {
         point = measurement.fixture.colwise().mean().transpose();
-        point[axial] = stated.value_or(point[axial]);
+        point[axial] = repeatability_position(measurement);
     }
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
     foot[axial] = (set_up * point)[axial];

@@ -124,6 +124,9 @@ private:
 /// the axis has other translations. The origin of the fixture coordinates is where a CMM happened to put it; the centroid
 /// moves with the reflectors (ADR 0071).
 [[nodiscard]] Eigen::Vector3d repeatability_point(const RotaryTableMeasurement& measurement, const RigidMotion& set_up);
+/// The same as a coordinate along the axis in the frame of the fixture, as TableRepeatability::axial_position states it,
+/// [m].
+[[nodiscard]] double repeatability_position(const RotaryTableMeasurement& measurement);
 
 /// Pose (of the origin) by a deviation whose translations are those of a point, 6×6: d = d_c + ω × (0 − c).
 [[nodiscard]] Eigen::Matrix<double, 6, 6> pose_by_deviation(const Eigen::Vector3d& point);

@@ -49,13 +49,9 @@ RotaryTableMeasurement with_findings(const RotaryTableMeasurement& measurement,
     result.estimate_length_noise = false;
     const bool perfect = found.variance_linear <= 0.0 && found.variance_axial <= 0.0 && found.variance_tilt <= 0.0;
     // The components are those of the point where the joint adjustment let them act.
-    const double acts_at = measurement.table_repeatability.axial_position.value_or(
-        measurement.table_repeatability.mode == engine::RepeatabilityMode::given
-            ? 0.0
-            : measurement.fixture.col(engine::axial_coordinate(measurement.axis)).mean());
     result.table_repeatability = {perfect ? engine::RepeatabilityMode::none : engine::RepeatabilityMode::given,
                                   std::sqrt(found.variance_linear), std::sqrt(found.variance_axial),
-                                  std::sqrt(found.variance_tilt), acts_at};
+                                  std::sqrt(found.variance_tilt), engine::repeatability_position(measurement)};
     result.outliers.test = engine::OutlierTest::none;
     result.method = AdjustmentMethod::sequential;
     result.datum = Datum::home;
