@@ -559,13 +559,6 @@ void BudgetInputs::set_used(const std::optional<std::set<std::string>>& names) {
     }
 }
 
-/// What no equation uses and every point of the section states is there to be printed, as a nominal value is.
-void BudgetInputs::use_stated(const std::string& input) {
-    if (const auto found = of_name_.find(input); found != of_name_.end()) {
-        used_.back()[found->second] = true;
-    }
-}
-
 bool BudgetInputs::is_used(const std::string& input, std::size_t section) const {
     const auto found = of_name_.find(input);
     return found != of_name_.end() && section < used_.size() && used_[section][found->second];
@@ -938,10 +931,11 @@ void BudgetInputs::read_point_array(const json& points, const std::string& point
                          "a table has 1 to " + std::to_string(k_most_points) + " points", "correct the list");
         return;
     }
-    for (const Stated& stated : stated_) {
-        if (std::ranges::all_of(points, [&](const json& point) { return point.contains(stated.name); })) {
-            use_stated(stated.name);
-        }
+    // What no equation uses and every point of the section states is there to be printed, as a nominal value is.
+    for (std::size_t i = 0; i < stated_.size(); ++i) {
+        used_.back()[i] = used_.back()[i] || std::ranges::all_of(points, [&](const json& point) {
+                              return point.contains(stated_[i].name);
+                          });
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::string here = child_pointer(pointer, i);
@@ -1070,7 +1064,7 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
     }
     for (const FileColumn& column : columns) {
         if (column.input) {
-            use_stated(stated_[*column.input].name);
+            used_.back()[*column.input] = true;  // as in a list: every row states it
         }
     }
     std::vector<std::string_view> wanted;

@@ -66,7 +66,6 @@ public:
     [[nodiscard]] bool is_used(const std::string& input, std::size_t section) const;
 
 private:
-    void use_stated(const std::string& input);
     /// An input, and what is needed to evaluate it again at a point.
     struct Evaluated {
         gum::BudgetInput input;
