@@ -66,7 +66,7 @@ XmlDocument parse_xml(const Bytes& bytes, const std::string& name) {
         refuse(name, "larger than 2 GB", "a document is read whole", "attach large files beside the certificate");
     }
     const std::optional<text::FileGuess> guess = text::guess_file(bytes);
-    if (guess && guess->what != "XML") {
+    if (guess && guess->form != text::FileGuess::Form::xml) {
         refuse(name, "it is " + guess->what + ", and no XML", "a digital certificate is XML 1.0 with namespaces",
                guess->action);
     }

@@ -85,16 +85,18 @@ std::optional<std::string> outermost_string(std::string_view json, std::string_v
 std::optional<FileGuess> guess_file(std::string_view bytes) {
     if (bytes.starts_with("%PDF-")) {
         return FileGuess{
-            "a PDF",
+            FileGuess::Form::pdf, "a PDF",
             "use gumcert verify for its signatures, gumcert audit for the certificate that is attached to it, "
             "or the .xml that was issued with it"};
     }
     if (bytes.starts_with("PK\x03\x04")) {
-        return FileGuess{"a packed file, as workbooks are", "use gumcert audit for a workbook"};
+        return FileGuess{FileGuess::Form::packed, "a packed file, as workbooks are",
+                         "use gumcert audit for a workbook"};
     }
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first != std::string_view::npos && bytes[first] == '<') {
-        return FileGuess{"XML", "use gumcert check dcc, import dcc, verify or audit for a digital certificate"};
+        return FileGuess{FileGuess::Form::xml, "XML",
+                         "use gumcert check dcc, import dcc, verify or audit for a digital certificate"};
     }
     if (!is_json_object(bytes)) {
         return std::nullopt;
@@ -109,12 +111,12 @@ std::optional<FileGuess> guess_file(std::string_view bytes) {
         }
         for (const KnownSchema& known : k_schemas) {
             if (value.starts_with(known.begin)) {
-                return FileGuess{known.what, known.action};
+                return FileGuess{FileGuess::Form::json, known.what, known.action};
             }
         }
     }
     if (has("customer") && has("laboratory") && has("persons")) {
-        return FileGuess{"certificate data",
+        return FileGuess{FileGuess::Form::json, "certificate data",
                          "name it in a job, as \"certificate\": \"FILE\", and use gumcert run or check for the job"};
     }
     return std::nullopt;

@@ -8,6 +8,8 @@ namespace gumcert::text {
 
 /// What a file is, for the message of a reader that wants another kind of file.
 struct FileGuess {
+    enum class Form { pdf, packed, xml, json };
+    Form form = Form::json;
     std::string what;    ///< "a record of an evaluation"
     std::string action;  ///< "use gumcert render, check or rerun for it"
 };
