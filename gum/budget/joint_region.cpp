@@ -177,8 +177,7 @@ JointRegion law_ellipsoid(const Budget& budget, const BudgetPointResult& point, 
                                          [](const InputGroup* g) { return std::isnan(g->degrees_of_freedom); });
     if (is_estimated || any_unknown || V.rows() > k_most_in_drawn_ellipsoid) {
         // Of V alone: how well it is known (Willink and Hall 2002). It gives no factor where other inputs are normal.
-        const double nu =
-            any_unknown ? k_infinity : joint_effective_degrees_of_freedom(*point.model, point.propagation);
+        const double nu = joint_effective_degrees_of_freedom(*point.model, point.propagation);
         if (std::isfinite(nu)) {
             region.degrees_of_freedom = nu;
         }
