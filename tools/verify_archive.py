@@ -22,6 +22,7 @@ import os
 import pathlib
 import re
 import sqlite3
+import stat
 import sys
 import urllib.parse
 
@@ -904,7 +905,7 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
 
 def compared_document(file, verdict):
     """Whether a file is a document of the evidence, and what there is to say of it."""
-    digest = hashlib.sha256(pathlib.Path(file).read_bytes()).hexdigest()
+    digest = hashlib.sha256(bytes_of(file)).hexdigest()
     parts = [(f"document {name}" if name else "record", holds) for name, sha256, holds in verdict.get("parts", []) if sha256 == digest]
     for name, holds in parts:
         if holds:
@@ -912,24 +913,36 @@ def compared_document(file, verdict):
     return False, f"{file}: " + (f"is of an earlier draft of {verdict['number']}" if parts else f"no evidence here names its SHA-256 {digest}")
 
 
+def bytes_of(path, count=-1):
+    """The first bytes of a regular file, or all; a pipe would be waited for without end."""
+    file = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        kind = os.fstat(file).st_mode
+        if not stat.S_ISREG(kind):
+            trouble = errno.EISDIR if stat.S_ISDIR(kind) else errno.EINVAL
+            raise OSError(trouble, os.strerror(trouble) if stat.S_ISDIR(kind) else "is no regular file", str(path))
+        with os.fdopen(file, "rb", closefd=False) as stream:
+            return stream.read(count)
+    finally:
+        os.close(file)
+
+
 def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict=None):
     """Everything that is wrong with an archive, a head or evidence, of which the verdict says what it is about."""
     heads, found, verdict = [], [], {} if verdict is None else verdict
     for file in head_files:
         try:
-            heads.append(Head(strict_object(pathlib.Path(file).read_bytes())))
+            heads.append(Head(strict_object(bytes_of(file))))
             found += heads[-1].faults(file, public_key)
         except ValueError as wrong:
             found.append(f"{file}: {wrong}")
     yield from found
-    with open(path, "rb") as stream:
-        is_store = stream.read(16) == b"SQLite format 3\0"
-    if is_store:
+    if bytes_of(path, 16) == b"SQLite format 3\0":
         yield from verify_store(path, heads, tell)
         if public_key and not heads:
             tell("--public-key says nothing here: an archive is not signed, heads are, and none is given.")
         return
-    written = pathlib.Path(path).read_bytes()
+    written = bytes_of(path)
     value = strict_object(written, LONGEST_BASE64)
     schema = value.get("schema") if value is not None else None
     try:

@@ -506,6 +506,12 @@ ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& 
         require_own_evidence(output, options.named.front());
     }
     archive::Evidence evidence = archive::evidence_of(*store, options.named.front(), head_since_of(options));
+    if (std::ranges::none_of(evidence.entries, [&](const archive::Evidence::ProvenEntry& one) {
+            return one.entry.kind == "drafted" && one.entry.certificate == options.named.front();
+        })) {
+        refuse_usage(options.named.front(), "has no record: its number was taken and nothing was added",
+                     "evidence shows a record and what became of it", "add the certificate first: gumcert archive add");
+    }
     sign(evidence.head, options.sign);
     if (!options.sign.empty()) {
         evidence.states = archive::states_in(evidence, std::max(time_now(), evidence.head.at));

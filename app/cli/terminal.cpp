@@ -50,10 +50,11 @@ void print_message(const gum::Diagnostic& found, const CommonOptions& common) {
     }
 }
 
-void log_refusal(const gum::Diagnostic& why, const CommonOptions& common) {
+void log_refusal(const gum::Diagnostic& found, const CommonOptions& common) {
     if (common.refusal_log.empty()) {
         return;
     }
+    const gum::Diagnostic why = without_passwords(found);
     const std::string failure =
         app::append_refusal(common.refusal_log, {time_now(), common.command, why.code, why.where});
     if (!failure.empty()) {
