@@ -13,8 +13,8 @@
 
 #include "app/audit_evaluation.h"
 #include "app/audit_files.h"
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/output_files.h"
 #include "audit/rules/registry.h"
 #include "reports/audit/audit_document.h"

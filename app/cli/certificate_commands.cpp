@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "app/check_file.h"
-#include "app/cli/clock.h"
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/document_identity.h"
 #include "app/output_files.h"
 #include "app/output_set.h"

@@ -10,7 +10,7 @@
 #include "app/cli/archive_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/issue_commands.h"
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 
 namespace CLI {
 class App;

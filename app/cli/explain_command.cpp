@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/limits.h"
 #include "app/read_file.h"
 #include "gum/quantity/diagnostic.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/share_folder.h"
 #include "reports/forms/pdf_worker.h"
 
 namespace gumcert::cli {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 
 namespace gumcert::cli {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/method_library.h"
 
 namespace gumcert::cli {

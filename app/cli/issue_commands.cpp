@@ -13,10 +13,10 @@
 
 #include "app/audit_evaluation.h"
 #include "app/check_file.h"
-#include "app/cli/clock.h"
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
 #include "app/cli/summary.h"
+#include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/evaluate_job.h"
 #include "app/issue_documents.h"
 #include "app/output_files.h"

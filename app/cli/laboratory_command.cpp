@@ -1,6 +1,6 @@
 #include "app/cli/laboratory_command.h"
 
-#include "app/cli/clock.h"
+#include "app/cli/terminal/clock.h"
 #include "app/laboratory_overview.h"
 
 namespace gumcert::cli {

@@ -21,14 +21,14 @@
 #include "app/cli/explain_command.h"
 #include "app/cli/fonts_command.h"
 #include "app/cli/init_command.h"
-#include "app/cli/interruption.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/laboratory_command.h"
 #include "app/cli/rerun_command.h"
 #include "app/cli/self_test_command.h"
-#include "app/cli/share_folder.h"
 #include "app/cli/study_commands.h"
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/interruption.h"
+#include "app/cli/terminal/share_folder.h"
+#include "app/cli/terminal/terminal.h"
 #include "archive/store/open_store.h"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/read_file.h"
 #include "app/rerun_record.h"
 

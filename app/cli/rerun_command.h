@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 
 namespace gumcert::cli {
 

@@ -11,10 +11,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/cli/clock.h"
 #include "app/cli/machine.h"
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/output_files.h"
 #include "app/self_test/self_test.h"
 #include "app/self_test/self_test_document.h"

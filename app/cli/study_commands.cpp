@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "app/cli/output_places.h"
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/share_folder.h"
 #include "app/output_files.h"
 #include "app/plan_job.h"
 #include "app/simulate_job.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 
 namespace gumcert::cli {
 

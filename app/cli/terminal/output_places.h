@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 #include "app/output_files.h"
 
 namespace gumcert::cli {

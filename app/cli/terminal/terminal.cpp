@@ -1,4 +1,4 @@
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 
 #include <unistd.h>
 
@@ -8,8 +8,8 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/clock.h"
-#include "app/cli/interruption.h"
+#include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/interruption.h"
 #include "app/refusal_log.h"
 #include "archive/store/open_store.h"
 #include "text/visible_text.h"

@@ -1,9 +1,9 @@
-#include "app/cli/output_places.h"
+#include "app/cli/terminal/output_places.h"
 
 #include <exception>
 #include <system_error>
 
-#include "app/cli/interruption.h"
+#include "app/cli/terminal/interruption.h"
 #include "gum/quantity/diagnostic.h"
 #include "system/temporary.h"
 

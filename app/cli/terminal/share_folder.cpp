@@ -1,4 +1,4 @@
-#include "app/cli/share_folder.h"
+#include "app/cli/terminal/share_folder.h"
 
 #include <gumcert_templates.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "app/cli/interruption.h"
+#include "app/cli/terminal/interruption.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -21,7 +21,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/cli/terminal.h"
+#include "app/cli/terminal/terminal.h"
 #include "app/limits.h"
 #include "system/ceilings.h"
 #include "system/cleanup.h"
