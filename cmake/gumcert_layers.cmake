@@ -16,7 +16,7 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
                           reports/audit reports/studies reports/dcc audit/sources signing imports archive/store archive
-                          app app/archive app/self_test app/cli/terminal app/cli)
+                          app app/archive app/self_test app/cli/terminal app/cli/archive app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
 set(GUMCERT_EDGES_text)
@@ -119,10 +119,13 @@ set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity j
                                                      reports reports/view reports/forms app)
 set(GUMCERT_EDGES_app_cli_terminal                   text encoding system gum/quantity reports/record reports/forms
                                                      archive/store app)
-set(GUMCERT_EDGES_app_cli                            text encoding system gum/quantity certificate/gates audit/rules
+set(GUMCERT_EDGES_app_cli_archive                    text encoding system gum/quantity signing archive/store archive
+                                                     app app/archive app/cli/terminal)
+set(GUMCERT_EDGES_app_cli                            text encoding gum/quantity certificate/gates audit/rules
                                                      jobs/laboratory reports/record reports/record/make reports
                                                      reports/view reports/forms reports/audit signing imports
-                                                     archive/store archive app app/archive app/self_test app/cli/terminal)
+                                                     archive/store archive app app/self_test app/cli/terminal
+                                                     app/cli/archive)
 
 # Headers from outside that a layer may include: a first folder (Eigen) or one file (cholmod.h). The standard library is
 # free for all; what a layer may not do with it is in tests/lint/check_includes.py. Headers of POSIX count as foreign.
@@ -188,11 +191,12 @@ set(GUMCERT_THIRD_PARTY_app_archive                        nlohmann)
 set(GUMCERT_THIRD_PARTY_app_self_test                      nlohmann)
 set(GUMCERT_THIRD_PARTY_app_cli_terminal                   fcntl.h fmt gumcert_build_info.h gumcert_templates.h
                                                            nlohmann sys/resource.h unistd.h)
+set(GUMCERT_THIRD_PARTY_app_cli_archive                    fmt gumcert_build_info.h nlohmann)
 set(GUMCERT_THIRD_PARTY_app_cli                            CLI fmt gnu gumcert_build_info.h gumcert_made_with.h
                                                            gumcert_templates.h link.h nlohmann sys/utsname.h)
 
 # Layers that may open files; the others are handed what they need and hand back what they made.
-set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/archive app/self_test app/cli/terminal app/cli)
+set(GUMCERT_MAY_TOUCH_FILES encoding system jobs jobs/budget jobs/circle_closure jobs/rotary_table jobs/comparison reports/forms signing archive/store app app/archive app/self_test app/cli/terminal app/cli/archive app/cli)
 
 # Never in a header of any layer: what they bring must stay behind the layer's own types.
 set(GUMCERT_NOT_IN_HEADERS boost ceres libpq-fe.h sqlite3.h)

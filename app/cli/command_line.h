@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/archive_command.h"
+#include "app/cli/archive/archive_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/issue_commands.h"
 #include "app/cli/terminal/terminal.h"

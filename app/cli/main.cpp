@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/cli/archive_command.h"
+#include "app/cli/archive/archive_command.h"
 #include "app/cli/audit_command.h"
 #include "app/cli/certificate_commands.h"
 #include "app/cli/command_line.h"

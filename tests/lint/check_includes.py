@@ -21,7 +21,7 @@ import pathlib
 import re
 import sys
 
-PROGRAM_LAYERS = ("app/cli", "app/cli/terminal")
+PROGRAM_LAYERS = ("app/cli", "app/cli/archive", "app/cli/terminal")
 
 LAW = "cmake/gumcert_layers.cmake"
 DOCUMENT = "docs/architecture.md"

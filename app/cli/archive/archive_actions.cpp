@@ -1,5 +1,5 @@
 // The names of the actions, apart from what they do: help, manual and completion need no archive.
-#include "app/cli/archive_command.h"
+#include "app/cli/archive/archive_command.h"
 
 namespace gumcert::cli {
 

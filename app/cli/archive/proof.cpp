@@ -1,0 +1,262 @@
+#include "app/cli/archive/proof.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/archive/archive_files.h"
+#include "app/cli/archive/action.h"
+#include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/output_places.h"
+#include "app/cli/terminal/terminal.h"
+#include "app/output_files.h"
+#include "app/read_file.h"
+#include "archive/archive.h"
+#include "archive/evidence.h"
+#include "archive/verification.h"
+#include "encoding/sha2.h"
+#include "signing/ed25519.h"
+#include "text/visible_text.h"
+
+namespace gumcert::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// The files that an action with an output reads: no output takes the place of one.
+std::vector<fs::path> inputs_of(const ArchiveOptions& options) {
+    return {options.store, options.sign, options.since};
+}
+
+/// Output of a reading action: a file, or the terminal.
+class Output {
+public:
+    /// Before anything of the archive is read.
+    Output(std::string place, const ArchiveOptions& options, const CommonOptions& common)
+        : place_(place == "-" ? "" : std::move(place)), inputs_(inputs_of(options)), quiet_(common.quiet) {
+        if (!place_.empty()) {
+            app::require_writable(place_);
+            app::require_not_an_input(place_, inputs_);
+            at_start_ = begin_outputs({place_}, common);
+        }
+    }
+    void write(const std::string& text) const {
+        if (place_.empty()) {
+            write_to_stdout(text);
+            return;
+        }
+        write_outputs({{place_, text}}, inputs_, at_start_);
+        if (!quiet_) {
+            fmt::print("Written: {}\n", text::one_line(place_));
+        }
+    }
+
+private:
+    std::string place_;
+    std::vector<fs::path> inputs_;
+    bool quiet_;
+    app::OutputsAtStart at_start_;
+};
+
+archive::Head::Signature signature_of(const std::string& bytes, const std::string& key) {
+    signing::Ed25519Signature signature = signing::sign_ed25519(bytes, key);
+    return {std::move(signature.public_key), std::move(signature.value)};
+}
+
+void sign(archive::Head& head, const std::string& key) {
+    if (!key.empty()) {
+        if (head.at > latest_time()) {
+            throw gum::StorageError(gum::Diagnostic{
+                .code = "GC-ARCHIVE-0066",
+                .where = "the clock of this machine",
+                .what = "says " + time_now() + ", and the last entry is of " + head.at,
+                .rule = "what is signed speaks of a time that has come",
+                .action =
+                    "look at a calendar: set the clock right, or wait; without --sign the head is written as it is"});
+        }
+        head.signature = signature_of(archive::signed_bytes(head), key);
+    }
+}
+
+/// The earlier head of --since: a file of a head, or of evidence, which has one.
+std::optional<archive::Head> head_since_of(const ArchiveOptions& options) {
+    if (options.since.empty()) {
+        return std::nullopt;
+    }
+    const std::string text = app::read_file(options.since);
+    return app::archive_file_of(text) == app::ArchiveFile::evidence
+               ? archive::evidence_from_json(text, options.since).head
+               : archive::head_from_json(text, options.since);
+}
+
+/// Several numbers, "N/1" and "N_1", have one name of a file. Whoever has not named the file does not know that it stands for
+/// another certificate.
+void require_own_evidence(const fs::path& file, const std::string& number) {
+    std::error_code error;
+    const std::string other =
+        fs::exists(file, error) ? app::certificate_of_evidence(app::read_file(file)) : std::string();
+    if (!other.empty() && other != number) {
+        refuse_usage(file.string(), "is evidence of " + text::one_line(other) + ", not of " + text::one_line(number),
+                     "evidence of two certificates stands in two files", "name another file with -o");
+    }
+}
+
+/// Evidence and heads, each by itself; behind the first evidence also documents that should be of one of them.
+ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
+    std::vector<app::DocumentInHand> documents;
+    std::vector<std::string> evidence;
+    bool has_evidence = false;
+    ExitCode code = done;
+    for (const std::string& file : options.named) {
+        code = std::max(code, explained(common, [&] {
+                            const std::string text = app::read_file(file);
+                            const app::ArchiveFile kind = app::archive_file_of(text);
+                            if (kind == app::ArchiveFile::other && has_evidence) {
+                                documents.push_back({file, encoding::sha256(text)});
+                            } else {
+                                evidence.push_back(file);
+                                has_evidence = has_evidence || kind == app::ArchiveFile::evidence;
+                            }
+                            return done;
+                        }));
+    }
+    for (const std::string& file : evidence) {
+        code = std::max(code, explained(common, [&] {
+                            const std::string text = app::read_file(file);
+                            const app::VerifiedFile said = app::archive_file_of(text) == app::ArchiveFile::head
+                                                               ? app::verified_head(text, file, heads)
+                                                               : app::verified_evidence(text, file, heads, documents);
+                            print_findings(said.findings, common);
+                            if (as_json(options)) {
+                                print_json(said.json);
+                            } else if (!common.quiet) {
+                                write_to_stdout(said.text);
+                            }
+                            return said.sound() ? done : negative_answer;
+                        }));
+    }
+    const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
+    print_findings(of_others, common);
+    if (!documents.empty() && of_others.empty()) {
+        const std::vector<gum::Diagnostic> notes{
+            {.code = "GC-ARCHIVE-0071",
+             .where = documents.front().file,
+             .what = "compared with the evidence: its bytes, by their SHA-256; not compared here: what its pages say "
+                     "with what "
+                     "the record says",
+             .rule = "documents are held against their record when they are added",
+             .action = "read the document beside the record, where the laboratory is not to be relied on",
+             .severity = gum::Severity::note}};
+        print_messages(notes, common);
+    }
+    return of_others.empty() ? code : std::max(code, negative_answer);
+}
+
+}  // namespace
+
+ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
+    const std::string output =
+        options.output.empty() ? app::file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
+    const auto store = opened(options, archive::Access::read_only);
+    const Output file(output, options, common);
+    if (options.output.empty()) {
+        require_own_evidence(output, options.named.front());
+    }
+    archive::Evidence evidence = archive::evidence_of(*store, options.named.front(), head_since_of(options));
+    if (std::ranges::none_of(evidence.entries, [&](const archive::Evidence::ProvenEntry& one) {
+            return one.entry.kind == "drafted" && one.entry.certificate == options.named.front();
+        })) {
+        refuse_usage(options.named.front(), "has no record: its number was taken and nothing was added",
+                     "evidence shows a record and what became of it", "add the certificate first: gumcert archive add");
+    }
+    sign(evidence.head, options.sign);
+    if (!options.sign.empty()) {
+        evidence.states = archive::states_in(evidence, std::max(time_now(), evidence.head.at));
+        evidence.states->signature =
+            signature_of(archive::signed_bytes(*evidence.states, evidence.head, evidence.certificate), options.sign);
+    }
+    file.write(archive::to_json(evidence));
+    return done;
+}
+
+ExitCode write_head(const ArchiveOptions& options, const CommonOptions& common) {
+    const auto store = opened(options, archive::Access::read_only);
+    const Output file(options.output, options, common);
+    archive::Archive archive(*store);
+    const std::optional<archive::Head> since = head_since_of(options);
+    archive::Head head = since ? archive.head_since(*since) : archive.head();
+    sign(head, options.sign);
+    file.write(archive::to_json(head));
+    return done;
+}
+
+ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& common) {
+    if (!options.named.empty()) {
+        return verify_files(options, common);
+    }
+    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
+    const auto store = opened(options, archive::Access::read_only);
+    ProgressLine progress(!common.quiet);
+    archive::Verification verification =
+        archive::verify_store(*store, heads.all(), [&](const std::string& text) { progress(text); });
+    progress.clear();
+    verification.findings.insert(verification.findings.end(), heads.findings().begin(), heads.findings().end());
+    print_findings(verification.findings, common);
+    const bool trust_is_idle = heads.has_key() && heads.all().empty();
+    std::vector<std::string> to_come = heads.times_to_come();
+    if (verification.head) {
+        if (std::string line = app::time_to_come("the last entry", verification.head->at, heads.latest());
+            !line.empty()) {
+            to_come.insert(to_come.begin(), std::move(line));
+        }
+    }
+    if (as_json(options)) {
+        json head;
+        if (verification.head) {
+            head = json::parse(archive::to_json(*verification.head));
+        }
+        print_json({{"schema", "gumcert/archive-verification/1"},
+                    {"sound", verification.sound()},
+                    {"entries", verification.entries},
+                    {"contents", verification.contents},
+                    {"certificates", verification.certificates},
+                    {"heads", heads.all().size()},
+                    {"trusted", heads.has_key() && !heads.all().empty() && heads.findings().empty()},
+                    {"head", head},
+                    {"times_to_come", to_come},
+                    {"findings", shown_findings(verification.findings)}});
+    } else if (!common.quiet) {
+        std::string said =
+            fmt::format("{}: {}; {} entries, {} contents, {} certificates, {} earlier heads\n",
+                        text::one_line(store->name()), verification.sound() ? "sound" : "NOT SOUND",
+                        verification.entries, verification.contents, verification.certificates, heads.all().size());
+        if (verification.head) {
+            said += fmt::format("  head {} of {}\n", encoding::hexadecimal(verification.head->root),
+                                text::one_line(verification.head->at));
+        }
+        if (heads.all().empty()) {
+            said += "  Without --head nobody can see whether the end of the log was cut off, or all of it rewritten.\n";
+        }
+        for (const std::string& line : to_come) {
+            said += "  " + line + "\n";
+        }
+        if (trust_is_idle) {
+            said += "  --trust says nothing here: an archive is not signed, heads are, and none is given.\n";
+        }
+        write_to_stdout(said);
+    }
+    return verification.sound() ? done : negative_answer;
+}
+
+}  // namespace gumcert::cli
