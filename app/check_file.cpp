@@ -1,6 +1,5 @@
 #include "app/check_file.h"
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -11,7 +10,6 @@
 #include "jobs/file_source.h"
 #include "jobs/job_kind.h"
 #include "jobs/laboratory/register_reader.h"
-#include "json/strict_parser.h"
 #include "text/file_guess.h"
 
 namespace gumcert::app {
@@ -63,15 +61,9 @@ FileCheck check_register_file(const std::string& text, const std::string& name, 
     return check;
 }
 
-}  // namespace
-
-namespace {
-
 FileCheck check_text(const std::string& text, const fs::path& file, unsigned threads, const fs::path& templates,
                      const gum::Progress& progress, const fs::path& laboratory) {
-    const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '/');
-    if (!is_json) {
+    if (!text::begins_as_json_object(text)) {
         const std::optional<text::FileGuess> guess = text::guess_file(text);
         throw gum::InputError(gum::Diagnostic{.code = "GC-CHECK-0001",
                                               .where = file.string(),
@@ -82,27 +74,13 @@ FileCheck check_text(const std::string& text, const fs::path& file, unsigned thr
                                                               : "for a digital certificate use gumcert check dcc, for "
                                                                 "the signature of a PDF gumcert verify"});
     }
-    const bool is_record =
-        text.find("\"gumcert/record/") != std::string::npos && text.find("\"gumcert/job/1\"") == std::string::npos;
-    // What is wrong with the text, the reader of the record or the job says.
-    const std::optional<nlohmann::json> document = json::parse(text,
-                                                               {.string_bytes = text.size(),
-                                                                .values = text.size(),
-                                                                .comments = true,
-                                                                .byte_order_mark = true,
-                                                                .long_integers = true},
-                                                               [](const gumcert::json::ParsingProblem&) {});
-    const bool says_record = document && document->is_object() && document->contains("schema") &&
-                             (*document)["schema"].is_string() &&
-                             (*document)["schema"].get<std::string>().starts_with("gumcert/record/");
-    if (says_record || (!document && is_record)) {
+    // What is wrong with the text, the reader of what it begins as says.
+    const std::string schema = text::outermost_string(text, "schema").value_or("");
+    if (schema.starts_with("gumcert/record/")) {
         return check_record(text, file.string(), threads, templates, progress);
     }
-    if (document && document->is_object() && document->contains("schema")) {
-        const nlohmann::json& schema = (*document)["schema"];
-        if (schema == jobs::k_standard_schema_word || schema == jobs::k_laboratory_schema_word) {
-            return check_register_file(text, file.string(), schema == jobs::k_standard_schema_word);
-        }
+    if (schema == jobs::k_standard_schema_word || schema == jobs::k_laboratory_schema_word) {
+        return check_register_file(text, file.string(), schema == jobs::k_standard_schema_word);
     }
     const jobs::DiskFileSource disk = jobs::DiskFileSource::of_job(file, laboratory);
     const jobs::ReadOnceSource files(disk);

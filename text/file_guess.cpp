@@ -10,6 +10,15 @@ namespace gumcert::text {
 
 namespace {
 
+/// The end of a comment that begins here, as jobs may have them; `at` itself where none does.
+std::size_t end_of_comment(std::string_view json, std::size_t at) {
+    const std::string_view rest = json.substr(at);
+    const std::size_t end = rest.starts_with("//")   ? json.find('\n', at)
+                            : rest.starts_with("/*") ? json.find("*/", at + 2)
+                                                     : at;
+    return std::min(end, json.size());
+}
+
 /// Keys of the outermost object, each with its value where that is a string without escapes.
 std::vector<std::pair<std::string, std::string>> outermost_keys(std::string_view json) {
     std::vector<std::pair<std::string, std::string>> keys;
@@ -40,14 +49,11 @@ std::vector<std::pair<std::string, std::string>> outermost_keys(std::string_view
             }
         } else if (depth == 1 && (c == ':' || c == ',')) {
             is_value = c == ':';
+        } else if (c == '/') {
+            i = end_of_comment(json, i);
         }
     }
     return keys;
-}
-
-bool is_json_object(std::string_view bytes) {
-    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    return first != std::string_view::npos && (bytes[first] == '{' || bytes[first] == '/');
 }
 
 struct KnownSchema {
@@ -70,8 +76,13 @@ constexpr std::array k_schemas{
 
 }  // namespace
 
+bool begins_as_json_object(std::string_view bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return first != std::string_view::npos && (bytes[first] == '{' || bytes[first] == '/');
+}
+
 std::optional<std::string> outermost_string(std::string_view json, std::string_view key) {
-    if (!is_json_object(json)) {
+    if (!begins_as_json_object(json)) {
         return std::nullopt;
     }
     for (const auto& [name, value] : outermost_keys(json)) {
@@ -98,7 +109,7 @@ std::optional<FileGuess> guess_file(std::string_view bytes) {
         return FileGuess{FileGuess::Form::xml, "XML",
                          "use gumcert check dcc, import dcc, verify or audit for a digital certificate"};
     }
-    if (!is_json_object(bytes)) {
+    if (!begins_as_json_object(bytes)) {
         return std::nullopt;
     }
     const auto keys = outermost_keys(bytes);

@@ -19,6 +19,9 @@ struct FileGuess {
 /// nothing: a text that is broken further on is still what it begins as.
 [[nodiscard]] std::optional<FileGuess> guess_file(std::string_view bytes);
 
+/// Behind blanks and a byte-order mark there is a brace, or a comment.
+[[nodiscard]] bool begins_as_json_object(std::string_view bytes);
+
 /// The value of a key of the outermost object of a JSON text, where it is a string; nothing of other texts.
 [[nodiscard]] std::optional<std::string> outermost_string(std::string_view json, std::string_view key);
 

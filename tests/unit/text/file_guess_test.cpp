@@ -49,5 +49,17 @@ TEST(OutermostString, FindsOnlyWhatStandsOutermost) {
     EXPECT_FALSE(outermost_string("k", "k").has_value());
 }
 
+/// Jobs may have comments, and what stands in them is no key and ends no text.
+TEST(OutermostString, PassesOverComments) {
+    for (const char* const comment : {"// it's \"k\": \"x\"\n", "/* a \" } */", "/**/", "// {\n"}) {
+        const std::string text = "{" + std::string(comment) + R"("a": "//", )" + comment + R"("k": "y"})";
+        EXPECT_EQ(outermost_string(text, "k").value_or(""), "y") << text;
+        EXPECT_EQ(outermost_string(comment + text, "k").value_or(""), "y") << text;
+    }
+    for (const char* const cut : {"{/", "{//", "{/*", "{/* \"k\": \"x\"}", "{/*/"}) {
+        EXPECT_FALSE(outermost_string(cut, "k").has_value()) << cut;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::text
