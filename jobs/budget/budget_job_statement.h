@@ -75,14 +75,14 @@ template <class Archive>
 void describe(Archive& a, TableStatement&) {
     a.by_hand("title", R"({"$ref": "#/definitions/description"})", "a text, or one in each language",
               "Of the table; Results when left out.");
-    a.by_hand(
-        "columns", R"({"type": "array", "minItems": 1, "maxItems": 40, "items": {"anyOf": [
+    a.by_hand("columns", R"({"type": "array", "minItems": 1, "maxItems": 40, "items": {"anyOf": [
         {"$ref": "#/definitions/name"},
         {"type": "object", "required": ["column"], "additionalProperties": false, "properties": {
             "column": {"$ref": "#/definitions/name"}, "heading": {"$ref": "#/definitions/description"}}}]}})",
-        "1 to 40 names, or objects of a `column` and its `heading`",
-        "Columns of points, inputs, results, roles, and point, U, k, nu_eff, limit, limit_low, limit_high, verdict "
-        "of the result before them; when left out: what has a role, and what belongs to the results.");
+              "1 to 40 names, or objects of a `column` and its `heading`",
+              "Columns of points, inputs, s(INPUT) for the standard deviation of its readings, results, roles, and "
+              "point, U, k, nu_eff, limit, limit_low, limit_high, verdict "
+              "of the result before them; when left out: what has a role, and what belongs to the results.");
     a.by_code("group_by", Line{}, "A column with words: a group of rows with a heading for each; range when left out.");
     a.by_code("where", ByName{Line{}}, "Rows of the table: those that have these words in these columns.");
     a.by_hand("units", R"({"type": "object", "additionalProperties": {"anyOf": [{"$ref": "#/definitions/name"},

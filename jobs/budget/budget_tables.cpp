@@ -15,6 +15,7 @@
 #include "certificate/point_limits.h"
 #include "certificate/result_names.h"
 #include "gum/rounding.h"
+#include "gum/type_a.h"
 #include "jobs/budget/budget_fit_statement.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_results.h"
@@ -185,8 +186,8 @@ private:
         const auto nearest = nearest_word(name, known);
         problems_.refuse(
             k_table_column, where, text::in_quotes(name) + " is nothing that the points of this job have",
-            "a table shows columns of points, inputs, results, what has a role (\"reference\", \"error\" …), "
-            "and point, U, k, nu_eff, limit, limit_low, limit_high, verdict",
+            "a table shows columns of points, inputs, s(INPUT) where it has readings, results, what has a role "
+            "(\"reference\", \"error\" …), and point, U, k, nu_eff, limit, limit_low, limit_high, verdict",
             nearest ? "did you mean " + text::in_quotes(*nearest) + "?"
                     : "correct the name, or declare it in the columns of points");
     }
@@ -215,7 +216,34 @@ private:
                                .role = part == job_.input_parts.end() ? "" : part->second.role,
                                .stage = part == job_.input_parts.end() ? "" : part->second.stage};
         }
+        if (const std::optional<std::size_t> i = input_of_scatter(name); i && has_readings(*i)) {
+            return ShownColumn{
+                .show = "column", .of = name, .heading = {}, .role = "", .stage = shown(job_.inputs[*i].name)->stage};
+        }
         return std::nullopt;
+    }
+
+    /// The input of which "s(V_x)" is the experimental standard deviation of the readings.
+    [[nodiscard]] std::optional<std::size_t> input_of_scatter(std::string_view name) const {
+        return name.starts_with("s(") && name.ends_with(")") ? input(name.substr(2, name.size() - 3)) : std::nullopt;
+    }
+    /// Its readings at a point; none where it is stated otherwise, or has one reading.
+    [[nodiscard]] std::vector<double> readings_at(std::size_t i, std::size_t p) const {
+        if (!job_.sections.empty() && !inputs_.is_used(job_.inputs[i].name, section_of(p))) {
+            return {};
+        }
+        const std::vector<gum::StatedQuantity>& components = gum::input_at(job_, i, p).components;
+        return components.size() == 1 && components.front().observations.size() > 1 ? components.front().observations
+                                                                                    : std::vector<double>();
+    }
+    [[nodiscard]] bool has_readings(std::size_t i) const {
+        const auto [first, end] = points_of(section_);
+        for (std::size_t p = first; p < end; ++p) {
+            if (!readings_at(i, p).empty()) {
+                return true;
+            }
+        }
+        return false;
     }
 
     // ---- what the job says ------------------------------------------------------------------------------------------
@@ -664,6 +692,35 @@ private:
             }
             job_.point_columns.push_back(std::move(added));
         }
+        for (const std::string& name : wanted) {
+            if (const std::optional<std::size_t> i = input_of_scatter(name); i && column(name) == nullptr) {
+                add_scatter(name, *i);
+            }
+        }
+    }
+
+    /// s of the readings of each point (JCGM 100:2008, 4.2.2, eq. 4), with two significant digits.
+    void add_scatter(const std::string& name, std::size_t i) {
+        const gum::BudgetInput& stated = job_.inputs[i];
+        PointColumn added;
+        added.name = name;
+        if (const auto part = job_.input_parts.find(stated.name); part != job_.input_parts.end()) {
+            added.stage = part->second.stage;
+        }
+        added.unit = gum::unit_of_difference(stated.unit.text());
+        added.printed_unit = gum::unit_for_people(added.unit);
+        for (std::size_t p = 0; p < job_.points.size(); ++p) {
+            const std::vector<double> readings = readings_at(i, p);
+            if (readings.empty()) {
+                added.values.emplace_back();
+                added.printed.emplace_back();
+                continue;
+            }
+            const double s = stated.unit.difference_from_si(gum::evaluate_type_a(readings).standard_deviation);
+            added.values.emplace_back(s);
+            added.printed.push_back(s > 0.0 ? gum::round_to_uncertainty(s, s).value : "0");
+        }
+        job_.point_columns.push_back(std::move(added));
     }
 
     [[nodiscard]] certificate::PointTable table_of_points() const {

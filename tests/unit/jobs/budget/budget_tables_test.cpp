@@ -195,6 +195,26 @@ TEST(BudgetTables, ShowTheColumnsThatTheJobChooses) {
     EXPECT_EQ(job.point_units[1].at("E").text(), "V");
 }
 
+/// s of readings is what a balance or a pipette is calibrated for as well.
+TEST(BudgetTables, ShowTheScatterOfReadings) {
+    const BudgetJob job = read_budget(
+        meter(k_columns, R"j(, "tables": [{"columns": ["reference", "indication", "s(V_x)", "E", "U"]}])j"), k_points);
+    ASSERT_EQ(job.tables.size(), 1U);
+    EXPECT_THAT(shown(job.tables.front()), ElementsAre("column:V_s", "column:V_x", "column:s(V_x)", "value:E", "U:E"));
+    const certificate::PointColumn& s = job.point_columns.back();
+    EXPECT_EQ(s.name, "s(V_x)");
+    EXPECT_EQ(s.unit, "V");
+    EXPECT_THAT(s.printed, ElementsAre("0.00014", "0.000071"));  // 0.2 mV/√2 and 0.1 mV/√2
+    EXPECT_NEAR(s.values[0].value_or(0.0), 2e-4 / std::sqrt(2.0), 1e-18);
+}
+
+TEST(BudgetTables, ShowNoScatterOfWhatHasNoReadings) {
+    for (const char* const name : {"s(dV)", "s(V_s)", "s(V_y)", "s()", "s(", "s(V_x", "s(E)"}) {
+        expect_refusal(meter(k_columns, std::string(R"j(, "tables": [{"columns": ["E", "U", ")j") + name + R"j("]}])j"),
+                       k_table_column, "is nothing that the points of this job have");
+    }
+}
+
 TEST(BudgetTables, PutResultsBeforeAndAfterAnAdjustmentSideBySide) {
     const BudgetJob job = read_budget(
         R"j("model": ["a = x - r", "b = y - r"],
