@@ -55,6 +55,14 @@ constexpr std::array k_gate_findings{
     GateFinding{"T07", "T07"},
     GateFinding{"T08", "T05"},
     GateFinding{"T09", "T07"},
+    // the register of the laboratory
+    GateFinding{"T10", "T05"},
+    GateFinding{"T11", "T06"},
+    GateFinding{"T12", "T11"},
+    GateFinding{"T13", "T05"},
+    GateFinding{"T14", "T01"},
+    GateFinding{"L01", "R07"},
+    GateFinding{"P14", "P03"},
     // conformity
     GateFinding{"D01", "D01"},
     GateFinding{"D02", "D02"},

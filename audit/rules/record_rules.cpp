@@ -58,9 +58,8 @@ std::vector<Rule> record_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::critical,
          .needs = {Need::certificate},
-         .detection =
-             "findings P03, P09 and X10 of the gates: authorisations on the days of work, review and authorisation, "
-             "and the list of signatories",
+         .detection = "findings P03, P09, P14 and X10 of the gates: authorisations on the days of work, review and "
+                      "authorisation, the list of signatories and the register of the laboratory",
          .correction = "Let an authorised person do it.",
          .question = "Since when and for what is this person authorised?",
          .examine = take_gate_findings},

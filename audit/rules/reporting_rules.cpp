@@ -315,7 +315,9 @@ std::vector<Rule> reporting_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::certificate},
-         .detection = "findings R07-b to R07-4d, R14, R15, Q01 and Q02 of the gates, with their severity",
+         .detection = "findings R07-b to R07-4d, R14, R15, Q01 and Q02 of the gates, and L01: what the files of the "
+                      "laboratory say "
+                      "otherwise, with their severity",
          .correction = "State the item.",
          .question = "What stands there on the certificate?",
          .examine = take_gate_findings},

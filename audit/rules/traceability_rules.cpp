@@ -167,7 +167,9 @@ std::vector<Rule> traceability_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::critical,
          .needs = {Need::certificate},
-         .detection = "findings T01 and T05 of the gates: the day of the calibration and its validity against the work",
+         .detection = "findings T01, T05 and T14 of the gates: the day of the calibration, its validity and the plan "
+                      "of the register "
+                      "against the work",
          .correction = "Use a standard whose calibration is valid.",
          .question = "Until when was the calibration of the standard valid?",
          .examine = take_gate_findings},
@@ -208,8 +210,8 @@ std::vector<Rule> traceability_rules() {
          .severity = FindingSeverity::critical,
          .needs = {Need::certificate},
          .detection =
-             "findings T06 (no input names the standard) and T08 (a standard rests on this certificate) of the "
-             "gates",
+             "findings T06 (no input names the standard), T08 (a standard rests on this certificate), T10 (the "
+             "register states something else) and T13 (an input uses a standard that the list leaves out) of the gates",
          .correction = "Name the standard where its value enters; correct the entry.",
          .question = "How does this result come from the standard?",
          .examine = take_gate_findings},
@@ -218,7 +220,9 @@ std::vector<Rule> traceability_rules() {
          .clause = k_fit_for_use,
          .severity = FindingSeverity::major,
          .needs = {Need::rows},
-         .detection = "a row that speaks of extrapolation, or of values outside of the calibrated range",
+         .detection = "a row that speaks of extrapolation, or of values outside of the calibrated range; finding T11 "
+                      "of the gates: "
+                      "what the register of the laboratory says of day, quantity, range, mode and value",
          .correction = "Have the standard calibrated at the point, or add what the extrapolation contributes.",
          .question = "What is known of the standard at this point?",
          .examine = outside_of_calibrated_range},
@@ -250,7 +254,9 @@ std::vector<Rule> traceability_rules() {
          .policy = SeverityPolicy::fixed,
          .severity = FindingSeverity::major,
          .needs = {Need::certificate},
-         .detection = "two standards of one identification; a row that names two standards of one name alike",
+         .detection = "two standards of one identification; a row that names two standards of one name alike; finding "
+                      "T12 of the "
+                      "gates: a standard that is not in the register of the laboratory",
          .correction = "Name the standard by its identification, and give twins their own values.",
          .question = "Which of the two pieces was used?",
          .examine = ambiguous_standard},
