@@ -224,7 +224,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     report_kept(numbers_file(to), common);
     if (!common.quiet) {
         for (const app::OutputFile& file : written) {
-            fmt::print("Written: {}\n", file.path.string());
+            print_to_stdout("Written: {}\n", file.path.string());
         }
     }
     return code;

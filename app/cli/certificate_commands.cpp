@@ -28,24 +28,25 @@ namespace fs = std::filesystem;
 namespace {
 
 void print_signature(const signing::SignatureReport& signature, const std::string& of) {
-    fmt::print("  {}{}: {}\n", of, signature.format, signature.valid ? "valid" : "NOT VALID");
-    fmt::print("    signer      {}\n", signature.signer.empty() ? "not stated" : signature.signer);
-    fmt::print("    issued by   {}\n", signature.issuer.empty() ? "not stated" : signature.issuer);
-    fmt::print("    time        {}\n",
-               signature.signing_time.empty() ? "not stated" : signature.signing_time + " (as the signer states it)");
-    fmt::print("    algorithm   {}\n", signature.algorithm);
+    print_to_stdout("  {}{}: {}\n", of, signature.format, signature.valid ? "valid" : "NOT VALID");
+    print_to_stdout("    signer      {}\n", signature.signer.empty() ? "not stated" : signature.signer);
+    print_to_stdout("    issued by   {}\n", signature.issuer.empty() ? "not stated" : signature.issuer);
+    print_to_stdout("    time        {}\n", signature.signing_time.empty()
+                                                ? "not stated"
+                                                : signature.signing_time + " (as the signer states it)");
+    print_to_stdout("    algorithm   {}\n", signature.algorithm);
     for (const std::string& part : signature.covers) {
-        fmt::print("    covers      {}\n", part);
+        print_to_stdout("    covers      {}\n", part);
     }
     for (const std::string& part : signature.not_covered) {
-        fmt::print("    not covered {}\n", part);
+        print_to_stdout("    not covered {}\n", part);
     }
 }
 
 void print_identity(const app::DocumentIdentity& identity) {
     const auto row = [](const char* name, const std::string& text) {
         if (!text.empty()) {
-            fmt::print("  {:<12}{}\n", name, text);
+            print_to_stdout("  {:<12}{}\n", name, text);
         }
     };
     const bool days = !identity.performed_to.empty() && identity.performed_to != identity.performed_from;
@@ -68,11 +69,11 @@ void print_verification(const std::string& file, const signing::Verification& ve
         return;
     }
     const bool attachment_alone = verification.signatures.empty() && !verification.attachment_signatures.empty();
-    fmt::print("{}: {}\n", file,
-               verification.valid                ? "valid"
-               : attachment_alone                ? "NOT VALID: the pages are not signed, only what is attached to them"
-               : verification.signatures.empty() ? "not signed"
-                                                 : "NOT VALID");
+    print_to_stdout("{}: {}\n", file,
+                    verification.valid ? "valid"
+                    : attachment_alone ? "NOT VALID: the pages are not signed, only what is attached to them"
+                    : verification.signatures.empty() ? "not signed"
+                                                      : "NOT VALID");
     for (const app::DocumentIdentity& identity : identities) {
         print_identity(identity);
     }
@@ -101,7 +102,7 @@ ExitCode print_check(const std::string& file, const app::FileCheck& check, const
     }
     print_messages(check.findings, common);
     if (!common.quiet) {
-        fmt::print(
+        print_to_stdout(
             "{}: {}, {}\n", file, check.kind,
             errors + warnings == 0 ? "nothing found" : fmt::format("errors: {}, warnings: {}", errors, warnings));
     }
@@ -144,10 +145,10 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
     }
     write_outputs({{output, imported.job}}, inputs, at_start);
     if (!common.quiet) {
-        fmt::print("Written: {}\nNext: {} {}\n", output,
-                   standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
-                                    : "state drift, valid_to and route, gumcert check",
-                   output);
+        print_to_stdout("Written: {}\nNext: {} {}\n", output,
+                        standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
+                                         : "state drift, valid_to and route, gumcert check",
+                        output);
     }
     return imported.negative ? negative_answer : done;
 }

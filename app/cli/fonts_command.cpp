@@ -32,9 +32,9 @@ ExitCode list_fonts(const std::string& share) {
         const bool further = std::any_of(assets.fonts.begin(), assets.fonts.end(), [&](const auto& folder) {
             return std::filesystem::absolute(folder).string() == family.from;
         });
-        fmt::print("{}: {}\n    {}{}\n", family.name, family.styles,
-                   family.from.empty() ? "inside of the program" : family.from,
-                   further ? ", for documents with Chinese, Japanese or Korean characters" : "");
+        print_to_stdout("{}: {}\n    {}{}\n", family.name, family.styles,
+                        family.from.empty() ? "inside of the program" : family.from,
+                        further ? ", for documents with Chinese, Japanese or Korean characters" : "");
     }
     return done;
 }

@@ -139,9 +139,9 @@ void print_warnings(const Issuer& issuer, const CommonOptions& common) {
 }
 
 void print_written(const std::vector<app::OutputFile>& files) {
-    fmt::print("\nWritten:\n");
+    print_to_stdout("\nWritten:\n");
     for (const app::OutputFile& file : files) {
-        fmt::print("  {}\n", file.path.string());
+        print_to_stdout("  {}\n", file.path.string());
     }
 }
 
@@ -213,8 +213,8 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
     for (const audit::AuditFinding& finding : report.findings) {
         ++counts.at(static_cast<std::size_t>(finding.severity));
     }
-    fmt::print("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1], counts[0],
-               where_to_read.string());
+    print_to_stdout("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1],
+                    counts[0], where_to_read.string());
 }
 
 /// Documents of a kind of records as they stand in a folder.
@@ -404,7 +404,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     }
     write_outputs({{file, bytes}}, inputs, at_start);
     if (!common.quiet) {
-        fmt::print("Written: {}\n", file.string());
+        print_to_stdout("Written: {}\n", file.string());
     }
     return done;
 }
@@ -521,7 +521,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         print_summary(evaluation.record);
         print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
-        fmt::print("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
+        print_to_stdout("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
     }
     return code;
 }

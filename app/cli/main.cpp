@@ -172,8 +172,9 @@ int main(int argc, char** argv) {
     if (const char* const log = std::getenv("GUMCERT_REFUSAL_LOG")) {
         arguments.common.refusal_log = log;
     }
-    return explained(arguments.common, [&] {
+    const ExitCode code = explained(arguments.common, [&] {
         clean_up_at_signals(arguments.common.json_messages);
         return dispatch(argc, argv, arguments);
     });
+    return when_all_is_told(code, arguments.common);
 }

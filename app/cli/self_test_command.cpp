@@ -43,8 +43,8 @@ constexpr std::size_t k_longest_line = 300;  // characters of a text of a case
 void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
     const bool passes = outcome.passes();
     if (!common.quiet) {
-        fmt::print("{}  {}  {}  {} of {} values\n", passes ? "pass" : "FAIL", text::visible(outcome.reference.id),
-                   source_of(outcome.reference), outcome.agreed(), outcome.values.size());
+        print_to_stdout("{}  {}  {}  {} of {} values\n", passes ? "pass" : "FAIL", text::visible(outcome.reference.id),
+                        source_of(outcome.reference), outcome.agreed(), outcome.values.size());
         (void)std::fflush(stdout);
     }
     if (passes) {
@@ -71,17 +71,17 @@ void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
 void tell_values(const app::CaseOutcome& outcome) {
     for (const app::ComparedValue& value : outcome.values) {
         const int digits = value.expected.digits();
-        fmt::print("      {}  {}: {}, {} {}{}  ({})\n", value.agrees ? "pass" : "FAIL",
-                   text::visible(value.expected.name()),
-                   value.was_found ? text::visible(app::value_text(value.computed, 15)) : "nothing",
-                   value.expected.is_printed ? "printed" : "expected", text::visible(value.expected.text),
-                   digits > 0 ? fmt::format(", {} of {} digits", value.digits_reached, digits) : "",
-                   text::visible(value.expected.found.front(), k_longest_line));
+        print_to_stdout("      {}  {}: {}, {} {}{}  ({})\n", value.agrees ? "pass" : "FAIL",
+                        text::visible(value.expected.name()),
+                        value.was_found ? text::visible(app::value_text(value.computed, 15)) : "nothing",
+                        value.expected.is_printed ? "printed" : "expected", text::visible(value.expected.text),
+                        digits > 0 ? fmt::format(", {} of {} digits", value.digits_reached, digits) : "",
+                        text::visible(value.expected.found.front(), k_longest_line));
     }
     for (const app::ExpectedValue& expected : outcome.reference.expected) {
         if (!expected.not_compared.empty()) {
-            fmt::print("      not compared  {}: {}\n", text::visible(expected.name()),
-                       text::visible(expected.not_compared, k_longest_line));
+            print_to_stdout("      not compared  {}: {}\n", text::visible(expected.name()),
+                            text::visible(expected.not_compared, k_longest_line));
         }
     }
 }
@@ -207,23 +207,23 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
     progress.clear();
     const bool passes = test.passed() == test.cases.size();
     if (!common.quiet) {
-        fmt::print("\n{} of {} cases pass; {} of {} values agree.\n", test.passed(), test.cases.size(), test.agreed(),
-                   test.compared());
+        print_to_stdout("\n{} of {} cases pass; {} of {} values agree.\n", test.passed(), test.cases.size(),
+                        test.agreed(), test.compared());
         if (!test.system.cases_of_release || !test.system.templates_of_release) {
-            fmt::print("The {} not those of this release; the report says so.\n",
-                       test.system.cases_of_release       ? "templates are"
-                       : test.system.templates_of_release ? "cases are"
-                                                          : "cases and templates are");
+            print_to_stdout("The {} not those of this release; the report says so.\n",
+                            test.system.cases_of_release       ? "templates are"
+                            : test.system.templates_of_release ? "cases are"
+                                                               : "cases and templates are");
         }
-        fmt::print("SHA-256 of the report: {}\n\nWritten:\n", digest);
+        print_to_stdout("SHA-256 of the report: {}\n\nWritten:\n", digest);
         for (const app::OutputFile& file : written) {
-            fmt::print("  {}\n", file.path.string());
+            print_to_stdout("  {}\n", file.path.string());
         }
-        fmt::print("Next: {}\n",
-                   passes ? "keep the report with the validation records of the laboratory, and repeat the test "
-                            "after every change of program or machine"
-                          : "issue no certificate before the report is explained; install the program again "
-                            "and repeat the test");
+        print_to_stdout("Next: {}\n",
+                        passes ? "keep the report with the validation records of the laboratory, and repeat the test "
+                                 "after every change of program or machine"
+                               : "issue no certificate before the report is explained; install the program again "
+                                 "and repeat the test");
     }
     return passes ? done : negative_answer;
 }

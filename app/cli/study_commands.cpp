@@ -110,7 +110,7 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
     write_outputs({{output.file, bytes}}, output.inputs, output.at_start);
     report_kept(numbers_file(output.file), common);
     if (!common.quiet) {
-        fmt::print("Written: {}\n", output.file.string());
+        print_to_stdout("Written: {}\n", output.file.string());
     }
 }
 

@@ -33,14 +33,15 @@ void print_reported(const reports::Result& result) {
     const reports::ReportedResult& reported = result.reported;
     const std::string unit = reported.printed.unit.empty() ? "" : " " + reported.printed.unit;
     if (!reported.printed.U.empty()) {
-        fmt::print("  {} = {} ± {}{}   ({})\n", result.name, reported.printed.value, reported.printed.U, unit,
-                   coverage_text(reported));
+        print_to_stdout("  {} = {} ± {}{}   ({})\n", result.name, reported.printed.value, reported.printed.U, unit,
+                        coverage_text(reported));
     } else if (!reported.printed_low.empty()) {
         const std::string u = reported.printed_u.empty() ? "no u exists" : "u = " + reported.printed_u + unit;
-        fmt::print("  {} = {}{}, {}, interval {} to {}{}   ({})\n", result.name, reported.printed.value, unit, u,
-                   reported.printed_low, reported.printed_high, unit, coverage_text(reported));
+        print_to_stdout("  {} = {}{}, {}, interval {} to {}{}   ({})\n", result.name, reported.printed.value, unit, u,
+                        reported.printed_low, reported.printed_high, unit, coverage_text(reported));
     } else {
-        fmt::print("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, reported.printed.value, unit);
+        print_to_stdout("  {} = {}{}   no expanded uncertainty can be stated\n", result.name, reported.printed.value,
+                        unit);
     }
 }
 
@@ -52,19 +53,19 @@ void print_results(const reports::EvaluationRecord& record) {
         print_reported(result);
         if (result.monte_carlo) {
             const reports::MonteCarloSummary& monte_carlo = *result.monte_carlo;
-            fmt::print("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
-                       monte_carlo.u.number ? monte_carlo.u.text : "does not exist", monte_carlo.symmetric.text[0],
-                       monte_carlo.symmetric.text[1]);
+            print_to_stdout("      Monte Carlo, {} trials: u = {}, interval {} to {}", monte_carlo.trials.text,
+                            monte_carlo.u.number ? monte_carlo.u.text : "does not exist", monte_carlo.symmetric.text[0],
+                            monte_carlo.symmetric.text[1]);
             if (monte_carlo.validation) {
-                fmt::print("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
-                                 : monte_carlo.validation->validated     ? "; law of propagation validated"
-                                                                         : "; law of propagation NOT validated");
+                print_to_stdout("{}", !monte_carlo.validation->precise_enough ? "; too few trials to validate"
+                                      : monte_carlo.validation->validated     ? "; law of propagation validated"
+                                                                              : "; law of propagation NOT validated");
             }
-            fmt::print("\n");
+            print_to_stdout("\n");
         }
     }
     if (record.results.size() > k_most_lines) {
-        fmt::print("  … and {} more, all of them in the record\n", record.results.size() - k_most_lines);
+        print_to_stdout("  … and {} more, all of them in the record\n", record.results.size() - k_most_lines);
     }
 }
 
@@ -117,7 +118,7 @@ const char* score_symbol(const std::string& score) {
 void print_names(const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
     if (!names.empty()) {
-        fmt::print("  {}: {}\n", what, text::listed(names, k_most_names));
+        print_to_stdout("  {}: {}\n", what, text::listed(names, k_most_names));
     }
 }
 
@@ -127,19 +128,19 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
     const std::string name = item.name.empty() ? item.id : item.name;
     const std::string round = item.round.empty() ? "" : "round " + item.round;
     if (!name.empty() || !round.empty()) {
-        fmt::print("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
+        print_to_stdout("\n{}{}{}\n", name, name.empty() || round.empty() ? "" : ", ", round);
     }
-    fmt::print("  assigned value ({}) {}{}\n", method_in_words(item.method),
-               with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
-               item.k.text.empty()
-                   ? ""
-                   : "   (k = " + item.k.text +
-                         (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
-                         ", p = " + coverage + ")");
+    print_to_stdout("  assigned value ({}) {}{}\n", method_in_words(item.method),
+                    with_uncertainty(item.value.text, item.U.text, item.unit, item.difference_unit),
+                    item.k.text.empty()
+                        ? ""
+                        : "   (k = " + item.k.text +
+                              (item.U_rests_on == "scatter" && !item.nu.text.empty() ? ", nu = " + item.nu.text : "") +
+                              ", p = " + coverage + ")");
     if (item.consistency) {
-        fmt::print("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
-                   text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
-                   item.consistency->consistent ? "" : "   NOT consistent");
+        print_to_stdout("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
+                        text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
+                        item.consistency->consistent ? "" : "   NOT consistent");
     }
     print_names("without a result", item.missing);
     print_names("not in the largest consistent subset", item.not_consistent);
@@ -153,16 +154,18 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
             ++left_out;
             continue;
         }
-        fmt::print("  {:<12} {:<26} D {:>10}", point.participant,
-                   with_uncertainty(point.value.text, point.U.text, item.unit, item.difference_unit), point.D.text);
+        print_to_stdout("  {:<12} {:<26} D {:>10}", point.participant,
+                        with_uncertainty(point.value.text, point.U.text, item.unit, item.difference_unit),
+                        point.D.text);
         if (!item.score.empty()) {
-            fmt::print("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
+            print_to_stdout("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
-        fmt::print("{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
-                   reports::agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
+        print_to_stdout(
+            "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
+            reports::agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
     }
     if (left_out > 0) {
-        fmt::print("  … and {} more, all of them in the record\n", left_out);
+        print_to_stdout("  … and {} more, all of them in the record\n", left_out);
     }
 }
 
@@ -172,7 +175,7 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
         print_item(comparison, comparison.items[i], coverage);
     }
     if (comparison.items.size() > k_most_items) {
-        fmt::print("\n… and {} more, all of them in the record\n", comparison.items.size() - k_most_items);
+        print_to_stdout("\n… and {} more, all of them in the record\n", comparison.items.size() - k_most_items);
     }
     std::size_t warnings = 0;
     std::size_t actions = 0;
@@ -184,30 +187,30 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     for (const reports::ComparisonPoint& point : comparison.points) {
         inconclusive += point.signal == "inconclusive" ? 1U : 0U;
     }
-    fmt::print("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(), actions,
-               warnings);
+    print_to_stdout("\n{} results: {} with an action signal, {} with a warning signal\n", comparison.points.size(),
+                    actions, warnings);
     if (inconclusive > 0) {
-        fmt::print(
+        print_to_stdout(
             "{} cannot be judged: the assigned value is too uncertain for them, of unknown uncertainty, or one of "
             "several, or nobody knows what they share\n",
             inconclusive);
     }
     for (const reports::VectorScore& vector : comparison.vectors) {
         if (vector.signal == "action") {
-            fmt::print("{}, {}: the quantities lie outside their joint region (vector En {})\n", vector.participant,
-                       vector.name, vector.vector_En.text);
+            print_to_stdout("{}, {}: the quantities lie outside their joint region (vector En {})\n",
+                            vector.participant, vector.name, vector.vector_En.text);
         }
     }
     const auto inconsistent = std::count_if(
         comparison.items.begin(), comparison.items.end(),
         [](const reports::ComparisonItemEvaluation& i) { return i.consistency && !i.consistency->consistent; });
     if (inconsistent > 0 && comparison.items.size() > k_most_items) {
-        fmt::print("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
+        print_to_stdout("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
     }
     for (const reports::ItemWithoutResult& item : comparison.items_without_result) {
         const std::string name = item.name.empty() ? item.id : item.name;
         const std::string round = item.round.empty() ? "" : (name.empty() ? "round " : ", round ") + item.round;
-        fmt::print("{}{}: no result: {} [{}]\n", name, round, item.what, item.code);
+        print_to_stdout("{}{}: no result: {} [{}]\n", name, round, item.what, item.code);
     }
 }
 
@@ -229,18 +232,18 @@ const char* verdict_text(const std::string& verdict) {
 }
 
 void print_methods(const reports::Comparison& comparison) {
-    fmt::print("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
-               comparison.reference_name);
+    print_to_stdout("\n{}{} with {}:\n", comparison.method_name, comparison.method_name.empty() ? "Comparison" : "",
+                    comparison.reference_name);
     for (const reports::ComparisonSummary& row : comparison.summary) {
-        fmt::print("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.mean_abs_En.text,
-                   row.max_abs_En.text, row.count_above_1, row.points);
+        print_to_stdout("  {:<6}  mean |En| {}   max |En| {}   above 1: {} of {}", row.direction, row.mean_abs_En.text,
+                        row.max_abs_En.text, row.count_above_1, row.points);
         if (!row.p_low.text.empty()) {
-            fmt::print("   p_low {}", row.p_low.text);
+            print_to_stdout("   p_low {}", row.p_low.text);
         }
         if (!row.verdict.empty()) {
-            fmt::print("\n          {}", verdict_text(row.verdict));
+            print_to_stdout("\n          {}", verdict_text(row.verdict));
         }
-        fmt::print("\n");
+        print_to_stdout("\n");
     }
 }
 
@@ -257,28 +260,28 @@ void print_comparison(const reports::EvaluationRecord& record) {
 
 void print_rotary_table(const reports::EvaluationRecord& record) {
     const reports::RotaryTable& rotary = *record.rotary;
-    fmt::print("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
+    print_to_stdout("Set-up of the fixture (value ± U, p = {}):\n", record.coverage_probability.text);
     for (const reports::Result& result : record.results) {
-        fmt::print("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
-                   result.printed.unit, result.description);
+        print_to_stdout("  {:<4} {:>9} ± {} {}   {}\n", result.name, result.printed.value, result.printed.U,
+                        result.printed.unit, result.description);
     }
-    fmt::print("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
-               rotary.datum == "home" ? "home" : "axis average line");
+    print_to_stdout("\nError motions over {} angles, datum {}:\n", rotary.errors.size(),
+                    rotary.datum == "home" ? "home" : "axis average line");
     for (const reports::RangeRow& range : rotary.ranges) {
         const reports::Printed& printed = range.stated.printed;
-        fmt::print("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
+        print_to_stdout("  {}  range {:>7} ± {} {}\n", range.name, printed.value, printed.U, printed.unit);
     }
-    fmt::print("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
-               rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
-               rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
+    print_to_stdout("\nAdjustment: {} observations, {} parameters, chi-square {} on {} degrees of freedom, p = {}\n",
+                    rotary.adjustment.observations, rotary.adjustment.parameters, rotary.adjustment.chi_square.text,
+                    rotary.adjustment.degrees_of_freedom, rotary.adjustment.p_value.text);
     std::size_t removed = 0;
     for (const reports::FlaggedDistance& distance : rotary.flagged) {
         removed += distance.removed ? 1 : 0;
     }
-    fmt::print("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
-               removed);
+    print_to_stdout("Outlying distances: {} found, {} left out (listed in the certificate)\n", rotary.flagged.size(),
+                    removed);
     if (rotary.monte_carlo) {
-        fmt::print("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
+        print_to_stdout("\nMonte Carlo: {}\n", rotary.monte_carlo->statement);
     }
     print_comparison(record);  // with its reference method, where there is one
 }
@@ -295,7 +298,7 @@ constexpr std::array<Summary, 2> k_summaries{
 
 void print_summary(const reports::EvaluationRecord& record) {
     if (!record.title.empty()) {
-        fmt::print("{}\n\n", record.title);
+        print_to_stdout("{}\n\n", record.title);
     }
     const auto own = std::ranges::find(k_summaries, record.kind, &Summary::kind);
     (own != k_summaries.end() ? own->print : print_results)(record);

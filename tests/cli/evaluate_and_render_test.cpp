@@ -108,6 +108,29 @@ TEST_F(Evaluate, FullStandardOutputIsTold) {
     EXPECT_NE(ended.err.find("standard output"), std::string::npos) << ended.err;
 }
 
+/// Whoever does not see what a command says must see that: a number of an archive, an answer, a list.
+TEST_F(Evaluate, NoWordsAreLostInSilence) {
+    if (!fs::exists("/dev/full")) {
+        GTEST_SKIP() << "this system has no /dev/full";
+    }
+    const std::string record = (folder() / "record.json").string();
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--version"},
+             {"--help"},
+             {"limits"},
+             {"explain", "GC-STORE-0003", "--share", GUMCERT_SOURCE_DIR},
+             {"fonts", "--share", GUMCERT_SOURCE_DIR},
+             {"check", job_.string(), "--share", GUMCERT_SOURCE_DIR},
+             {"evaluate", job_.string(), "-o", record, "--share", GUMCERT_SOURCE_DIR},
+             {"archive", "init", "--store", (folder() / "a.archive").string(), "--by", "K. Keeper"}}) {
+        const Ended ended = gumcert(words, {.out = "/dev/full"});
+        EXPECT_EQ(ended.code, 5) << words.front() << ended.err;
+        EXPECT_NE(ended.err.find("GC-STORE-0003"), std::string::npos) << words.front() << ended.err;
+    }
+    EXPECT_TRUE(fs::exists(record)) << "what was written stays, and is whole";
+    EXPECT_TRUE(fs::exists((folder() / "a.archive").string()));
+}
+
 class Render : public ProgramTest {
 protected:
     static void SetUpTestSuite() {

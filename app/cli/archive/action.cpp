@@ -46,8 +46,9 @@ ExitCode told(const archive::Written& written, const ArchiveOptions& options, co
                     {"hash", encoding::hexadecimal(entry.hash)},
                     {"repeated", written.repeated}});
     } else if (!common.quiet) {
-        fmt::print("{}{}{}: entry {}, {}{}\n", text::one_line(entry.certificate), entry.certificate.empty() ? "" : " ",
-                   entry.kind, entry.seq, entry.at, written.repeated ? " (asked for before, with the same key)" : "");
+        print_to_stdout("{}{}{}: entry {}, {}{}\n", text::one_line(entry.certificate),
+                        entry.certificate.empty() ? "" : " ", entry.kind, entry.seq, entry.at,
+                        written.repeated ? " (asked for before, with the same key)" : "");
     }
     return done;
 }

@@ -199,13 +199,13 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                     {"certificates", list}});
     } else if (!common.quiet) {
         for (const json& one : list) {
-            fmt::print("{:<24}  {}  made by gumcert {}\n", text::one_line(one["number"].get<std::string>()),
-                       one["same"].get<bool>()        ? "same     "
-                       : one["evaluated"].get<bool>() ? "DIFFERENT"
-                                                      : "NOT DONE ",
-                       text::one_line(one["made_by"].get<std::string>()));
+            print_to_stdout("{:<24}  {}  made by gumcert {}\n", text::one_line(one["number"].get<std::string>()),
+                            one["same"].get<bool>()        ? "same     "
+                            : one["evaluated"].get<bool>() ? "DIFFERENT"
+                                                           : "NOT DONE ",
+                            text::one_line(one["made_by"].get<std::string>()));
         }
-        fmt::print("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
+        print_to_stdout("{} of {} records give the same with gumcert {}\n", same, records.size(), program_name());
     }
     return same == records.size() ? done : negative_answer;
 }
@@ -272,7 +272,7 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     }
     progress.clear();
     if (!common.quiet) {
-        fmt::print("{} tasks done\n", done_tasks);
+        print_to_stdout("{} tasks done\n", done_tasks);
     }
     return done;
 }

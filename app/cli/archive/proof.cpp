@@ -57,7 +57,7 @@ public:
         }
         write_outputs({{place_, text}}, inputs_, at_start_);
         if (!quiet_) {
-            fmt::print("Written: {}\n", text::one_line(place_));
+            print_to_stdout("Written: {}\n", text::one_line(place_));
         }
     }
 

@@ -119,7 +119,7 @@ ExitCode init_archive(const ArchiveOptions& options, const CommonOptions& common
         return archive::Written{first, false};
     });
     if (!common.quiet && !as_json(options)) {
-        fmt::print("Begun: {}\n", text::one_line(name));
+        print_to_stdout("Begun: {}\n", text::one_line(name));
     }
     return told(written, options, common);
 }
@@ -212,9 +212,10 @@ ExitCode migrate(const ArchiveOptions& options, const CommonOptions& common) {
                     {"contents", verification.contents},
                     {"head", json::parse(archive::to_json(*verification.head))}});
     } else if (!common.quiet) {
-        fmt::print("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
-                   text::one_line(name), verification.entries, verification.contents, verification.certificates,
-                   text::one_line(from->name()), encoding::hexadecimal(verification.head->root), verification.head->at);
+        print_to_stdout("{}: sound; {} entries, {} contents, {} certificates, as in {}\n  head {} of {}\n",
+                        text::one_line(name), verification.entries, verification.contents, verification.certificates,
+                        text::one_line(from->name()), encoding::hexadecimal(verification.head->root),
+                        verification.head->at);
     }
     return done;
 }

@@ -208,12 +208,34 @@ void refuse_usage(const std::string& where, const std::string& what, const std::
     throw gum::UsageError(usage_problem(where, what, rule, action));
 }
 
+namespace {
+
+gum::Diagnostic lost_output(const char* action) {
+    return {.code = "GC-STORE-0003",
+            .where = "standard output",
+            .what = "cannot be written",
+            .rule = "all of the output must arrive",
+            .action = action};
+}
+
+}  // namespace
+
 void write_to_stdout(const std::string& bytes) {
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0) {
-        throw gum::StorageError(gum::Diagnostic{"GC-STORE-0003", "standard output", "cannot be written",
-                                                "all of the output must arrive", "write to a file with -o FILE",
-                                                gum::Severity::error});
+        throw gum::StorageError(lost_output("write to a file with -o FILE"));
     }
+}
+
+ExitCode when_all_is_told(ExitCode code, const CommonOptions& common) {
+    const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (arrived || code >= storage_trouble) {
+        return code;
+    }
+    const gum::Diagnostic why =
+        lost_output("see where the output goes; files and entries of an archive that were written are whole");
+    print_message(why, common);
+    log_refusal(why, common);
+    return storage_trouble;
 }
 
 }  // namespace gumcert::cli

@@ -43,6 +43,13 @@ void print_to_stderr(fmt::format_string<Arguments...> format, Arguments&&... arg
     (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// Words for people. Whether all of them arrived, when_all_is_told() finds out at the end.
+template <class... Arguments>
+void print_to_stdout(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    const std::string text = fmt::format(format, std::forward<Arguments>(arguments)...);
+    (void)std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
 /// One line on stderr: "where — what — rule — action [code]", or JSON.
 void print_message(const gum::Diagnostic& diagnostic, const CommonOptions& common);
 
@@ -69,6 +76,10 @@ void report_findings(const reports::EvaluationRecord& record, const CommonOption
 
 /// \throws gum::StorageError  if not all of it arrives
 void write_to_stdout(const std::string& bytes);
+
+/// What the program ends with: where a part of the standard output did not arrive, nobody knows what was said (GC-STORE-0003).
+/// \param code  of the command
+[[nodiscard]] ExitCode when_all_is_told(ExitCode code, const CommonOptions& common);
 
 /// Says that memory has run out, and takes none for it.
 /// \return storage_trouble
