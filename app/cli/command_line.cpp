@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -71,7 +72,7 @@ CLI::Option& add_file(CLI::App& command, const std::string& names, std::string& 
 }
 
 void add_share(CLI::App& command, std::string& share) {
-    command.add_option("--share", share, "Folder that holds templates/ and node_modules/")->type_name("FOLDER");
+    command.add_option("--share", share, "Folder that holds templates/")->type_name("FOLDER");
 }
 
 void add_laboratory(CLI::App& command, std::string& laboratory) {
@@ -83,6 +84,17 @@ void add_laboratory(CLI::App& command, std::string& laboratory) {
         ->check(CLI::ExistingDirectory);
 }
 
+/// "500MB" becomes a number of bytes. A number below 0 or beyond what a machine has would wrap to one that is no limit.
+/// \return what is wrong; "": nothing
+std::string bytes_of_size(std::string& text) {
+    constexpr std::size_t k_most_digits = 15;
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    if (digits == 0 || digits > k_most_digits) {
+        return "is no size: a whole number with or without a unit, such as 500MB, 4GiB or 0";
+    }
+    return CLI::AsSizeValue(true)(text);
+}
+
 void add_common(CLI::App& command, CommonOptions& common) {
     command.add_flag("-q,--quiet", common.quiet, "No progress, no summary, no notes");
     command.add_flag("--json-messages", common.json_messages, "Messages as one JSON object a line");
@@ -92,7 +104,7 @@ void add_common(CLI::App& command, CommonOptions& common) {
         .add_option("--memory-limit", common.memory_limit,
                     "Memory that the command may use, such as 500MB or 4GiB; 0 is no limit. Default: none; of commands "
                     "that read files of others 1 GiB for every 10 MB")
-        ->transform(CLI::AsSizeValue(true))
+        ->transform(CLI::Validator(bytes_of_size, "SIZE"))
         ->type_name("SIZE");
     command
         .add_option(
@@ -224,7 +236,7 @@ void add_render(CLI::App& program, Arguments& a) {
 
 void add_import(CLI::App& program, Arguments& a) {
     CLI::App& command = *program.add_subcommand("import", "Take numbers over from a certificate into a budget");
-    command.add_option("KIND", a.format, "dcc: a digital calibration certificate, version 3.1 to 3.3")
+    command.add_option("KIND", a.format, "dcc: a digital calibration certificate, version 3.0 to 3.3")
         ->required()
         ->check(CLI::IsMember({"dcc"}));
     command.add_option("FILE", a.file, "The certificate (XML)")->required();
@@ -612,7 +624,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*v
         throw std::invalid_argument(wrong.what());
     }
     if (program->get_subcommands().empty()) {
-        fmt::print("{}", program->help());
+        print_to_stdout("{}", program->help());
         return done;
     }
     arguments.command = program->get_subcommands().front()->get_name();

@@ -61,7 +61,9 @@ TEST_F(Ceilings, WideOnesChangeNothingAndWrongOnesAreRefused) {
     EXPECT_EQ(with.code, without.code) << with.err;
     EXPECT_EQ(with.out, without.out);
     EXPECT_EQ(evaluate({"--memory-limit", "0", "--time-limit", "0"}).out, without.out);
-    EXPECT_EQ(evaluate({"--memory-limit", "much"}).code, 2);
+    for (const char* const size : {"much", "-1", "-5GB", "18446744073709551616", "1e99", ""}) {
+        EXPECT_EQ(evaluate({std::string("--memory-limit=") + size}).code, 2) << size;
+    }
     EXPECT_EQ(evaluate({"--time-limit", "-1"}).code, 2);
 }
 

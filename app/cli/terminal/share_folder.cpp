@@ -55,7 +55,7 @@ fs::path share_folder(const std::string& given) {
         if (!fs::exists(fs::path(given) / "templates" / "certificate.html.mustache", error)) {
             throw gum::StorageError(gum::Diagnostic{"GC-STORE-0010", given,
                                                     "has no folder templates with the documents",
-                                                    "--share names the folder that holds templates/ and node_modules/",
+                                                    "--share names the folder that holds templates/",
                                                     "correct the folder, or leave --share out", gum::Severity::error});
         }
         return given;
@@ -123,8 +123,11 @@ reports::RenderAssets render_assets(const std::string& share, std::vector<std::s
     const std::string digest = reports::template_digest(result.templates);
     result.changed_templates = digest == k_template_digest ? "" : digest.substr(0, k_shown_digits);
     result.node_program = program_on_path("node");
-    result.node_modules = folder / "node_modules";
     std::error_code error;
+    // Whoever changes templates copies them, and no program: what sets PDFs is the one that came with this program then.
+    result.node_modules =
+        (fs::is_directory(folder / "node_modules", error) || share.empty() ? folder : share_folder("")) /
+        "node_modules";
     const fs::path temporary = fs::temp_directory_path(error);  // only the PDF needs it, and says so when it is missing
     result.temporary_folder = error ? fs::path("/tmp") : temporary;
     result.languages = std::move(languages);
