@@ -29,7 +29,7 @@ namespace gumcert::jobs {
 //   a.constant(key, word, sentence)        a key with one possible value, needed
 //   a.part(key, struct, sentence)          an object; `needed_part`; the struct may be optional. With a fourth argument, a
 //                                          function (archive, struct), the struct needs no description of its own
-//   a.list(key, vector, sentence)          an array of objects; with a fourth argument, of how many
+//   a.list(key, vector, sentence)          an array of objects; with a fourth argument, of how many; `needed_list`
 //   a.named(key, vector, sentence)         an object of objects, each under a name; `needed_named`
 //   a.by_code(key, rule, sentence)         a value without member; `needed_by_code`
 //   a.part_or(key, rule, struct, sentence), a.list_or(key, rule, vector, sentence)    objects, or another value
@@ -183,7 +183,12 @@ public:
     template <class Struct>
     void list(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
         Struct one{};
-        add_list(key, fields_of(one, OwnDescription()), sentence, size);
+        add_list(key, false, fields_of(one, OwnDescription()), sentence, size);
+    }
+    template <class Struct>
+    void needed_list(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
+        Struct one{};
+        add_list(key, true, fields_of(one, OwnDescription()), sentence, size);
     }
     template <class Struct>
     void named(std::string_view key, std::vector<Struct>&, std::string_view sentence, ListSize size = {}) {
@@ -250,7 +255,7 @@ private:
     void add(std::string_view key, bool needed, Rule rule, std::string_view sentence);
     void add_fields(std::string_view key, bool needed, JobFields::Field::Shape shape, JobFields fields,
                     std::string_view sentence);
-    void add_list(std::string_view key, JobFields fields, std::string_view sentence, ListSize size);
+    void add_list(std::string_view key, bool needed, JobFields fields, std::string_view sentence, ListSize size);
     void add_named(std::string_view key, bool needed, JobFields fields, std::string_view sentence, ListSize size);
     void or_value(Rule rule);
 

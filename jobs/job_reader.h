@@ -80,6 +80,8 @@ public:
     template <class Struct>
     static void list(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
     template <class Struct>
+    static void needed_list(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
+    template <class Struct>
     static void named(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}
     template <class Struct>
     static void needed_named(std::string_view, std::vector<Struct>&, std::string_view, ListSize = {}) {}

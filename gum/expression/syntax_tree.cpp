@@ -353,7 +353,7 @@ private:
         if (const std::optional<std::string> reason = reason_against_name(name)) {
             problems_.add("GC-MODEL-0014", column_, "the name \"" + std::string(name.substr(0, 64)) + "\" " + *reason,
                           "a name is letters, digits, _ and ', and looks like no other name",
-                          "Type the name anew with letters of one script.");
+                          "Type the name anew: letters of one script, and at most 256 bytes.");
         }
         push(TokenKind::name, end - position_);
         return true;

@@ -113,7 +113,7 @@ void describe(Archive& a, laboratory::Calibration& r) {
     a("evidence", r.evidence, Line{4096}, "Of competence, where the route demands it.");
     a.by_hand("sha256", R"({"type": "string", "pattern": "^[0-9a-f]{64}$"})", "64 hexadecimal digits",
               "Of the certificate, where it is a file.");
-    a.list("results", r.results, "The lines of the certificate.", {.least = 1});
+    a.needed_list("results", r.results, "The lines of the certificate.", {.least = 1});
 }
 
 template <class Archive>
@@ -182,7 +182,7 @@ void describe(Archive& a, StandardStatement& r) {
     a("type", r.record.type, Line{}, "Of the standard.");
     a("serial_number", r.record.serial_number, Line{}, "Of the standard.");
     a.by_hand("role", R"({"enum": ["reference", "working"]})", "`reference` or `working`", "working when left out.");
-    a.list("calibrations", r.record.calibrations, "All that are known, the earliest first.", {.least = 1});
+    a.needed_list("calibrations", r.record.calibrations, "All that are known, the earliest first.", {.least = 1});
     a.needed_part("drift", r.record.drift, "How it changes after a calibration.");
     a("interpolation", r.record.interpolation, k_interpolations, "Between calibrated values; none when left out.");
     a.part("interval", r.record.interval, "How the date of the next calibration is found.");
