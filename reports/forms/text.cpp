@@ -329,6 +329,11 @@ std::string view_as_text(const nlohmann::json& view) {
     for (const json& line : view.at("closing")) {
         out += sentences(line, "text") + "\n";
     }
+    if (const auto changed = view.find("changed_templates"); changed != view.end()) {
+        for (const json& mark : *changed) {
+            out += paragraph(text_of(mark, "text"), 0) + "\n";
+        }
+    }
     return out + centred(both(view, "end_mark"));
 }
 

@@ -72,6 +72,7 @@ TEST_F(TemplateReplacement, IsSaidOnEveryPage) {
     const EvaluationRecord record = test::certified_budget_record();
     own_.changed_templates = "9e7c1a5b2d3f";
     EXPECT_THAT(html_text(render_html(record, own_)), HasSubstr("changed templates 9e7c1a5b2d3f"));
+    EXPECT_THAT(render_text(record, own_), HasSubstr("\nchanged templates 9e7c1a5b2d3f\n"));
     replace("certificate.html.mustache", "{{footer_left}}", "Form QM-17");
     EXPECT_THROW(static_cast<void>(render_html(record, own_)), gum::NoResultError);
     SKIP_WITHOUT_PDF();
