@@ -71,7 +71,8 @@ void FieldList::add_named(std::string_view key, bool needed, JobFields fields, s
     fields_.fields.back().value = "an object of objects";
 }
 
-void FieldList::add_list(std::string_view key, bool needed, JobFields fields, std::string_view sentence, ListSize size) {
+void FieldList::add_list(std::string_view key, bool needed, JobFields fields, std::string_view sentence,
+                         ListSize size) {
     add_fields(key, needed, Shape::list, std::move(fields), sentence);
     JobFields::Field& field = fields_.fields.back();
     field.size = size;
