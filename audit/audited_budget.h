@@ -236,6 +236,7 @@ struct AuditedBudget {
     bool floor_applied = true;  ///< U is raised to the capability where it is smaller
     gum::ToleranceLimits limits;
     std::optional<gum::DecisionRule> rule;
+    std::string rule_not_known = {};  ///< of a table: what it states of a decision rule, where that is none of ours
     gum::DecisionRuleParameters rule_parameters;
     std::optional<ComparedReference> reference;
     int digits = 2;  ///< significant digits of a printed U

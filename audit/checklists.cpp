@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "audit/row_meaning.h"
 #include "audit/word_line.h"
 
 namespace gumcert::audit {
@@ -94,8 +95,8 @@ std::vector<MethodChecklist> make_checklists() {
                        {"drive", "interface", "abtrieb", "vierkant", "adapter"}},
                       {say("point of the load application"),
                        {},
-                       {"load point", "loading point", "lever", "krafteinleit", "hebel", "force application",
-                        "lever length"}}}},
+                       {"load point", "loading point", "load application", "lever", "krafteinleit", "hebel",
+                        "force application", "lever length"}}}},
         {.method = "balance",
          .title = say("Weighing instrument (balance)"),
          .source = "EURAMET cg-18, Guidelines on the Calibration of Non-Automatic Weighing Instruments",
@@ -243,6 +244,26 @@ std::vector<MethodChecklist> make_checklists() {
     };
 }
 
+/// What a name names one after the other: "Reproducibility (clamping, datum)", "Repeatability and resolution".
+std::vector<std::string_view> parts_of_name(std::string_view name) {
+    std::vector<std::string_view> parts;
+    while (!name.empty()) {
+        std::size_t end = name.find_first_of("(),;/+&"), next = end;
+        for (const std::string_view between : {" and ", " und ", " incl", " inkl", " with ", " mit "}) {
+            const std::size_t at = name.find(between);
+            if (at < std::min(end, name.size())) {
+                end = at;
+                next = at + between.size() - 1;
+            }
+        }
+        if (const std::string_view part = name.substr(0, end); part.find_first_not_of(' ') != std::string_view::npos) {
+            parts.push_back(part);
+        }
+        name = end == std::string_view::npos ? std::string_view() : name.substr(next + 1);
+    }
+    return parts;
+}
+
 }  // namespace
 
 std::span<const MethodChecklist> method_checklists() {
@@ -255,7 +276,7 @@ std::span<const RequiredContributor> minimum_contributors() {
         {say("repeatability"), {repeatability}, {}},
         {say("resolution of the item"), {item_resolution}, {}},
         {say("reproducibility"), {reproducibility}, {}},
-        {say("uncertainty of the reference standard"), {reference}, {}},
+        {say("uncertainty of the reference standard"), {reference}, {}, true},
         {say("stability of the reference standard"), {reference_drift}, {}},
         {say("environment"), {temperature, expansion, refractive_index, environment}, {}},
     };
@@ -297,11 +318,27 @@ bool is_scatter_of_readings(const AuditedRow& row) {
     }
 }
 
+NamedRow::NamedRow(const AuditedRow& row)
+    : contributors_{row.contributor},
+      is_scatter_(is_scatter_of_readings(row)),
+      is_certified_(row.origin == Origin::certificate && row.origin_value && row.certificate_k),
+      words_{WordLine(row.quantity), WordLine(row.description), WordLine(row.comment), WordLine(row.source)} {
+    for (const std::string_view name : {std::string_view(row.quantity), std::string_view(row.description)}) {
+        const std::vector<std::string_view> parts = parts_of_name(cut(name, k_longest_text));
+        for (const std::string_view part : parts) {
+            if (parts.size() > 1) {
+                contributors_.push_back(contributor_of(part, "", ""));
+            }
+        }
+    }
+}
+
 bool NamedRow::stands_for(const RequiredContributor& required) const {
     const auto asks = [&required](Contributor contributor) {
         return std::find(required.by.begin(), required.by.end(), contributor) != required.by.end();
     };
-    return asks(contributor_) || (is_scatter_ && asks(repeatability)) ||
+    return std::any_of(contributors_.begin(), contributors_.end(), asks) || (is_scatter_ && asks(repeatability)) ||
+           (is_certified_ && required.by_certificate) ||
            std::any_of(words_.begin(), words_.end(),
                        [&required](const WordLine& words) { return words.has_any(required.words); });
 }

@@ -18,6 +18,8 @@ struct RequiredContributor {
     Sentence name;                        ///< for people: "thermal expansion of the gauge block"
     std::vector<Contributor> by;          ///< a row of one of these is it
     std::vector<std::string_view> words;  ///< or a row with one of these words (audit/word_line.h)
+    /// Or any row with U and k of a certificate: what it is called says nothing, as of a dew point or a wavelength.
+    bool by_certificate = false;
 };
 
 struct MethodChecklist {
@@ -51,16 +53,14 @@ struct MethodChecklist {
 /// What a row is called, to hold it against one required contributor after the other.
 class NamedRow {
 public:
-    explicit NamedRow(const AuditedRow& row)
-        : contributor_(row.contributor),
-          is_scatter_(is_scatter_of_readings(row)),
-          words_{WordLine(row.quantity), WordLine(row.description), WordLine(row.comment), WordLine(row.source)} {}
+    explicit NamedRow(const AuditedRow& row);
     /// Whether the row stands for a required contributor, whatever number it has.
     [[nodiscard]] bool stands_for(const RequiredContributor& required) const;
 
 private:
-    Contributor contributor_;
-    bool is_scatter_;
+    /// That of the row, and those of the parts of a name like "Reproducibility (clamping, datum)".
+    std::vector<Contributor> contributors_;
+    bool is_scatter_, is_certified_;
     std::array<WordLine, 4> words_;
 };
 [[nodiscard]] bool stands_for(const AuditedRow& row, const RequiredContributor& required);

@@ -196,7 +196,10 @@ void read_correction(std::string_view text, AuditedRow& row) {
 
 void read_averaged(std::string_view text, AuditedRow& row) {
     const std::size_t end = after_word(text, {"mean of ", "average of ", "mittel aus ", "mittelwert aus "});
-    if (end == std::string_view::npos && !row.averaged &&
+    // "10 Einzelmessungen" and "s of single readings" are several.
+    const bool are_several =
+        has_word(text, {"single readings", "single measurements", "einzelmessungen", "einzelablesungen"});
+    if (end == std::string_view::npos && !row.averaged && !are_several &&
         has_word(text, {"single reading", "single measurement", "one reading", "einzelmessung", "einzelablesung"})) {
         row.averaged = 1;
     }

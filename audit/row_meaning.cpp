@@ -368,24 +368,39 @@ std::optional<double> number_of_keyword(const Pieces& pieces, std::size_t keywor
 }
 
 struct Keyword {
-    std::string_view beginning;    ///< of a word
+    std::string_view beginning;    ///< of a word; with a space at its end the whole word
     std::string_view second = {};  ///< beginning of the next word, where one word is not enough
+    std::string_view third = {};   ///< and of the one after it
     bool strong = true;            ///< says the origin without a number as well
     bool unit_needed = false;
 };
 
-constexpr std::array<Keyword, 23> k_of_specification{{
+/// Whether a word begins so, or is so.
+bool is_keyword(const Piece& piece, std::string_view beginning) {
+    return beginning.ends_with(' ')
+               ? piece.kind == Piece::Kind::word && piece.word == beginning.substr(0, beginning.size() - 1)
+               : piece.begins(beginning);
+}
+
+constexpr std::array<Keyword, 28> k_of_specification{{
     {.beginning = "mpe"},
     {.beginning = "fehlergrenz"},
     {.beginning = "grenzabweich"},
     {.beginning = "maximum", .second = "perm"},
     {.beginning = "permissible"},
     {.beginning = "zulassig", .strong = false},
-    {.beginning = "limit", .second = "of"},
-    {.beginning = "limits", .second = "of"},
+    // Not every limit bounds an error: the limit of detection is a result of its own.
+    {.beginning = "limit", .second = "of ", .third = "error"},
+    {.beginning = "limit", .second = "of ", .third = "deviation"},
+    {.beginning = "limit", .second = "of ", .third = "accuracy"},
+    {.beginning = "limit", .second = "of ", .third = "toleran"},
     {.beginning = "accuracy", .second = "class", .unit_needed = true},
     {.beginning = "genauigkeitsklass", .unit_needed = true},
-    {.beginning = "spec"},
+    // No specimen, no spectrum and nothing specific.
+    {.beginning = "spec "},
+    {.beginning = "specs "},
+    {.beginning = "specification"},
+    {.beginning = "specified"},
     {.beginning = "spezifikation"},
     {.beginning = "datasheet"},
     {.beginning = "data", .second = "sheet"},
@@ -399,7 +414,7 @@ constexpr std::array<Keyword, 23> k_of_specification{{
     {.beginning = "klass", .strong = false, .unit_needed = true},
     {.beginning = "grade", .strong = false, .unit_needed = true},
 }};
-constexpr std::array<Keyword, 13> k_of_resolution{{
+constexpr std::array<Keyword, 14> k_of_resolution{{
     {.beginning = "resolut"},
     {.beginning = "auflos"},
     {.beginning = "aufloes"},
@@ -412,7 +427,8 @@ constexpr std::array<Keyword, 13> k_of_resolution{{
     {.beginning = "least", .second = "count"},
     {.beginning = "scale", .second = "interval"},
     {.beginning = "scale", .second = "division"},
-    {.beginning = "digit", .strong = false, .unit_needed = true},
+    {.beginning = "digit ", .strong = false, .unit_needed = true},
+    {.beginning = "digits ", .strong = false, .unit_needed = true},
 }};
 constexpr std::array<Keyword, 8> k_of_limits{{
     {.beginning = "half", .second = "width"},
@@ -426,7 +442,7 @@ constexpr std::array<Keyword, 8> k_of_limits{{
 }};
 constexpr std::array<Keyword, 7> k_of_certificate{{
     {.beginning = "certificate", .unit_needed = true},
-    {.beginning = "cert", .unit_needed = true},
+    {.beginning = "cert ", .unit_needed = true},
     {.beginning = "kalibrierschein", .unit_needed = true},
     {.beginning = "kalibrierzertifikat", .unit_needed = true},
     {.beginning = "zertifikat", .unit_needed = true},
@@ -440,7 +456,7 @@ constexpr std::array<Keyword, 9> k_of_readings{{
     {.beginning = "standard", .second = "deviation"},
     {.beginning = "standardabweich"},
     {.beginning = "stdev"},
-    {.beginning = "scatter"},
+    {.beginning = "scatter "},
     {.beginning = "streuung"},
     {.beginning = "readings"},
 }};
@@ -454,18 +470,23 @@ Found find_keyword(const Pieces& pieces, std::span<const Keyword> keywords, cons
     Found found;
     for (const Keyword& keyword : keywords) {
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            if (!pieces[i].begins(keyword.beginning)) {
+            if (!is_keyword(pieces[i], keyword.beginning)) {
                 continue;
             }
             std::size_t last = i;
-            if (!keyword.second.empty()) {
-                last = i + 1;
+            bool follows = true;
+            for (const std::string_view next : {keyword.second, keyword.third}) {
+                if (next.empty() || !follows) {
+                    continue;
+                }
+                ++last;
                 if (last < pieces.size() && pieces[last].is_sign("-")) {
                     ++last;
                 }
-                if (last >= pieces.size() || !pieces[last].begins(keyword.second)) {
-                    continue;
-                }
+                follows = last < pieces.size() && is_keyword(pieces[last], next);
+            }
+            if (!follows) {
+                continue;
             }
             found.said = found.said || keyword.strong;
             found.value = number_of_keyword(pieces, last, row, keyword.unit_needed);

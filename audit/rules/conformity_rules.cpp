@@ -32,7 +32,7 @@ bool has_limits_stated(const AuditedBudget& budget) {
 void verdict_without_rule(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const AuditedBudget& budget = subject.budgets[i];
-        if (!budget.claims.verdict.empty() && !budget.rule) {
+        if (!budget.claims.verdict.empty() && !budget.rule && budget.rule_not_known.empty()) {
             findings.add(finding_of(
                 subject, i, say("the verdict \"{verdict}\" is stated without a decision rule", budget.claims.verdict)));
         }

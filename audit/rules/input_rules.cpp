@@ -34,7 +34,7 @@ struct NamedRatio {
 template <std::size_t N>
 const NamedRatio* named(const std::array<NamedRatio, N>& ratios, const AuditedRow& row, double base) {
     for (const NamedRatio& one : ratios) {
-        if (!u_differs(row, one.ratio * base)) {
+        if (may_be_u(row, one.ratio * base)) {
             return &one;
         }
     }
@@ -242,7 +242,7 @@ void wrong_resolution(const AuditSubject& subject, FindingCollector& findings) {
 void maximum_permissible_error_as_u(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
         if (at.is.origin != Origin::specification || !at.is.origin_value ||
-            !is_about(at.is.used_u, *at.is.origin_value)) {
+            !is_about(at.is.used_u, *at.is.origin_value) || !may_be_u(at.is, *at.is.origin_value)) {
             return;
         }
         const bool is_other = at.is.shape == Shape::triangular || at.is.shape == Shape::arcsine;
@@ -262,7 +262,7 @@ void half_of_permissible_error(const AuditSubject& subject, FindingCollector& fi
         const AuditedRow& row = at.is;
         if (row.origin != Origin::specification || !row.origin_value || !(*row.origin_value > 0.0) ||
             row.certificate_k || row.certificate_probability || row.shape == Shape::triangular ||
-            row.shape == Shape::arcsine || u_differs(row, 0.5 * *row.origin_value)) {
+            row.shape == Shape::arcsine || !may_be_u(row, 0.5 * *row.origin_value)) {
             return;
         }
         add_other_u(at, findings,
@@ -348,6 +348,16 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
             return;
         }
         const NamedRatio* ratio = named(k_ratios, row, U);
+        // The columns have another number with bounds and its divisor: the certificate is named beside it, as evidence of
+        // conformity for instance.
+        const bool has_other_number = ratio == nullptr && row.stated &&
+                                      !is_about(std::abs(row.stated->value), U, 0.01) && !is_slip_of(row, U) &&
+                                      ((row.shape == Shape::rectangular && columns_divide_by(row, k_root_3)) ||
+                                       (row.shape == Shape::triangular && columns_divide_by(row, std::sqrt(6.0))) ||
+                                       (row.shape == Shape::arcsine && columns_divide_by(row, std::numbers::sqrt2)));
+        if (has_other_number) {
+            return;
+        }
         add_other_u(
             at, findings,
             say("{done}; the certificate states k = {k:number}",
@@ -529,8 +539,10 @@ void cyclic_quantity(const AuditSubject& subject, FindingCollector& findings) {
         const double amplitude = number_divided(row);
         // A quantity that swings as a sine between ± a is longest at its limits: arcsine, u = a/√2. Readings and
         // certificates know more of it than that.
-        if (!row.cyclic || row.type_a.value_or(false) || row.origin == Origin::certificate || !(amplitude > 0.0) ||
-            row.used_u + row.u_half_step >= 0.99 * amplitude / std::numbers::sqrt2) {
+        const bool is_denied =
+            mentions(row, {"negligib", "vernachl", "no cyclic", "not cyclic", "keine zyklisch", "nicht zyklisch"});
+        if (!row.cyclic || is_denied || row.type_a.value_or(false) || row.origin == Origin::certificate ||
+            !(amplitude > 0.0) || row.used_u + row.u_half_step >= 0.99 * amplitude / std::numbers::sqrt2) {
             return;
         }
         add_other_u(at, findings,

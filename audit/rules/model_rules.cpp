@@ -65,6 +65,11 @@ bool is_part_of_value(const AuditedRow& row) {
                            "reinheit", "slope", "steigung", "load", "\u6FD5", "\u6E7F"});
 }
 
+/// Whether a row has its contribution, and neither u nor what it was divided from.
+bool is_contribution_alone(const AuditedRow& row) {
+    return row.contribution && !row.u && !(row.stated && row.divisor);
+}
+
 /// S01
 void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
@@ -86,6 +91,10 @@ void unit_of_sensitivity(const AuditSubject& subject, FindingCollector& findings
             finding.expected = say("the dimension of {result} per {quantity}", at.of.unit, at.is.unit);
             finding.actual = at.is.sensitivity_unit;
             findings.add(std::move(finding));
+            return;
+        }
+        // A contribution is in the unit of the result already. Where u is nothing but that, it has no unit of its own.
+        if (is_contribution_alone(at.is)) {
             return;
         }
         // u is added as it stands: no coefficient, or 1.

@@ -177,6 +177,17 @@ bool u_differs(const AuditedRow& row, double expected, double relative, double l
     return std::abs(row.used_u - expected) > row.u_half_step + left_open + relative * std::abs(expected);
 }
 
+bool may_be_u(const AuditedRow& row, double number) {
+    constexpr double k_beyond_digits = 0.01;
+    if (u_differs(row, number)) {
+        return false;
+    }
+    const std::optional<StatedNumber> quotient = quotient_of_columns(row);
+    const bool gives_u =
+        quotient && !u_differs(row, quotient->value, k_beyond_digits, quotient->half_step);  // else U26
+    return !gives_u || std::abs(quotient->value - number) <= quotient->half_step + k_beyond_digits * std::abs(number);
+}
+
 double number_divided(const AuditedRow& row) {
     return row.origin_value.value_or(row.stated ? std::abs(row.stated->value) : 0.0);
 }

@@ -69,6 +69,10 @@ void for_each_row(const AuditSubject& subject, const std::function<void(const Ro
 /// digits of u, and what is left open of the expected number itself.
 [[nodiscard]] bool u_differs(const AuditedRow& row, double expected, double relative = 0.01, double left_open = 0.0);
 
+/// Whether u may be a number, by its own digits and by those of the columns that give it: a printed "0.1" is 0.0865 as well as
+/// 0.1, and 0.173 over 1.732 is not 0.0865.
+[[nodiscard]] bool may_be_u(const AuditedRow& row, double number);
+
 /// The number that u was made from, by the words of the row or else by its column; 0 where neither says one.
 [[nodiscard]] double number_divided(const AuditedRow& row);
 /// Whether the column of what is divided has the number of the words twice, or its decimal sign at another place: no such

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,6 +12,8 @@
 #include "audit/budget_outcome.h"
 #include "audit/rules/registry.h"
 #include "audit/rules/row_edits.h"
+#include "audit/rules/worksheet_view.h"
+#include "audit/word_line.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -127,7 +130,15 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
     constexpr std::size_t k_enough = 10;
     for_each_row(subject, [&findings](const RowAt& at) {
         const std::optional<std::size_t> n = readings_of(at.is);
-        if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1) {
+        if (!is_type_a(at.is) || !n || *n >= k_enough || at.is.pooled_s || at.is.group_sizes.size() > 1 ||
+            (has_bounds(at.is) && !std::isfinite(at.is.used_nu))) {
+            return;
+        }
+        // Where s is that of more series, n is how many readings make the mean, and ν how many the scatter comes of.
+        const bool is_of_more = std::isfinite(at.is.used_nu) && at.is.used_nu + 1.0 >= static_cast<double>(k_enough) &&
+                                mentions(at.is, {"pool", "earlier", "previous", "history", "study", " each",
+                                                 "fr\u00FCher", "vorherig", "studie", "je "});
+        if (is_of_more) {
             return;
         }
         const bool has_nu = *n >= 2 && std::isfinite(at.is.used_nu);
@@ -161,10 +172,76 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
     });
 }
 
+/// What the words of a row and the formula of what it divides say of that number.
+class NumberOfReadings {
+public:
+    /// \param view  of a workbook; nullptr without
+    NumberOfReadings(const AuditedRow& row, const WorksheetView* view)
+        : row_(row),
+          view_(view),
+          maker_(view == nullptr || !row.stated ? nullptr : view->maker_of(row.stated->place)),
+          words_{WordLine(row.quantity), WordLine(row.description), WordLine(row.comment), WordLine(row.source)} {}
+
+    /// Largest less smallest: the full width of a distribution with bounds (b' of DKD-R 6-1), and no s.
+    /// \param is_divisor_of_bounds  what divides it is √12, or √3
+    [[nodiscard]] bool is_range(bool is_divisor_of_bounds) const {
+        if (maker_ != nullptr && calls_one_of(maker_->formula, {"MAX", "LARGE", "MAXA"}) &&
+            calls_one_of(maker_->formula, {"MIN", "SMALL", "MINA"})) {
+            return true;
+        }
+        return !is_deviation() &&
+               (has_bounds(row_) ||
+                say_one_of({"spannweite", "spanne ", "max min ", "maximum minus minimum", "maximum less minimum",
+                            "largest less smallest", "largest minus smallest", "largest smallest",
+                            "highest less lowest", "highest minus lowest", "peak to peak", "spitze spitze",
+                            "grosster minus kleinster", "groster minus kleinster"}) ||
+                (is_divisor_of_bounds && say_one_of({"range ", "span ", "b "})));
+    }
+    /// s/√n already, by the formula.
+    [[nodiscard]] bool is_divided_in_formula(std::size_t n) const {
+        if (maker_ == nullptr) {
+            return false;
+        }
+        const std::vector<FormulaDivision> divisions = divisions_in(*view_, *maker_);
+        return std::any_of(divisions.begin(), divisions.end(), [n](const FormulaDivision& one) {
+            return one.by_root || (one.by && is_about(*one.by, std::sqrt(static_cast<double>(n))));
+        });
+    }
+    /// s/√n already, by the words: "standard deviation of the mean", "s/√n".
+    [[nodiscard]] bool is_called_that_of_the_mean() const {
+        const std::string text = text_of_row(row_);
+        return say_one_of({"of the mean ", "of mean ", "of the average", "of the arithmetic mean", "standard error",
+                           "s mean ", "sem ", "des mittelwert", "des mittels ", "des arithmetischen mittel",
+                           "mittelwertabweichung", "standardfehler", "esdm ", "sdom ", "sdm ", "de la media ",
+                           "del promedio"}) ||
+               mentions(text, {"/√", "/ √", "/sqrt", "/ sqrt", "/wurzel", "/ wurzel", "divided by √", "divided by sqrt",
+                               "already divided", "geteilt durch √", "bereits geteilt"});
+    }
+
+private:
+    /// What is called a standard deviation is one, whatever distribution stands beside it.
+    [[nodiscard]] bool is_deviation() const {
+        return (maker_ != nullptr && calls_one_of(maker_->formula, {"STDEV", "STDEV.S", "STDEVA", "STDEV.P", "STDEVP",
+                                                                    "VAR", "VAR.S", "VARA", "VAR.P", "VARP"})) ||
+               (row_.origin_value && row_.origin == Origin::readings) ||
+               say_one_of({"standard deviation", "standardabweich", "stdev", "std dev", "desviacion"});
+    }
+    [[nodiscard]] bool say_one_of(std::initializer_list<std::string_view> beginnings) const {
+        return std::any_of(words_.begin(), words_.end(),
+                           [&beginnings](const WordLine& words) { return words.has_any(beginnings); });
+    }
+
+    const AuditedRow& row_;
+    const WorksheetView* view_;
+    const SheetFormula* maker_;
+    std::array<WordLine, 4> words_;
+};
+
 /// U03: s/√m where the result is the mean of another number of readings.
 void other_number_of_readings(const AuditSubject& subject, FindingCollector& findings) {
     constexpr std::size_t k_most = 1000;
-    for_each_row(subject, [&findings](const RowAt& at) {
+    const std::optional<WorksheetView> view = worksheet_of(subject);
+    for_each_row(subject, [&findings, &view](const RowAt& at) {
         const std::optional<std::size_t> counted = at.is.averaged ? at.is.averaged : readings_of(at.is);
         if (!is_type_a(at.is) || !counted || *counted < 1 || !(at.is.used_u > 0.0)) {
             return;
@@ -196,7 +273,28 @@ void other_number_of_readings(const AuditSubject& subject, FindingCollector& fin
         const double m = std::round(*root * *root);
         const bool is_root = m >= 1.0 && m <= static_cast<double>(k_most) && is_about(*root, std::sqrt(m), 0.01);
         // A single reading has the scatter s itself; only where a mean is known to be stated, s/√1 is wrong.
-        if (!is_root || (m == 1.0 && !at.is.averaged) || m == static_cast<double>(*counted)) {
+        const auto n = static_cast<double>(*counted);
+        if (!is_root || (m == 1.0 && !at.is.averaged) || m == n) {
+            return;
+        }
+        // s of a study of n readings divides by the root of those that the result is the mean of, which nobody states: it is
+        // wrong to say so only where m readings cannot be, or the degrees of freedom are those of m.
+        if (!at.is.averaged && m < n && is_about(at.is.used_nu, n - 1.0, 1e-9)) {
+            return;
+        }
+        // "5 readings each", up and down: ten make the mean.
+        const std::size_t in_mean = static_cast<std::size_t>(m);
+        if (!at.is.averaged && in_mean % *counted == 0 && is_about(at.is.used_nu, m - 1.0, 1e-9) &&
+            mentions(at.is, {" each", "both ", " per ", "je ", " pro ", "beide", "cada "})) {
+            return;
+        }
+        // Only an s is divided by √n. A range has bounds, and what was divided before needs no second divisor.
+        const NumberOfReadings number(at.is, view ? &*view : nullptr);
+        const bool is_of_column = at.is.stated && at.is.divisor && at.is.divisor->value > 0.0;
+        if (number.is_range(m == 3.0 || m == 12.0) ||
+            (is_of_column && at.is.origin_value && may_be_u(at.is, *at.is.origin_value / right)) ||
+            (is_of_column &&
+             (number.is_divided_in_formula(*counted) || (m == 1.0 && number.is_called_that_of_the_mean())))) {
             return;
         }
         const std::string used = text::significant(m, 6);
@@ -458,9 +556,8 @@ std::vector<Rule> type_a_rules() {
          .clause = {.text = "JCGM 100:2008, 4.2.6 and E.4.3", .verified = false},
          .severity = minor,
          .needs = {Need::readings},
-         .detection =
-             "a Type A row from fewer than 10 readings, without a pooled estimate; from 2 readings on, and with ν "
-             "and k that account for it, only to be known",
+         .detection = "a Type A row from fewer than 10 readings, without bounds and a pooled estimate; from 2 readings "
+                      "on, and with ν and k that account for it, only to be known",
          .correction = "Use a pooled estimate of s, or state ν = n − 1 and take k from it.",
          .question =
              "A standard deviation of so few readings is itself uncertain. Is there a pooled estimate from earlier "
@@ -470,7 +567,8 @@ std::vector<Rule> type_a_rules() {
          .title = "Divisor of another number of readings",
          .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
          .needs = {Need::readings},
-         .detection = "s divided by √m where the result is the mean of n ≠ m readings",
+         .detection = "s divided by √m where the result is the mean of n ≠ m readings; not a range, nor what formula "
+                      "or words say was divided already",
          .correction = "Divide s by the root of the number of readings that the stated value is the mean of.",
          .question =
              "Of how many readings is the value on the certificate the mean: of those of the study, or of those of "

@@ -45,29 +45,7 @@ bool is_call(const FormulaNode& node, std::initializer_list<std::string_view> na
     return node.kind == FormulaNodeKind::call && std::find(names.begin(), names.end(), node.text) != names.end();
 }
 bool calls(const Formula& formula, std::initializer_list<std::string_view> names) {
-    return std::any_of(formula.nodes.begin(), formula.nodes.end(),
-                       [&names](const FormulaNode& node) { return is_call(node, names); });
-}
-
-/// The cell that a node refers to by itself; nothing for a range, another workbook or anything else.
-std::optional<CellPlace> cell_of(const WorksheetView& view, const SheetFormula& formula, const FormulaNode& node) {
-    if (node.kind != FormulaNodeKind::reference) {
-        return std::nullopt;
-    }
-    const workbook::Reference& reference = formula.formula.references[node.reference];
-    if (!reference.workbook.empty() || reference.shape != workbook::ReferenceShape::cell ||
-        !reference.last_sheet.empty()) {
-        return std::nullopt;
-    }
-    CellPlace cell{.sheet = formula.cell.sheet, .address = reference.first.address};
-    if (!reference.sheet.empty()) {
-        const std::optional<std::size_t> sheet = workbook::find_sheet(view.workbook(), reference.sheet);
-        if (!sheet) {
-            return std::nullopt;
-        }
-        cell.sheet = *sheet;
-    }
-    return cell;
+    return calls_one_of(formula, names);
 }
 
 /// "=SQRT(B3)", as it stands in its cell.
@@ -98,7 +76,7 @@ bool takes_root_twice(const WorksheetView& view, const SheetFormula& formula) {
         if (is_call(inner, {"SQRT"})) {
             return true;
         }
-        const std::optional<CellPlace> cell = cell_of(view, formula, inner);
+        const std::optional<CellPlace> cell = view.cell_of(formula, inner);
         const SheetFormula* read = cell ? view.formula_at(*cell) : nullptr;
         return read != nullptr && is_call(read->formula.nodes[read->formula.root()], {"SQRT"});
     });
@@ -185,6 +163,20 @@ bool is_root_of_readings(const AuditedRow& row, const SheetFormula* divisor) {
            (std::isfinite(row.used_nu) && is_n(row.used_nu + 1.0));
 }
 
+/// Whether the formula of what a row divides has divided by the divisor of its distribution already: "=0.006/SQRT(3)".
+/// \param expected  divisor of the distribution
+bool is_divided_in_formula(const AuditedRow& row, double expected, const std::optional<WorksheetView>& view) {
+    const SheetFormula* maker = !view || !row.stated ? nullptr : view->maker_of(row.stated->place);
+    if (maker == nullptr) {
+        return false;
+    }
+    const std::vector<FormulaDivision> divisions = divisions_in(*view, *maker);
+    return std::any_of(divisions.begin(), divisions.end(), [&](const FormulaDivision& one) {
+        return one.by && (is_about(*one.by, expected, 2e-3) ||
+                          (row.shape == Shape::rectangular && is_about(*one.by, std::sqrt(12.0), 2e-3)));
+    });
+}
+
 void divisor_against_label(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     for_each_row(subject, [&findings, &view](const RowAt& at) {
@@ -203,11 +195,24 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         }
         // √12 is right of a full width; whether the number is one, U08 asks.
         const bool full_step = at.is.shape == Shape::rectangular && is_about(divisor, std::sqrt(12.0), 2e-4);
-        const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step
+        // √6 is right of a whole step where two readings make a difference (U09).
+        const bool two_steps = at.is.shape == Shape::rectangular && at.is.origin == Origin::resolution &&
+                               at.is.origin_value && at.is.stated && is_about(divisor, std::sqrt(6.0), 2e-4) &&
+                               is_about(std::abs(at.is.stated->value), *at.is.origin_value, 1e-9);
+        const bool disagrees = expected ? std::abs(*expected - divisor) > allowed && !full_step && !two_steps
                                         : at.is.shape == Shape::normal && !known.empty() &&
                                               (known.english().starts_with("√3") || known.english().starts_with("√6"));
         if (!disagrees || is_root_of_readings(at.is, view ? view->formula_at(place_of(at.is.divisor)) : nullptr)) {
             return;
+        }
+        const bool in_formula = expected && at.is.stated && is_divided_in_formula(at.is, *expected, view);
+        const std::optional<double> by_words = expected && at.is.origin_value ? u_by_words(at.is) : std::nullopt;
+        // The number of the words itself has not been divided.
+        const bool is_number_of_words =
+            at.is.stated && at.is.origin_value && is_about(std::abs(at.is.stated->value), *at.is.origin_value, 1e-9);
+        const bool is_u_of_words = by_words && !is_number_of_words && may_be_u(at.is, *by_words);
+        if (divisor == 1.0 && (is_u_of_words || in_formula)) {
+            return;  // a standard uncertainty already: nothing is left to divide
         }
         AuditFinding finding = finding_at(
             at, at.is.divisor->place.empty() ? "divisor" : at.is.divisor->place,
@@ -221,8 +226,8 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
                             say("distribution: {distribution}", at.is.shape_text)};
         // u itself may have been divided by the right number.
         const bool is_divided_so =
-            expected && at.is.stated && !u_differs(at.is, std::abs(at.is.stated->value) / *expected);
-        if (is_divided_so) {
+            expected && at.is.stated && may_be_u(at.is, std::abs(at.is.stated->value) / *expected);
+        if (is_divided_so || is_u_of_words) {
             finding.expected = say_number(text::significant(*expected, 6));
             findings.add(std::move(finding), FindingSeverity::minor);
             return;
@@ -231,7 +236,10 @@ void divisor_against_label(const AuditSubject& subject, FindingCollector& findin
         const auto correct = [&at](const std::optional<double>& u, double factor) {
             return u && at.is.used_u > 0.0 ? change_u(at, *u) : scale_u(at.row, factor);
         };
-        if (expected) {
+        if (in_formula) {
+            finding.expected = say_number("1");
+            finding.correct = correct(std::abs(at.is.stated->value), divisor);
+        } else if (expected) {
             finding.expected = say_number(text::significant(*expected, 6));
             const std::optional<double> u = u_of_divided(at.is, *expected);
             finding.correct = correct(u, divisor / *expected);
@@ -332,7 +340,7 @@ std::optional<double> rooted_number(const WorksheetView& view, const SheetFormul
     if (inner.kind == FormulaNodeKind::number) {
         return inner.number;
     }
-    const std::optional<CellPlace> cell = cell_of(view, formula, inner);
+    const std::optional<CellPlace> cell = view.cell_of(formula, inner);
     const CellValue value = cell ? view.value(*cell) : CellValue{};
     return value.kind == CellKind::number ? std::optional(value.number) : std::nullopt;
 }
@@ -445,7 +453,7 @@ std::optional<CellPlace> number_of_other_row(const WorksheetView& view, const Sh
                                              const OwnersOfCells& owners, std::size_t row) {
     std::optional<CellPlace> other;
     for (const FormulaNode& node : formula.formula.nodes) {
-        const std::optional<CellPlace> cell = cell_of(view, formula, node);
+        const std::optional<CellPlace> cell = view.cell_of(formula, node);
         const auto owner = cell ? owners.find(*cell) : owners.end();
         if (owner == owners.end()) {
             continue;
@@ -560,7 +568,7 @@ struct CopiedRun {
 std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
     std::map<std::pair<std::size_t, std::uint32_t>, std::map<std::uint32_t, const SheetFormula*>> columns;
     for (const SheetFormula& formula : view.formulas()) {
-        if (formula.formula.nodes.size() == 1 && cell_of(view, formula, formula.formula.nodes[0])) {
+        if (formula.formula.nodes.size() == 1 && view.cell_of(formula, formula.formula.nodes[0])) {
             columns[{formula.cell.sheet, formula.cell.address.column}][formula.cell.address.row] = &formula;
         }
     }
@@ -576,7 +584,7 @@ std::vector<CopiedRun> copied_runs(const WorksheetView& view) {
             run = {};
         };
         for (const auto& [row, formula] : formulas) {
-            const CellPlace read = *cell_of(view, *formula, formula->formula.nodes[0]);
+            const CellPlace read = *view.cell_of(*formula, formula->formula.nodes[0]);
             const bool goes_on = !run.read.empty() && row == last_row + 1 && read.sheet == run.read.front().sheet &&
                                  read.address.column == run.read.front().address.column;
             if (!goes_on) {
@@ -868,7 +876,7 @@ bool counts_days(const WorksheetView& view, const SheetFormula& formula) {
         return true;
     }
     const auto is_day = [&](const FormulaNode& node) {
-        const std::optional<CellPlace> cell = cell_of(view, formula, node);
+        const std::optional<CellPlace> cell = view.cell_of(formula, node);
         const CellValue value = cell ? view.value(*cell) : CellValue{};
         return value.kind == CellKind::number && value.number >= k_first_day && value.number <= k_last_day;
     };
@@ -954,9 +962,31 @@ void time_units(const AuditSubject& subject, FindingCollector& findings) {
 
 // W14 -----------------------------------------------------------------------------------------------------------------
 
+/// The rows of the tables of a subject, as sheet and row, and the cells of their own numbers.
+struct CellsOfTables {
+    std::set<std::pair<std::size_t, std::uint32_t>> rows;
+    std::set<CellPlace> numbers;
+};
+CellsOfTables cells_of_tables(const WorksheetView& view, const AuditSubject& subject) {
+    CellsOfTables cells;
+    for_each_row(subject, [&](const RowAt& at) {
+        if (const std::optional<CellPlace> cell = view.cell_at(at.is.place)) {
+            cells.rows.emplace(cell->sheet, cell->address.row);
+        }
+        for (const std::optional<StatedNumber>* number : {&at.is.estimate, &at.is.stated, &at.is.divisor, &at.is.u,
+                                                          &at.is.sensitivity, &at.is.contribution, &at.is.nu}) {
+            if (const std::optional<CellPlace> cell = view.cell_at(place_of(*number))) {
+                cells.numbers.insert(*cell);
+            }
+        }
+    });
+    return cells;
+}
+
 void computed_and_not_used(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     const std::vector<CellPlace> unread = view->unread_cells();
+    const CellsOfTables tables = cells_of_tables(*view, subject);
     for (const SheetFormula& formula : view->formulas()) {
         const bool visible = view->workbook().sheets[formula.cell.sheet].state == workbook::SheetState::visible;
         if (!visible || view->stands_under_results(formula.cell) ||
@@ -964,10 +994,16 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
             continue;
         }
         const std::string label = view->label(formula.cell);
+        // In a row of a budget, what is no number of the row is of another column, and only its head says of what: a share
+        // of the variance belongs to the drift, and is none.
+        const bool is_beside = tables.rows.contains({formula.cell.sheet, formula.cell.address.row}) &&
+                               !tables.numbers.contains(formula.cell);
         // Many cells are read by nobody, notes and checks for instance. Only these words tell that something is missing
         // in the result.
-        if (says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung", "uncertainty",
-                         "unsicherheit"})) {
+        if (is_beside ? says(view->head(formula.cell),
+                             {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung"})
+                      : says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung",
+                                     "uncertainty", "unsicherheit"})) {
             AuditFinding finding =
                 finding_in(view->place(formula.cell), say("computed, and never used: \"{label}\"", label));
             finding.kind = finding.what.english();
@@ -1007,7 +1043,7 @@ std::vector<Rule> worksheet_rules() {
          .needs = {Need::rows},
          .detection =
              "the divisor is not that of the named distribution, beyond its printed digits: √3, √6, √2, k; √n of "
-             "readings is that of their mean",
+             "readings is that of their mean; not where divisor 1 stands beside what was divided so already",
          .correction =
              "Divide by the divisor of the distribution, or name the distribution that the divisor belongs to.",
          .question = "Which of the two is meant, the distribution or the divisor?",

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "audit/audited_workbook.h"
@@ -28,6 +30,12 @@ public:
     [[nodiscard]] std::vector<workbook::Area> areas_read(const workbook::CellPlace& cell) const {
         return held_.graph.areas_read(cell);
     }
+    /// The cell that a node of a formula refers to by itself; nothing for a range, another workbook or anything else.
+    [[nodiscard]] std::optional<workbook::CellPlace> cell_of(const SheetFormula& formula,
+                                                             const workbook::FormulaNode& node) const;
+    /// The formula that makes the number of a cell: its own, or that of the cell that it passes on ("=Readings!B9"); nullptr
+    /// where there is none.
+    [[nodiscard]] const SheetFormula* maker_of(const std::string& place) const;
     /// The one cell that a formula reads; nothing where it reads none or several.
     [[nodiscard]] std::optional<workbook::CellPlace> only_cell_read(const workbook::CellPlace& cell) const;
     /// How many cells a formula reads, blank ones too, each once.
@@ -43,6 +51,8 @@ public:
         return held_.cell_at(place);
     }
     [[nodiscard]] bool stands_under_results(const workbook::CellPlace& cell) const;
+    /// The next text above a cell, within 200 rows; "" where there is none.
+    [[nodiscard]] std::string head(const workbook::CellPlace& cell) const;
     /// Words that say what a cell is: the texts to its left in the row, and the next text above it, as far as they stand
     /// within 200 columns and rows.
     [[nodiscard]] std::string label(const workbook::CellPlace& cell) const;
@@ -51,6 +61,17 @@ private:
     const AuditedWorkbook& held_;
     std::vector<workbook::CellPlace> under_;  ///< on which the claims stand, in order
 };
+
+/// Something by which a formula divides its number.
+struct FormulaDivision {
+    std::optional<double> by;  ///< nothing where it is not known without its readings: √COUNT(…)
+    bool by_root = false;      ///< a root was taken of it
+};
+/// What the number of a formula was divided by: "=0.01/2/SQRT(3)" has 2 and √3, "=SQRT(VAR.S(B2:B7)/6)" has √6. Operands of sums
+/// are not looked at: they are parts of the number.
+[[nodiscard]] std::vector<FormulaDivision> divisions_in(const WorksheetView& view, const SheetFormula& formula);
+/// Whether a formula calls one of some functions, whose names stand in capitals.
+[[nodiscard]] bool calls_one_of(const workbook::Formula& formula, std::initializer_list<std::string_view> names);
 
 /// The walk of a subject; nothing where it has no workbook.
 [[nodiscard]] std::optional<WorksheetView> worksheet_of(const AuditSubject& subject);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "audit/finding.h"
+#include "audit/sources/stated_rule.h"
 #include "audit/word_line.h"
 #include "certificate/stated_text.h"
 #include "gum/conformity/decision_rule.h"
@@ -163,9 +164,7 @@ LimitsBeside Results::limits_of(std::size_t position) const {
 
 /// "DR-03" in a declaration.
 std::optional<gum::DecisionRule> rule_in(const std::string& declaration) {
-    const std::size_t at = declaration.find("DR-");
-    constexpr std::size_t k_id = 5;
-    return at == std::string::npos ? std::nullopt : gum::decision_rule_from_id(declaration.substr(at, k_id));
+    return rule_of_id_in(declaration);
 }
 
 /// The guard band that acceptance limits show.

@@ -6,6 +6,7 @@
 
 #include "audit/claims.h"
 #include "audit/row_meaning.h"
+#include "audit/sources/stated_rule.h"
 #include "audit/sources/table_units.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -302,7 +303,8 @@ private:
     bool has_two_units_ = false;  ///< the value is in another unit than its uncertainty
 };
 
-void state_limits(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers) {
+void state_limits(AuditedBudget& budget, const Statements& statements, ResultNumbers& numbers,
+                  std::vector<Sentence>& not_read) {
     budget.limits.lower = numbers.value(Statement::lower_limit);
     budget.limits.upper = numbers.value(Statement::upper_limit);
     const std::optional<double> tolerance = numbers.value(Statement::tolerance);
@@ -314,7 +316,16 @@ void state_limits(AuditedBudget& budget, const Statements& statements, ResultNum
         budget.limits.upper = nominal.value_or(0.0) + std::abs(*tolerance);
     }
     const std::string rule = words_of(statements, Statement::decision_rule);
-    budget.rule = gum::decision_rule_from_id(rule.substr(0, 5));
+    if (const std::optional<StatedRule> stated = stated_rule(rule)) {
+        budget.rule = stated->rule;
+        budget.rule_parameters = stated->parameters;
+    } else if (!rule.empty()) {
+        budget.rule_not_known = rule;
+        not_read.push_back(
+            say("the decision rule {text} is not known; nothing is decided by it; which one of DR-01 to "
+                "DR-13 is it?",
+                text::in_quotes(rule)));
+    }
 }
 
 }  // namespace
@@ -602,7 +613,7 @@ void state_claims(AuditedBudget& budget, const Statements& statements, const std
         budget.reference =
             ComparedReference{.value = *reference, .expanded_uncertainty = *reference_U, .name = "reference value"};
     }
-    state_limits(budget, statements, numbers);
+    state_limits(budget, statements, numbers, not_read);
     if (const std::string measurand = words_of(statements, Statement::measurand); !measurand.empty()) {
         budget.name = measurand;
     }

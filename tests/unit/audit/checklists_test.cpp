@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "audit/row_meaning.h"
+
 namespace gumcert::audit {
 namespace {
 
@@ -197,6 +199,38 @@ TEST(Checklists, accept_a_row_by_contributor_or_word) {
     row.comment = "Auftriebskorrektur";
     EXPECT_TRUE(stands_for(row, buoyancy));
     EXPECT_TRUE(stands_for(row, {"environment", {Contributor::environment}, {}}));
+}
+
+/// The law: what a checklist asks for is there where a row is called so, alone or as a part of another name.
+TEST(Checklists, find_what_they_ask_for_by_its_own_name) {
+    const auto is_found = [](const RequiredContributor& required, const std::string& quantity) {
+        AuditedRow row;
+        row.quantity = quantity;
+        row.contributor = contributor_of(quantity, "", "");
+        return stands_for(row, required);
+    };
+    std::vector<const RequiredContributor*> all;
+    for (const MethodChecklist& checklist : method_checklists()) {
+        for (const RequiredContributor& required : checklist.required) {
+            all.push_back(&required);
+        }
+    }
+    for (const RequiredContributor& required : minimum_contributors()) {
+        all.push_back(&required);
+    }
+    for (const RequiredContributor* required : all) {
+        const std::string name = required->name.english();
+        EXPECT_TRUE(is_found(*required, name)) << name;
+        EXPECT_TRUE(is_found(*required, "Other effects (" + name + ")")) << name;
+    }
+    const MethodChecklist* const cmm = checklist_of("cmm_fixture");
+    for (const RequiredContributor& required : cmm->required) {
+        if (required.name.english() == "clamping and datum of the workpiece") {
+            EXPECT_TRUE(is_found(required, "Reproducibility (clamping, datum)"));
+            EXPECT_TRUE(is_found(required, "Aufspannung und Reproduzierbarkeit"));
+            EXPECT_FALSE(is_found(required, "Reproducibility"));
+        }
+    }
 }
 
 }  // namespace

@@ -419,5 +419,24 @@ TEST(InputRules, U23SaysWhatTheOtherRowsGive) {
     EXPECT_EQ(findings[0].evidence.back(), "without this row U = 0.02 um");
 }
 
+TEST(InputRules, U24AndU10AskTheColumnsBehindARoundedU) {
+    // 0.173/√3 is printed as 0.1, which may be half of 0.173 by its digits alone; 0.1/√3 as 0.1, which is no 0.1.
+    AuditedRow one = test::row_from("gauge", Origin::specification, 0.173, 0.1, Shape::rectangular);
+    one.u_half_step = 0.05;
+    one.u = test::printed("0.1");
+    EXPECT_EQ(findings_of("U24", test::subject_of(one)).size(), 1U);
+    one.stated = test::printed("0.173");
+    one.divisor = test::printed("1.732");
+    EXPECT_TRUE(findings_of("U24", test::subject_of(one)).empty());
+    one.divisor = test::printed("2");
+    EXPECT_EQ(findings_of("U24", test::subject_of(one)).size(), 1U);
+    one.origin_value = 0.1;
+    one.stated = test::printed("0.10");
+    one.divisor = test::printed("1.732");
+    EXPECT_TRUE(findings_of("U10", test::subject_of(one)).empty());
+    one.divisor = test::printed("1");
+    EXPECT_EQ(findings_of("U10", test::subject_of(one)).size(), 1U);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -239,5 +239,81 @@ TEST(WorksheetFindings, W13SeesDaysHoweverTheyAreCounted) {
     EXPECT_EQ(found("=Drift!B1*(Drift!B4-Drift!B5)/12", "rate in mg per year"), 0U) << "no days";
 }
 
+TEST(WorksheetFindings, W02SeesWhatAFormulaHasDivided) {
+    // The law: however a formula divides by the divisor of its distribution, 1 beside it is right.
+    for (const char* const formula : {"=0.04/SQRT(3)", "=0.04/3^0.5", "=0.04*1/SQRT(3)", "=0.04/1.732",
+                                      "=0.08/2/SQRT(3)", "=0.08/SQRT(12)", "=SQRT(0.04^2/3)", "=B4*4/3/SQRT(3)"}) {
+        EXPECT_TRUE(of_rule(audited_sheet({{"B3", formula}, {"C3", "1"}}), "W02").empty()) << formula;
+    }
+    EXPECT_EQ(of_rule(audited_sheet({{"B3", "0.04"}, {"C3", "1"}}), "W02").size(), 1U);
+    EXPECT_EQ(of_rule(audited_sheet({{"B3", "=0.08/2"}, {"C3", "1"}}), "W02").size(), 1U);
+    // Divided once more by something else: what the formula gives is u.
+    const std::vector<AuditFinding> twice = of_rule(audited_sheet({{"B3", "=0.04/SQRT(3)"}, {"C3", "2"}}), "W02");
+    ASSERT_EQ(twice.size(), 1U);
+    ASSERT_TRUE(twice[0].effect);
+    EXPECT_NEAR(twice[0].effect->alone.u_c, std::sqrt(0.025 * 0.025 + 0.04 * 0.04 / 3.0 + 0.03 * 0.03 / 3.0), 1e-12);
+}
+
+/// A row of six readings on the same sheet, of which the budget has a number.
+std::vector<AuditFinding> u03_of(const std::string& stated, const std::string& divisor, const std::string& distribution,
+                                 const std::string& comment = "mean of 6 readings") {
+    const test::Contents contents = {{"A1", "quantity"},      {"B1", "U or a"}, {"C1", "divisor"},
+                                     {"D1", "distribution"},  {"E1", "u"},      {"F1", "comment"},
+                                     {"A2", "standard"},      {"B2", "0.05"},   {"C2", "2"},
+                                     {"D2", "normal"},        {"E2", "=B2/C2"}, {"J2", "50.03"},
+                                     {"A3", "repeatability"}, {"B3", stated},   {"C3", divisor},
+                                     {"D3", distribution},    {"E3", "=B3/C3"}, {"F3", comment},
+                                     {"J3", "50.04"},         {"A4", "u_c"},    {"B4", "=SQRT(SUMSQ(E2:E3))"},
+                                     {"J4", "50.03"},         {"A5", "k"},      {"B5", "2"},
+                                     {"J5", "50.02"},         {"A6", "U"},      {"B6", "=B5*B4"},
+                                     {"J6", "50.03"},         {"J7", "50.04"},  {"J8", "=STDEV(J2:J7)/SQRT(6)"}};
+    return of_rule(audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules()), "U03");
+}
+
+TEST(WorksheetFindings, U03SeesWhatAFormulaHasDivided) {
+    for (const char* const stated : {"=STDEV.S(J2:J7)/SQRT(COUNT(J2:J7))", "=STDEV.S(J2:J7)/SQRT(6)",
+                                     "=SQRT(VAR.S(J2:J7)/6)", "=STDEV(J2:J7)/6^0.5", "=STDEV(J2:J7)/2.449",
+                                     "=SQRT(VAR(J2:J7)/COUNT(J2:J7))", "=J8", "=STDEV(J2:J7)*SQRT(1/6)"}) {
+        EXPECT_TRUE(u03_of(stated, "1", "normal").empty()) << stated;
+    }
+    for (const char* const divisor : {"=SQRT(12)", "=2*SQRT(3)", "=SQRT(3)"}) {
+        EXPECT_TRUE(u03_of("=MAX(J2:J7)-MIN(J2:J7)", divisor, "rectangular").empty()) << divisor;
+    }
+    EXPECT_TRUE(u03_of("=MAX(J2:J7)-MIN(J2:J7)", "=SQRT(12)", "normal").empty());
+    EXPECT_EQ(u03_of("=STDEV(J2:J7)", "1", "normal").size(), 1U);
+    EXPECT_EQ(u03_of("=STDEV(J2:J7)", "=SQRT(12)", "rectangular").size(), 1U);
+}
+
+TEST(WorksheetFindings, W14LeavesSharesAlone) {
+    const auto unused = [](const std::string& head) {
+        const test::Contents contents = {{"A1", "quantity"},
+                                         {"B1", "U or a"},
+                                         {"C1", "divisor"},
+                                         {"D1", "u"},
+                                         {"E1", head},
+                                         {"A2", "standard"},
+                                         {"B2", "0.05"},
+                                         {"C2", "2"},
+                                         {"D2", "=B2/C2"},
+                                         {"E2", "=100*D2^2/B4^2"},
+                                         {"A3", "Drift of the standard"},
+                                         {"B3", "0.04"},
+                                         {"C3", "=SQRT(3)"},
+                                         {"D3", "=B3/C3"},
+                                         {"E3", "=100*D3^2/B4^2"},
+                                         {"A4", "u_c"},
+                                         {"B4", "=SQRT(SUMSQ(D2:D3))"},
+                                         {"A5", "k"},
+                                         {"B5", "2"},
+                                         {"A6", "U"},
+                                         {"B6", "=B5*B4"}};
+        return of_rule(audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules()), "W14").size();
+    };
+    for (const char* const head : {"Anteil / %", "share", "Varianzanteil", "u^2", "rank", "Index / %", "remark"}) {
+        EXPECT_EQ(unused(head), 0U) << head;
+    }
+    EXPECT_GE(unused("correction"), 1U);
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -1,0 +1,232 @@
+// A law: a sound budget is not accused because of its words. To a table in which all is as it should be, one row is added
+// that words or rounded numbers may let appear wrong, while the table itself shows that it is right.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/workbook_subject.h"
+#include "text/numbers.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+struct Row {
+    std::string quantity;
+    double stated = 0.0, divisor = 1.0;
+    std::string distribution, nu, comment;
+    std::string divisor_text = "";
+};
+
+std::string written(const Row& row) {
+    const double u = row.stated / row.divisor;
+    return row.quantity + ",V," + text::shortest(row.stated) + "," +
+           (row.divisor_text.empty() ? text::significant(row.divisor, 4) : row.divisor_text) + "," + row.distribution +
+           "," + text::significant(u, 3) + ",1," + text::significant(u, 3) + "," + row.nu + ",\"" + row.comment +
+           "\"\n";
+}
+
+const std::vector<Row> k_sound = {
+    {"Reference standard", 0.020, 2.0, "normal", "", "U = 0.020 V, k = 2, certificate E-1"},
+    {"Drift of the standard", 0.010, std::sqrt(3.0), "rectangular", "", ""},
+    {"Temperature", 0.008, std::sqrt(3.0), "rectangular", "", ""},
+    {"Resolution of the item", 0.005, std::sqrt(3.0), "rectangular", "", "resolution 0.01 V"},
+    {"Reproducibility", 0.006, 1.0, "normal", "12", ""},
+    {"Repeatability", 0.004, 1.0, "normal", "19", ""},
+};
+
+AuditReport audited(const std::vector<Row>& rows, const std::string& lines = "") {
+    std::string table = "quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution,nu,comment\n";
+    double variance = 0.0;
+    for (const Row& row : rows) {
+        table += written(row);
+        variance += row.stated * row.stated / (row.divisor * row.divisor);
+    }
+    const double u_c = std::sqrt(variance);
+    table += "value,V,10.012\nu_c,V," + text::significant(u_c, 3) + "\nk,,2\nU,V," + text::significant(2.0 * u_c, 2) +
+             "\ncoverage probability,,95.45 %\n" + lines;
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+
+/// What is critical or major, in a line.
+std::string accusations(const AuditReport& report) {
+    std::string all;
+    for (const AuditFinding& finding : report.findings) {
+        if (finding.severity == FindingSeverity::critical || finding.severity == FindingSeverity::major) {
+            all += finding.rule + " " + finding.where + ": " + finding.what.english() + "\n";
+        }
+    }
+    return all;
+}
+bool has(const AuditReport& report, std::string_view rule) {
+    return std::any_of(report.findings.begin(), report.findings.end(),
+                       [rule](const AuditFinding& finding) { return finding.rule == rule; });
+}
+
+TEST(SoundTables, AreNotAccused) {
+    EXPECT_EQ(accusations(audited(k_sound)), "");
+}
+
+TEST(SoundTables, AreNotAccusedOfOneRowByItsWords) {
+    const double root_3 = std::sqrt(3.0), root_2 = std::sqrt(2.0), root_12 = std::sqrt(12.0);
+    const std::vector<Row> rows = {
+        // a range is no standard deviation
+        {"Repeatability of the item", 0.012, root_12, "rectangular", "", "span of 0.012 V of 3 readings"},
+        {"Repeatability of the item", 0.012, root_12, "rectangular", "", "largest less smallest of 4 readings"},
+        {"Repeatability of the item", 0.012, root_12, "rectangular", "", "range of 6 readings as full width (b')"},
+        {"Wiederholpräzision b'", 0.012, root_12, "Rechteck", "", "b' aus 3 Messreihen, n = 3"},
+        {"Repeatability of the item", 0.012, 2.0 * root_3, "rectangular", "", "max - min of 5 readings"},
+        {"Spannweite", 0.012, root_12, "Rechteck", "", "Spannweite aus 5 Messungen"},
+        {"Repeatability of the item", 0.006, root_3, "rectangular", "", "half of the range of 6 readings"},
+        // a standard deviation of the mean is divided already
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "standard deviation of the mean of 10 readings"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9",
+         "experimental standard deviation of the mean, mean of 10"},
+        {"Wiederholbarkeit", 0.0038, 1.0, "Normal", "9", "Standardabweichung des Mittelwerts, Mittel aus 10"},
+        {"Mean of 10 readings", 0.0038, 1.0, "normal", "9", "Type A, s(mean)"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "standard error, mean of 10"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "mean of 10, 0.0120/√10"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "s/sqrt(n), mean of 10"},
+        {"Wiederholbarkeit", 0.0038, 1.0, "Normal", "9", "Standardfehler, Mittel aus 10"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "ESDM, 10 readings, mean of 10"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "already divided by √10, mean of 10"},
+        {"Repeatability of the item", 0.0038, 1.0, "normal", "9", "mean of 10, s = 0.0120 V"},
+        {"Wiederholbarkeit", 0.012, std::sqrt(10.0), "t", "9", "10 Einzelmessungen"},
+        // a certificate that is evidence of conformity
+        {"Instrument", 0.006, root_3, "rectangular", "",
+         "specification of the manufacturer, verified by certificate E-8 (U = 0.001 V, k = 2)"},
+        // s of a study, and a mean of fewer
+        {"Repeatability of the item", 0.012, root_3, "normal", "9",
+         "s from a study of 10 readings, three of them averaged"},
+        // what was divided by the divisor of its distribution
+        {"Ripple", 0.010 / root_3, 1.0, "rectangular", "", "±0.010 V"},
+        {"Resolution of the reference", 0.01 / root_12, 1.0, "rectangular", "", "resolution 0.01 V"},
+        {"Mismatch", 0.010 / root_2, 1.0, "U-shaped", "", "±0.010 V"},
+        {"Loading", 0.010 / std::sqrt(6.0), 1.0, "triangular", "", "±0.010 V"},
+        // words that begin like others
+        {"Spectral mismatch", 0.006, root_3, "rectangular", "", ""},
+        {"Specific gravity", 0.006, root_3, "rectangular", "", ""},
+        {"Specimen thickness", 0.006, root_3, "rectangular", "", ""},
+        {"Speckle", 0.006, root_3, "rectangular", "", ""},
+        {"Special fixture", 0.006, root_3, "rectangular", "", ""},
+        {"Limit of detection", 0.006, root_3, "rectangular", "", ""},
+        {"Limit of quantification", 0.006, root_3, "rectangular", "", ""},
+        {"Scattered light", 0.006, root_3, "rectangular", "", ""},
+        {"Scattering", 0.004, 1.0, "normal", "", ""},
+        {"Certainty of the setting", 0.006, root_3, "rectangular", "", ""},
+        {"Digital filter", 0.006, root_3, "rectangular", "", "digital voltmeter, ±0.006 V"},
+        // the digits of u do not say what its columns say
+        {"Reference gauge", 0.0173, root_3, "rectangular", "", "within class limits ±0.0173 V, conformity verified"},
+    };
+    for (const Row& row : rows) {
+        std::vector<Row> all = k_sound;
+        all.push_back(row);
+        EXPECT_EQ(accusations(audited(all)), "") << written(row);
+        // And where it is the only one of its kind.
+        if (row.nu == "9" || row.divisor > 3.0) {
+            all.erase(all.begin() + 5);
+            EXPECT_EQ(accusations(audited(all)), "") << written(row);
+        }
+    }
+}
+
+TEST(SoundTables, KeepTheErrorsThatWordsMayHide) {
+    // Beside what is sound: the same rows with an error are found.
+    const auto with = [](Row row) {
+        std::vector<Row> all = k_sound;
+        all.push_back(std::move(row));
+        return audited(all);
+    };
+    EXPECT_TRUE(
+        has(with({"Repeatability of the item", 0.012, 2.0, "normal", "9", "standard deviation, mean of 10"}), "U03"));
+    EXPECT_TRUE(has(with({"Repeatability of the item", 0.012, std::sqrt(3.0), "rectangular", "9",
+                          "standard deviation, mean of 10"}),
+                    "U03"))
+        << "whatever distribution stands beside it";
+    EXPECT_TRUE(has(with({"Ripple", 0.010, 1.0, "rectangular", "", "±0.010 V"}), "W02"));
+    EXPECT_TRUE(has(with({"Meter", 0.010, std::sqrt(3.0), "rectangular", "", "specification"}), "U12"));
+    EXPECT_TRUE(has(with({"Meter", 0.010, std::sqrt(3.0), "rectangular", "", "limits of error 0.010 V"}), "U12"));
+    EXPECT_TRUE(has(with({"Meter", 0.010, 2.0, "rectangular", "", "MPE 0.010 V"}), "U24"));
+}
+
+TEST(SoundTables, AreNotCorrectedWhereTheyAgreeWithAnotherRule) {
+    const auto with = [](Row row) {
+        std::vector<Row> all = k_sound;
+        all.push_back(std::move(row));
+        return audited(all);
+    };
+    EXPECT_FALSE(
+        has(with({"Display", 0.01, std::sqrt(6.0), "rectangular", "", "resolution 0.01 V, two readings"}), "W02"))
+        << "U09 calls √2 d/√12 right";
+    EXPECT_TRUE(has(with({"Display", 0.03, std::sqrt(6.0), "rectangular", "", "±0.03 V"}), "W02"));
+    EXPECT_FALSE(
+        has(with({"Repeatability of the item", 0.006, std::sqrt(10.0), "normal", "9", "up and down, 5 readings each"}),
+            "U03"));
+    EXPECT_TRUE(has(with({"Repeatability of the item", 0.006, std::sqrt(10.0), "normal", "9", "5 readings"}), "U03"));
+    EXPECT_FALSE(has(with({"Repeatability of the item", 0.007, 2.0, "normal", "60",
+                           "pooled standard deviation of 20 earlier calibrations, mean of 4"}),
+                     "U02"));
+    EXPECT_TRUE(has(with({"Repeatability of the item", 0.007, 2.0, "normal", "3", "mean of 4"}), "U02"));
+    EXPECT_FALSE(has(with({"Lead", 0.006, std::sqrt(3.0), "rectangular", "", "cyclic part is negligible"}), "U20"));
+    EXPECT_TRUE(has(with({"Lead", 0.006, std::sqrt(3.0), "rectangular", "", "cyclic"}), "U20"));
+}
+
+TEST(SoundTables, StateTheirDecisionRuleInWords) {
+    const std::string limits = "lower limit,V,9.9\nupper limit,V,10.1\n";
+    for (const char* const rule : {"simple acceptance", "guard band w = U", "ILAC-G8 DR-03", "Rule DR-03", "dr-03",
+                                   "DR03", "ILAC-G8:09/2019 4.2.1 simple acceptance"}) {
+        const AuditReport report = audited(k_sound, limits + "decision rule," + std::string(rule) + "\nverdict,pass\n");
+        EXPECT_EQ(accusations(report), "") << rule;
+        EXPECT_TRUE(report.subject.budgets.at(0).rule) << rule;
+        EXPECT_TRUE(report.subject.not_read.empty()) << rule;
+    }
+    // What is stated and not understood is told, and is not nothing.
+    const AuditReport words = audited(k_sound, limits + "decision rule,as agreed in the order\nverdict,pass\n");
+    EXPECT_FALSE(has(words, "D01"));
+    ASSERT_EQ(words.subject.not_read.size(), 1U);
+    EXPECT_NE(words.subject.not_read[0].english().find("as agreed in the order"), std::string::npos);
+    EXPECT_TRUE(has(audited(k_sound, limits + "verdict,pass\n"), "D01"));
+}
+
+AuditReport audited_text(const std::string& table) {
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+
+TEST(SoundTables, ContributionsAloneAreInTheUnitOfTheirHead) {
+    // The law: whatever the unit of the quantity, its contribution in percent is one.
+    for (const char* const unit : {"1", "cd", "m", "V", "K", "°C", "mm", "%"}) {
+        const AuditReport report = audited_text(
+            "Quantity,Estimate,Unit,Sensitivity,Contribution / %,nu,Comment\n"
+            "Reference lamp,285.4,cd,1,0.60,,\"U = 1.2 %, k = 2, certificate L-9\"\n"
+            "Correction factor,1.002," +
+            std::string(unit) +
+            ",1,0.25,,\nRepeatability,1001.2,lx,1,0.10,9,\n"
+            "u_c,,,,0.66,,\nk,2\nU,1.3,%\np,95 %\n");
+        EXPECT_FALSE(has(report, "S01")) << unit;
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_NEAR(report.results[0].audited.U, 1.3, 0.05) << unit;
+    }
+}
+
+TEST(SoundTables, ACertifiedRowIsTheReferenceOfABudgetWithoutChecklist) {
+    const auto table = [](const std::string& comment) {
+        return audited_text(
+            "quantity,estimate,unit,u,sensitivity,contribution,nu,comment\nDew point "
+            "t_d,10.02,°C,0.050,3.35,0.168,,\"" +
+            comment +
+            "\"\nChamber temperature t,21.03,°C,0.040,-3.05,0.122,,\nDrift of the mirror,0,°C,0.020,3.35,0.067,,\n"
+            "Resolution of the hygrometer,0,%rh,0.029,1,0.029,,resolution 0.1 %rh\n"
+            "Repeatability,0,%rh,0.080,1,0.080,9,\nReproducibility,0,%rh,0.060,1,0.060,12,\n"
+            "value,49.6,%rh\nu_c,0.244,%rh\nk,2\nU,0.5,%rh\np,95 %\n");
+    };
+    EXPECT_FALSE(has(table("certificate D-1, U = 0.10 °C, k = 2"), "B01"));
+    EXPECT_TRUE(has(table(""), "B01"));
+}
+
+}  // namespace
+}  // namespace gumcert::audit
