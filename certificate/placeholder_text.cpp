@@ -117,6 +117,17 @@ const WordList k_talk(
     U"auch sehr mehr andere anderen habe haben hatte kann konnen soll sollen mussen "
     U"nosotros porque queremos quiere decir dicho cosa cosas manera forma otra otro siguiente carta aparte descrito "
     U"tambien muy mas puede debe ");
+/// Verbs that tell nothing without another word.
+const WordList k_auxiliaries(
+    U" is are was were has had did does be been ist sind war waren wurde wurden hat hatte es era eran fue fueron esta "
+    U"estan "
+    U"estaba estaban ha habia ");
+/// Verbs of short sentences about a thing or a person.
+const WordList k_verbs(
+    U" accepts accepted agrees agreed declines declined refuses refused rejects rejected requests requested asks asked "
+    U"wants wanted keeps kept needs needed failed broke stopped leaks leaked arrived came "
+    U"akzeptiert akzeptierte verlangt verlangte wunscht wunschte wuenscht lehnt lehnte fiel kam bleibt blieb "
+    U"acepta acepto solicita solicito pide pidio rechaza rechazo fallo llego llegaron queda quedo ");
 /// Words in the number of a document that is not issued yet.
 const WordList k_of_a_draft(
     U" draft drafts entwurf vorabzug vorlaufig vorlaeufig borrador preliminar provisional preliminary preview sample "
@@ -319,11 +330,34 @@ std::size_t telling_words(std::string_view text) {
     std::set<std::u32string> telling;
     for (const std::u32string& word : words_of(text)) {
         const bool number = std::all_of(word.begin(), word.end(), is_digit);
-        if (word.size() > 1 && !number && !says_nothing(word) && !is_particle_or_field(word) && !k_talk.has(word)) {
+        if (word.size() > 1 && !number && !says_nothing(word) && !is_particle_or_field(word) && !k_talk.has(word) &&
+            !k_auxiliaries.has(word)) {
             telling.insert(word);
         }
     }
     return telling.size();
+}
+
+bool is_sentence_of_fields(std::string_view text) {
+    constexpr std::size_t k_least_words = 4;
+    std::set<std::u32string> telling, fields;
+    std::size_t count = 0;
+    bool has_verb = false;
+    for (const std::u32string& word : words_of(text)) {
+        if (word.size() < 2) {
+            continue;
+        }
+        ++count;
+        has_verb = has_verb || k_verbs.has(word) || k_auxiliaries.has(word);
+        const bool number = std::all_of(word.begin(), word.end(), is_digit);
+        if (k_fields.has(word)) {
+            fields.insert(word);
+        } else if (!number && !says_nothing(word) && !k_particles.has(word) && !k_talk.has(word) &&
+                   !k_auxiliaries.has(word) && !k_of_a_draft.has(word)) {
+            telling.insert(word);
+        }
+    }
+    return !telling.empty() && telling.size() + fields.size() > 1 && (has_verb || count >= k_least_words);
 }
 
 }  // namespace gumcert::certificate

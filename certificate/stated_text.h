@@ -41,7 +41,8 @@ template <class Text>
 [[nodiscard]] bool is_method_identification(const std::string& text);
 
 /// A sentence that says something, as a reason has to: stated, of several words and of twelve letters or four
-/// ideographs at least, two of the words telling something. "x", "n/a", "see above" and "there were no deviations" are
+/// ideographs at least, two of the words telling something, or one beside the name of a field in a sentence ("The device was
+/// dead"). "x", "n/a", "see above" and "there were no deviations" are
 /// none.
 [[nodiscard]] bool is_statement(const std::string& text);
 [[nodiscard]] bool is_statement(const LocalisedText& text);

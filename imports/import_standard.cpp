@@ -68,12 +68,6 @@ private:
         values_;
 };
 
-/// "e_l" of "e_l_3" in the third row of a list.
-std::string name_of_column(const std::string& name, const ImportedQuantity& q) {
-    const std::string ending = q.row ? "_" + std::to_string(*q.row + 1) : std::string();
-    return !ending.empty() && name.ends_with(ending) ? name.substr(0, name.size() - ending.size()) : name;
-}
-
 /// A result that becomes a line.
 struct StandardLine {
     std::string name;
@@ -82,29 +76,74 @@ struct StandardLine {
     std::optional<NominalValue> nominal;
 };
 
-/// Columns whose nominal values tell the rows apart: one quantity of the register.
-std::set<std::string> columns_by_nominal(const std::vector<StandardLine>& lines) {
-    std::map<std::string, std::set<double>> values;
-    std::set<std::string> others;
-    for (const StandardLine& line : lines) {
-        const std::string column = name_of_column(line.name, *line.quantity);
-        if (!line.nominal || !values[column].insert(line.nominal->value).second) {
-            others.insert(column);
+/// How the register calls the quantities of the lines. The rows of a column are lines of one quantity, where their nominal values
+/// tell them apart, and never with those of another table: a value between two ranges of an instrument is none of either.
+/// Columns of several tables that have one symbol are all called by their tables.
+class QuantityNames {
+public:
+    explicit QuantityNames(const std::vector<StandardLine>& lines) {
+        std::map<Column, std::set<double>> values;
+        for (const StandardLine& line : lines) {
+            const Column column = column_of(*line.quantity);
+            if (!line.nominal || !values[column].insert(line.nominal->value).second) {
+                apart_.insert(column);
+            }
+            tables_[line.quantity->symbol].emplace(line.quantity->table, result_outside_of_tables(*line.quantity));
         }
     }
-    std::set<std::string> columns;
-    for (const auto& [column, numbers] : values) {
-        if (!others.contains(column)) {
-            columns.insert(column);
+
+    /// Whether its symbol stands in several tables.
+    [[nodiscard]] bool is_named_by_table(const ImportedQuantity& q) const { return tables_.at(q.symbol).size() > 1; }
+
+    [[nodiscard]] std::string of(const StandardLine& line) {
+        const ImportedQuantity& q = *line.quantity;
+        const bool is_apart = apart_.contains(column_of(q));
+        if (!is_apart) {
+            if (const auto known = names_.find(column_of(q)); known != names_.end()) {
+                return known->second;
+            }
         }
+        const bool is_row = q.name != q.column;
+        std::string name = !is_row || is_apart ? line.name : q.column;
+        if (is_named_by_table(q)) {
+            name = q.result_name.empty() ? q.column : q.result_name + "_" + q.symbol;
+            name += is_row && is_apart ? "_" + std::to_string(*q.row + 1) : "";
+        }
+        name = free_name(name);
+        if (!is_apart) {
+            names_.emplace(column_of(q), name);
+        }
+        return name;
     }
-    return columns;
-}
+
+private:
+    using Column = std::pair<std::size_t, std::string>;
+
+    static Column column_of(const ImportedQuantity& q) { return {q.table, q.column}; }
+    static std::string result_outside_of_tables(const ImportedQuantity& q) { return q.table > 0 ? "" : q.result; }
+
+    std::string free_name(const std::string& name) {
+        std::string free = name;
+        for (int version = 2; !used_.insert(free).second; ++version) {
+            free = name + "_v" + std::to_string(version);
+        }
+        return free;
+    }
+
+    std::set<Column> apart_;  // columns whose rows are quantities of their own
+    std::map<std::string, std::set<std::pair<std::size_t, std::string>>> tables_;  // of each symbol
+    std::map<Column, std::string> names_;
+    std::set<std::string> used_;
+};
 
 /// A line of the register from an input of the job.
-ordered_json line_of(const std::string& name, const StandardLine& from) {
+/// \param range  heading of its table, where that tells it apart; else ""
+ordered_json line_of(const std::string& name, const std::string& range, const StandardLine& from) {
     const ordered_json& input = *from.input;
     ordered_json line{{"quantity", name}};
+    if (!range.empty()) {
+        line["range"] = range;
+    }
     if (from.nominal) {
         line["nominal"] = from.nominal->value;
         if (from.nominal->unit != input.at("unit")) {
@@ -153,11 +192,15 @@ ImportedJob import_standard(std::string_view bytes, const std::string& file, con
         }
         results.push_back({.name = name, .input = &input, .quantity = &q, .nominal = nominal_values.of(q)});
     }
-    const std::set<std::string> columns = columns_by_nominal(results);
+    QuantityNames names(results);
     ordered_json lines = ordered_json::array();
     for (const StandardLine& result : results) {
-        const std::string column = name_of_column(result.name, *result.quantity);
-        lines.push_back(line_of(columns.contains(column) ? column : result.name, result));
+        const ImportedQuantity& q = *result.quantity;
+        constexpr std::size_t k_longest_range = 60;  // [character]: a line of the register has 256 bytes
+        lines.push_back(
+            line_of(names.of(result),
+                    names.is_named_by_table(q) ? reports::shortened(reports::printable(q.result), k_longest_range) : "",
+                    result));
     }
     if (lines.empty()) {
         throw gum::InputError(gum::Diagnostic{.code = "GC-LAB-0021",

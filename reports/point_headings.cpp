@@ -1,9 +1,12 @@
 #include "reports/point_headings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
+#include "certificate/piece_roles.h"
 #include "text/small_letters.h"
 
 namespace gumcert::reports {
@@ -12,6 +15,9 @@ namespace {
 
 using certificate::CertifiedTable;
 using certificate::ShownColumn;
+
+/// Names of columns that the wording knows, beside those of roles, stages and limits.
+constexpr std::array<std::string_view, 3> k_usual_columns{"range", "function", "remark"};
 
 bool shows_a_quantity(const ShownColumn& shown) {
     return shown.show == "value" || shown.show == "column";
@@ -75,12 +81,19 @@ Text described_heading(const CertifiedTable& table, const ShownColumn& shown, co
 
 }  // namespace
 
+Text word_of_column(const std::string& name, const Wording& words) {
+    const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const bool is_known = is_among(certificate::k_quantity_roles) || is_among(certificate::k_piece_roles) ||
+                          is_among(certificate::k_quantity_stages) || is_among(certificate::k_limit_columns) ||
+                          is_among(k_usual_columns);
+    return is_known ? words("point_table", name) : Text(name);
+}
+
 Text heading_of(const certificate::PointColumn& column, const Wording& words) {
     if (!column.heading.empty()) {
         return words.localised(column.heading);
     }
-    const std::string& name = column.role.empty() ? column.name : column.role;
-    return !name.empty() && words.has("point_table", name) ? words("point_table", name) : Text(name);
+    return word_of_column(column.role.empty() ? column.name : column.role, words);
 }
 
 Text heading_of_shown(const CertifiedTable& table, const ShownColumn& shown, const Wording& words) {

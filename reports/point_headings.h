@@ -7,6 +7,9 @@
 
 namespace gumcert::reports {
 
+/// The word for a role, a stage or a usual name of a column (range, function, remark, limits); the name itself for any other.
+[[nodiscard]] Text word_of_column(const std::string& name, const Wording& words);
+
 /// Heading of a column of words or numbers of points: its own, else that of its role, else its name.
 [[nodiscard]] Text heading_of(const certificate::PointColumn& column, const Wording& words);
 

@@ -132,7 +132,9 @@ Text Wording::operator()(const std::string& group, const std::string& name, cons
 
 bool Wording::has(const std::string& group, const std::string& name) const {
     return std::all_of(texts_.begin(), texts_.end(), [&](const json* texts) {
-        return find(*texts, {group, name}) != nullptr;
+        const json* const text = find(*texts, {group, name});
+        return text != nullptr && text->is_string() &&
+               text->get_ref<const std::string&>().find('{') == std::string::npos;
     });
 }
 

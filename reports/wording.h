@@ -37,6 +37,8 @@ public:
 
     [[nodiscard]] Text operator()(const std::string& group, const std::string& name) const;
     [[nodiscard]] Text operator()(const std::string& group, const std::string& name, const std::string& item) const;
+    /// Whether there is a text that stands by itself: names that data bring are looked up by this. A text with a place for a value
+    /// is none; it is for filled() alone.
     [[nodiscard]] bool has(const std::string& group, const std::string& name) const;
     /// All texts of a group in the binding language, for templates.
     /// \throws gum::StorageError if the wording does not have it

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -24,6 +25,24 @@ constexpr std::array<std::string_view, 11> k_ways_to_state = {
 bool states_uncertainty(const json& statement) {
     return std::any_of(k_ways_to_state.begin(), k_ways_to_state.end(),
                        [&statement](std::string_view key) { return statement.contains(key); });
+}
+
+bool has_readings(const json& statement) {
+    return statement.contains("observations") || statement.contains("groups");
+}
+
+/// Readings stand beside components, or beside a resolution, and each is stated where it changes.
+bool stands_beside(std::string_view key, const json& own) {
+    const bool states_others = own.contains("components") || own.contains("resolution");
+    return ((key == "components" || key == "resolution") && has_readings(own) && !states_others) ||
+           (key == "observations" && states_others && !has_readings(own));
+}
+
+json without(json statement, std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) {
+        statement.erase(std::string(key));
+    }
+    return statement;
 }
 
 /// "3" of a reading `V.3`.
@@ -146,20 +165,44 @@ json JobStatements::of(const std::string& input, const std::string& point) const
     }
     if (states_uncertainty(own)) {
         for (const std::string_view key : k_ways_to_state) {
-            statement.erase(std::string(key));
+            if (!stands_beside(key, own)) {
+                statement.erase(std::string(key));
+            }
         }
     }
     statement.update(own);
     return statement;
 }
 
-json JobStatements::of(const std::string& input, const std::string& point, std::size_t component) const {
+json JobStatements::of_part(const std::string& input, const std::string& point, const reports::BudgetRow& part) const {
     const json statement = of(input, point);
-    const auto components = statement.is_object() ? statement.find("components") : statement.end();
-    if (!statement.is_object() || components == statement.end() || component >= components->size()) {
+    if (!statement.is_object() || !part.standard.empty()) {
         return {};
     }
-    return components->at(component);
+    if (const auto components = statement.find("components"); components != statement.end() && components->is_array()) {
+        for (const json& component : *components) {
+            const auto name = component.is_object() ? component.find("name") : component.end();
+            if (component.is_object() && name != component.end() && *name == part.input) {
+                return component;
+            }
+        }
+    }
+    if (part.input == "readings" && has_readings(statement)) {
+        return without(statement, {"components", "resolution", "distribution", "nu", "reliability"});
+    }
+    if (part.input == "resolution" && has_readings(statement) && statement.contains("resolution")) {
+        return without(statement, {"observations", "groups", "pooled", "type"});
+    }
+    return {};
+}
+
+json JobStatements::of_whole(const std::string& input, const std::string& point) const {
+    json statement = of(input, point);
+    const auto components = statement.is_object() ? statement.find("components") : statement.end();
+    if (!statement.is_object() || components == statement.end() || !components->is_array()) {
+        return statement;
+    }
+    return components->size() == 1 && !has_readings(statement) ? components->front() : json();
 }
 
 }  // namespace gumcert::audit

@@ -18,8 +18,14 @@ public:
     /// The statement of an input as it holds at a point, an object; null where the job has none.
     /// \param point  name of the point; "" without a table
     [[nodiscard]] nlohmann::json of(const std::string& input, const std::string& point) const;
-    /// The same of a component of an input; null where it has no such component.
-    [[nodiscard]] nlohmann::json of(const std::string& input, const std::string& point, std::size_t component) const;
+    /// The statement of a part of an input, found by its name: of a component, of the readings or of the resolution that stand
+    /// beside each other or beside components (docs/budget_job.md, "components"); null where the job has no such part, as of
+    /// those that come from a standard of the register.
+    [[nodiscard]] nlohmann::json of_part(const std::string& input, const std::string& point,
+                                         const reports::BudgetRow& part) const;
+    /// The statement of an input that the record shows without parts: of its only component where it is stated as one, null
+    /// where it is stated as a sum of several.
+    [[nodiscard]] nlohmann::json of_whole(const std::string& input, const std::string& point) const;
 
 private:
     nlohmann::json inputs_;                           ///< of the job

@@ -162,17 +162,15 @@ void add_rows(AuditedBudget& budget, const std::vector<reports::BudgetRow>& rows
             for (std::size_t c = 0; c < stated.components.size(); ++c) {
                 const reports::BudgetRow& part = stated.components[c];
                 budget.rows.push_back(row_of(part, name + ": " + part.input, place + "/components/" + std::to_string(c),
-                                             budget.unit, job == nullptr ? json() : job->of(stated.input, point, c)));
+                                             budget.unit,
+                                             job == nullptr ? json() : job->of_part(stated.input, point, part)));
                 budget.rows.back().part_of = budget.rows.back().input = stated.input;
                 budget.rows.back().component = c;
                 budget.rows.back().is_measured = measured;
             }
             continue;
         }
-        json statement = job == nullptr ? json() : job->of(stated.input, point, 0);
-        if (statement.is_null() && job != nullptr) {
-            statement = job->of(stated.input, point);
-        }
+        const json statement = job == nullptr ? json() : job->of_whole(stated.input, point);
         budget.rows.push_back(row_of(stated, name, place, budget.unit, statement));
         budget.rows.back().input = stated.input;
         budget.rows.back().is_measured = measured;

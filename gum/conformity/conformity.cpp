@@ -124,7 +124,8 @@ bool Application::beyond(const ToleranceLimits& zone) const {
 
 bool Application::some_value_passes() const {
     const ToleranceLimits& a = decision_.acceptance;
-    return (a.lower || a.upper) && (!a.two_sided() || at_most(*a.lower, *a.upper));
+    // A zone without width accepts nothing that is measured; whether it has one must not hang on the last bit.
+    return (a.lower || a.upper) && (!a.two_sided() || !at_most(*a.upper, *a.lower));
 }
 
 std::string Application::in_tolerance() const {
@@ -479,8 +480,12 @@ void Application::verdict() {
         decision_.acceptance = {};
         decision_.guard_band = 0.0;
     } else if (!some_value_passes()) {
-        cannot(p_.guard_band ? "no value can pass, because the guard band is larger than half of the tolerance"
-                             : "no value can pass, because U is too large against the tolerance");
+        decision_.accepts_nothing = true;
+        const ToleranceLimits& a = decision_.acceptance;
+        cannot(!p_.guard_band ? "no value can pass, because U is too large against the tolerance"
+               : a.two_sided() && at_most(*a.lower, *a.upper)
+                   ? "no value can pass, because the guard band is half of the tolerance"
+                   : "no value can pass, because the guard band is larger than half of the tolerance");
     }
     if (!applies()) {
         decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;

@@ -24,7 +24,8 @@ struct ConformityDecision {
     DecisionRule rule = DecisionRule::simple_acceptance;
     std::string formula = {};  ///< "AL = TL + r·U, AU = TU − r·U, r = 0.5"
     double guard_band = 0.0;   ///< w, below 0 outwards; the larger one where the two sides differ; 0 without limits
-    ToleranceLimits acceptance = {};  ///< AL, AU; AL > AU, or neither: no value can pass
+    ToleranceLimits acceptance = {};  ///< AL, AU; AL ≥ AU, or neither: no value can pass
+    bool accepts_nothing = false;     ///< no value can pass, because the zone of acceptance has no width
     /// DR-05, DR-06, DR-08: beyond them, nonconformity is stated; also where no value can pass. Else empty
     ToleranceLimits rejection = {};
     double conformance_probability = 0.0;  ///< p_c; DR-09 method 4: with the population as prior
@@ -42,8 +43,8 @@ struct ConformityDecision {
 /// Applies a decision rule to one measured value.
 ///
 /// A value on an acceptance limit passes, and one within the rounding of the arithmetic of double precision counts as
-/// on it: with T_U = 0.3 and U = 0.1, y = 0.2 passes DR-03. Where A_L > A_U, or the rule cannot be applied, no value
-/// can pass; the verdict is not_applicable then, because an item does not fail for a poor measurement, and fail where
+/// on it: with T_U = 0.3 and U = 0.1, y = 0.2 passes DR-03. Where A_L ≥ A_U within that rounding, or the rule cannot be
+/// applied, no value can pass; the verdict is not_applicable then, because an item does not fail for a poor measurement, and fail where
 /// nonconformity is proven: y beyond the limits by more than U, or where the rule itself begins to reject (DR-05,
 /// DR-06, DR-08, DR-09 by method 4). So far out every rule says fail. Where the probability of a rule by risk is counted
 /// from trials and lies within three standard uncertainties of the count from that of the rule, nothing is decided:

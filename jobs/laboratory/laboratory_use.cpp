@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -232,6 +233,86 @@ void put_uncertainty(json& row, const std::vector<const laboratory::CalibrationR
     row["unit"] = unit;
     if (largest->first > least->first * (1.0 + k_same_U)) {
         row["U_to"] = largest->first;
+    }
+}
+
+/// What tells an entry of a list: a text or number, else its id or name, else the beginning of its JSON.
+std::string described_entry(const json& entry) {
+    if (!entry.is_structured()) {
+        return described(entry);
+    }
+    for (const char* key : {"id", "name", "measurand"}) {
+        if (const auto found = entry.find(key); entry.is_object() && found != entry.end() && found->is_string()) {
+            return described(*found);
+        }
+    }
+    constexpr std::size_t k_longest = 60;
+    const std::string text = entry.dump(-1, ' ', true);
+    return text.size() > k_longest ? text.substr(0, k_longest) + "…" : text;
+}
+
+/// Where two values part: the members and the entries that differ, each by what stands there.
+/// \param where  of the stated one
+void note_differences(const json& stated, const json& registered, const std::string& subject, const std::string& where,
+                      std::vector<certificate::LaboratoryRegister::Contradiction>& found) {
+    if (stated.is_discarded()) {
+        return;  // refused where it was read
+    }
+    const auto note = [&](const std::string& place, const json* a, const json* b) {
+        found.push_back({.where = place,
+                         .subject = subject,
+                         .stated = a == nullptr ? "nothing" : described_entry(*a),
+                         .registered = b == nullptr ? "nothing" : described_entry(*b)});
+    };
+    if (stated.is_object() && registered.is_object()) {
+        for (const auto& [key, value] : stated.items()) {
+            const auto other = registered.find(key);
+            if (other == registered.end()) {
+                note(child_pointer(where, key), &value, nullptr);
+            } else if (*other != value) {
+                note_differences(value, *other, subject, child_pointer(where, key), found);
+            }
+        }
+        for (const auto& [key, value] : registered.items()) {
+            if (!stated.contains(key)) {
+                note(child_pointer(where, key), nullptr, &value);
+            }
+        }
+        return;
+    }
+    if (!stated.is_array() || !registered.is_array()) {
+        note(where, &stated, &registered);
+        return;
+    }
+    const auto is_in = [](const json& list, const json& entry) {
+        return std::find(list.begin(), list.end(), entry) != list.end();
+    };
+    const auto is_called_alike = [](const json& a, const json& b) {
+        return a.is_object() && b.is_object() && a.contains("id") && b.contains("id") && a["id"] == b["id"];
+    };
+    const std::size_t before = found.size();
+    for (std::size_t i = 0; i < stated.size(); ++i) {
+        if (is_in(registered, stated[i])) {
+            continue;
+        }
+        const auto alike = std::find_if(registered.begin(), registered.end(),
+                                        [&](const json& other) { return is_called_alike(stated[i], other); });
+        if (alike != registered.end()) {
+            note_differences(stated[i], *alike, subject, child_pointer(where, i), found);
+        } else {
+            note(child_pointer(where, i), &stated[i], nullptr);
+        }
+    }
+    for (const json& other : registered) {
+        const bool is_known = is_in(stated, other) || std::any_of(stated.begin(), stated.end(), [&](const json& entry) {
+                                  return is_called_alike(entry, other);
+                              });
+        if (!is_known) {
+            note(where, nullptr, &other);
+        }
+    }
+    if (found.size() == before) {  // the same entries in another order, or one of them twice
+        note(where, &stated, &registered);
     }
 }
 
@@ -805,10 +886,7 @@ void LaboratoryUse::complete_object(json& data, const std::string& key, const js
         if (stated == object.end()) {
             object[name] = value;
         } else if (*stated != value && !stated->is_discarded()) {
-            facts_.contradictions.push_back({.where = pointer + "/" + key + "/" + name,
-                                             .subject = subject,
-                                             .stated = described(*stated),
-                                             .registered = described(value)});
+            note_differences(*stated, value, subject, pointer + "/" + key + "/" + name, facts_.contradictions);
         }
     }
 }

@@ -212,6 +212,26 @@ std::optional<std::string> factor_of(std::optional<std::string_view> word, Token
                                    : numerator);
 }
 
+/// A unit behind "|" by the names of our table: one that D-SI has is not called so there, and the name may mean another thing.
+/// The writer sets "_" for the blanks between factors, which would split a list, and names have some of their own: each factor
+/// is the longest unit that the text goes on with.
+std::optional<std::string> unit_outside_of_d_si(std::string_view text) {
+    constexpr std::size_t k_longest = 100;  // [byte]: of no unit that a certificate has
+    std::string unit;
+    while (!text.empty() && text.size() <= k_longest) {
+        std::size_t end = text.size();
+        while (end != std::string_view::npos && end > 0 && !is_unit(std::string(text.substr(0, end)))) {
+            end = text.rfind('_', end - 1);
+        }
+        if (end == std::string_view::npos || end == 0) {
+            return std::nullopt;
+        }
+        unit += (unit.empty() ? "" : " ") + std::string(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return text.empty() && is_unit(unit) && !gum::unit_in_d_si(unit) ? std::optional(unit) : std::nullopt;
+}
+
 }  // namespace
 
 bool is_d_si(std::string_view text) {
@@ -238,6 +258,9 @@ bool is_d_si(std::string_view text) {
 }
 
 std::optional<std::string> unit_from_d_si(std::string_view text) {
+    if (text.starts_with('|')) {
+        return unit_outside_of_d_si(std::string(text.substr(1)));
+    }
     Tokens tokens(text);
     std::string result;
     int sign = 1;

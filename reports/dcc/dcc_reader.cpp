@@ -593,12 +593,17 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
         return;
     }
     require_few_numbers(out_.quantities.size() + rows, quantity);
-    const std::string base = free_name(base_name(quantity, context, main), as_name(context.result_en), rows);
+    const std::string result_name = as_name(context.result_en);
+    const std::string symbol = base_name(quantity, context, main);
+    const std::string base = free_name(symbol, result_name, rows);
     for (std::size_t row = 0; row < rows; ++row) {
         ImportedQuantity imported;
         static_cast<ImportedNumber&>(imported) = main.numbers[row];
         imported.name = rows > 1 ? base + "_" + std::to_string(row + 1) : base;
+        imported.column = base;
+        imported.symbol = symbol;
         imported.result = context.result;
+        imported.result_name = result_name;
         imported.quantity = first_content(quantity.child("dcc:name"));
         imported.ref_type = quantity.attribute("refType");
         imported.id = quantity.attribute("id");

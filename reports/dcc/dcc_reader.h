@@ -27,8 +27,11 @@ struct ImportedNumber {
 /// One number of a foreign certificate, ready to be an input of a budget. Where the document states the same number in
 /// several units, this is the first of those that have an uncertainty (else the first); the others are in `also`.
 struct ImportedQuantity : ImportedNumber {
-    std::string name;  ///< unique in the document, made from quantity, result and row: a name of the job language
+    std::string name;    ///< unique in the document, made from quantity, result and row: a name of the job language
+    std::string column;  ///< `name` without the number of the row
+    std::string symbol;  ///< that `column` is made from: quantities of several tables may share it
     std::string result, quantity;  ///< names as the document gives them (first language)
+    std::string result_name;       ///< of `result`, a beginning of names of the job language; "" where it gives none
     std::string ref_type, id;      ///< attributes; "" without
     /// What the number is part of: "result", "influence_condition", "meta_data" (limits, nominal values …),
     /// "statement", "equipment", "method", "item", "location"

@@ -1,6 +1,7 @@
 #include "reports/view/certificate_identity_sections.h"
 
 #include "certificate/address_lines.h"
+#include "reports/point_headings.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
 #include "reports/view/certificate_conformity_section.h"
@@ -433,7 +434,7 @@ Text side_of_change(const certificate::Change& change, const std::string& side, 
                                  : Text(side);
     }
     if (kind == "role" || kind == "stage") {
-        return words.has("point_table", side) ? words("point_table", side) : Text(side);
+        return word_of_column(side, words);
     }
     if (kind == "code" || kind == "coverage") {
         const std::string word = kind == "coverage" && side == "none" ? "no_coverage" : side;

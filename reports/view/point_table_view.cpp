@@ -39,11 +39,6 @@ struct LayoutColumn {
 
 const std::string k_blank = "\u00A0";  // nothing is missing where nothing is to be said
 
-/// Of a word that the wording has for a role or a usual name of a column; else the name itself.
-Text word_or(const std::string& name, const Wording& words) {
-    return !name.empty() && words.has("point_table", name) ? words("point_table", name) : Text(name);
-}
-
 /// The magnitude of a printed number below 0; "" for any other.
 std::string without_minus(const std::string& printed) {
     for (const std::string_view minus : {"-", "\u2212"}) {
@@ -479,8 +474,8 @@ Text layout_caption(const certificate::TableLayout& layout, const Wording& words
                        ? words("table_name", "results")
                        : words.filled("point_table", "title", {{"title", words.localised(layout.title)}});
     if (!layout.group.empty()) {
-        const Text heading =
-            layout.group_role.empty() ? words.localised(layout.group_heading) : word_or(layout.group_role, words);
+        const Text heading = layout.group_role.empty() ? words.localised(layout.group_heading)
+                                                       : word_of_column(layout.group_role, words);
         caption += " " + words.filled("point_table", "group", {{"heading", heading}, {"group", layout.group}});
     }
     return caption;

@@ -92,6 +92,71 @@ TEST(StatedText, TellsStatementsFromSingleWords) {
     }
 }
 
+// Reasons that laboratories give, most of them of words that name fields as well.
+TEST(StatedText, TakesPlainSentencesAsReasons) {
+    for (const char* text : {"The device was dead on receipt.",
+                             "The instrument was broken; there are none.",
+                             "None, because the instrument was defective.",
+                             "The item was not working.",
+                             "The display was dead.",
+                             "The item was calibrated at the customer's site.",
+                             "The item was calibrated on site and not received.",
+                             "Calibrated on the premises of the customer.",
+                             "No item was received: calibration on site.",
+                             "The measurement was made at the customer's.",
+                             "The customer brought the item by himself.",
+                             "The instrument is installed permanently.",
+                             "The value was lost with the device.",
+                             "Customer accepts it.",
+                             "The customer agreed to this by e-mail.",
+                             "The certificate of the manufacturer expired.",
+                             "Device failed during warm-up.",
+                             "The laboratory moved to another building.",
+                             "Divisor agreed.",
+                             "Das Gerät war defekt.",
+                             "Keine, das Gerät war bei Eingang defekt.",
+                             "Gerät ohne Anzeige angeliefert.",
+                             "Der Gegenstand wurde beim Kunden kalibriert.",
+                             "Kalibrierung vor Ort beim Auftraggeber.",
+                             "Das Gerät ist fest eingebaut.",
+                             "Der Auftraggeber verlangt es so.",
+                             "Gerät war defekt.",
+                             "El equipo llegó averiado.",
+                             "El instrumento no encendía.",
+                             "Ninguno: el equipo estaba averiado.",
+                             "El objeto se calibró en las instalaciones del cliente.",
+                             "Calibración realizada en casa del cliente.",
+                             "El cliente acepta el divisor.",
+                             "El equipo queda instalado.",
+                             "儀器故障，無法量測。",
+                             "送校時儀器無顯示。",
+                             "於客戶處校正，未收件。"}) {
+        EXPECT_TRUE(is_statement(std::string(text))) << text;
+    }
+}
+
+TEST(StatedText, NamesOfFieldsAloneAreNoReason) {
+    const std::vector<std::string> words{
+        "the",     "customer",   "device", "is",     "not",     "name",   "of",        "reason",  "unknown",
+        "was",     "no",         "serial", "number", "item",    "on",     "site",      "see",     "above",
+        "none",    "procedure",  "der",    "Kunde",  "ist",     "Gerät",  "unbekannt", "keine",   "Angabe",
+        "wurde",   "Abweichung", "siehe",  "el",     "cliente", "objeto", "no",        "es",      "equipo",
+        "ninguna", "desviación", "fue",    "método", "sample",  "Muster", "ejemplo",   "example", "said",
+        "because", "there",      "were",   "weil",   "porque"};
+    std::size_t next = 7;
+    for (int made = 0; made < 2000; ++made) {
+        std::string text;
+        for (int i = 0; i < 3 + made % 6; ++i) {
+            next = (next * 1103515245U + 12345U) % 2147483648U;
+            const std::string& word = words[(next / 65536U) % words.size()];
+            const bool of_a_draft = word == "sample" || word == "Muster" || word == "ejemplo" || word == "example";
+            // Two words for a sample tell enough by themselves, as they do elsewhere.
+            text += of_a_draft && i > 0 ? "the " : word + " ";
+        }
+        EXPECT_FALSE(is_statement(text)) << text;
+    }
+}
+
 TEST(StatedText, TellsAddressesFromCountries) {
     using Lines = std::vector<std::string>;
     EXPECT_TRUE(is_postal_address(Lines{"Example Street 1", "12345 Example Town"}));

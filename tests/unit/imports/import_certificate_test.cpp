@@ -54,6 +54,16 @@ std::vector<std::string> of_numbers(const std::vector<gum::Diagnostic>& remarks)
     return all;
 }
 
+TEST(ImportCertificate, KnowsUnitsOutsideOfTheSiByTheirNames) {
+    const ImportedJob imported =
+        import_certificate(with_quantities(quantity("Speed", "1500.2", expanded_value("0.4", "2.0"), "|rpm") +
+                                           quantity("Pressure", "10.01", expanded_value("0.02", "2.0"), "|psi")),
+                           "certificate.xml");
+    const nlohmann::json inputs = nlohmann::json::parse(imported.job)["inputs"];
+    EXPECT_EQ(inputs["speed"]["unit"], "rpm");
+    EXPECT_EQ(inputs["pressure"]["unit"], "psi");
+}
+
 TEST(ImportCertificate, MakesAJobOfWhatHasAnUncertainty) {
     const ImportedJob imported = import_certificate(
         with_quantities(quantity("Length", "1.50", expanded_value("0.020", "2.0")) + quantity("Nominal", "1.5", "") +
@@ -105,7 +115,7 @@ TEST(ImportCertificate, LeavesOutWhatABudgetCannotHold) {
 TEST(ImportCertificate, LeavesOutWhatCannotBeAnInput) {
     const ImportedJob imported = import_certificate(
         with_quantities(quantity("a", "NaN", expanded_value("0.1", "2")) +
-                        quantity("b", "1", expanded_value("0.1", "2"), "|inch") +
+                        quantity("b", "1", expanded_value("0.1", "2"), "|quux") +
                         quantity("c", "1", expanded_value("0", "2")) + quantity("d", "1", standard("NaN"))),
         "a.xml");
     const nlohmann::json job = nlohmann::json::parse(imported.job);
@@ -211,7 +221,7 @@ TEST(ImportCertificate, CarriesTheRowOfATable) {
 
 TEST(ImportCertificate, RemarksTheSameOfAColumnOnce) {
     const ImportedJob imported =
-        import_certificate(with_quantities("<dcc:list>" + column("A", "1 2 3", "|inch", "0.1") +
+        import_certificate(with_quantities("<dcc:list>" + column("A", "1 2 3", "|quux", "0.1") +
                                            column("B", "1 2 3", "\\metre", "0.1") + "</dcc:list>"),
                            "a.xml");
     ASSERT_EQ(of_numbers(imported.remarks),

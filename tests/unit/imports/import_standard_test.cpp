@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "gum/quantity/diagnostic.h"
 
@@ -125,6 +129,72 @@ TEST(ImportStandard, RowsOfATableAreLinesOfOneQuantity) {
                     list_of("basic_measurementError", "0.1 0.2 0.3", "\\kelvin", "0.01 0.02 0.03"));
     const nlohmann::json lines = nlohmann::json::parse(twice.job)["calibrations"][0]["results"];
     EXPECT_NE(lines[1]["quantity"], lines[2]["quantity"]) << "nominal values do not tell the rows apart";
+}
+
+/// A result with one table of errors at nominal values.
+std::string result_of(const std::string& heading, const std::string& quantities) {
+    return "<dcc:result><dcc:name><dcc:content lang='en'>" + heading + "</dcc:content></dcc:name><dcc:data><dcc:list>" +
+           quantities + "</dcc:list></dcc:data></dcc:result>";
+}
+
+nlohmann::json lines_of_results(const std::string& results) {
+    std::string bytes = certificate_with("");
+    const std::string begin = "<dcc:results>";
+    const std::size_t from = bytes.find(begin) + begin.size();
+    bytes.replace(from, bytes.find("</dcc:results>") - from, results);
+    return nlohmann::json::parse(import_standard(bytes, "certificate.xml", "STD-2").job)["calibrations"][0]["results"];
+}
+
+// A table of one row has no number in the names of its quantities, and fell together with a table of several rows.
+TEST(ImportStandard, RangesAreQuantitiesOfTheirOwn) {
+    const std::string type = "basic_measurementError";
+    const auto range = [&](const std::string& name, const std::string& nominal, const std::string& U) {
+        return result_of("Voltage. Range: " + name,
+                         list_of("basic_nominalValue", nominal, "\\volt", "") + list_of(type, nominal, "\\volt", U));
+    };
+    const nlohmann::json lines = lines_of_results(range("10 V", "1 5 10", "0.1 0.1 0.1") +
+                                                  range("100 V", "10 50", "0.2 0.2") + range("1000 V", "700", "0.3"));
+    ASSERT_EQ(lines.size(), 6U);
+    for (const std::size_t i : {0U, 1U, 2U}) {
+        EXPECT_EQ(lines[i]["quantity"], "voltage_range_10_v_basic_measurementerror");
+        EXPECT_EQ(lines[i]["range"], "Voltage. Range: 10 V");
+    }
+    EXPECT_EQ(lines[3]["quantity"], lines[4]["quantity"]);
+    EXPECT_EQ(lines[3]["range"], "Voltage. Range: 100 V");
+    EXPECT_EQ(lines[5]["quantity"], "voltage_range_1000_v_basic_measurementerror");
+    EXPECT_EQ(lines[5]["range"], "Voltage. Range: 1000 V");
+}
+
+TEST(ImportStandard, NoQuantityHoldsRowsOfTwoResults) {
+    const std::vector<std::string> nominal{"7", "1 2", "1 2 3", "5 5"};  // the last does not tell its rows apart
+    const std::vector<std::string> headings{"Range 1", "Range 2", "", "basic_e"};
+    std::size_t value = 0;  // tells every line where it came from
+    for (std::size_t made = 0; made < 256; ++made) {
+        std::string results;
+        std::vector<std::size_t> first;  // value of each result
+        for (std::size_t r = 0, digits = made; r < 4; ++r, digits /= 4) {
+            const std::string& at = nominal[digits % 4];
+            std::string values, U;
+            first.push_back(value);
+            for (std::size_t row = 0; row < (at.size() + 1) / 2; ++row) {
+                values += std::to_string(value++) + " ";
+                U += "0.1 ";
+            }
+            const std::string symbol = r == 3 && made % 3 == 0 ? "basic_e_1" : "basic_e";
+            results += result_of(
+                headings[(r + made / 7) % 4 == 1 ? 0 : r],
+                list_of("basic_nominalValue", at, "\\volt", "") +
+                    list_of(symbol, values.substr(0, values.size() - 1), "\\volt", U.substr(0, U.size() - 1)));
+        }
+        std::map<std::string, std::set<std::size_t>> results_of_quantity;
+        for (const nlohmann::json& line : lines_of_results(results)) {
+            const auto from = std::upper_bound(first.begin(), first.end(), line["value"].get<std::size_t>());
+            results_of_quantity[line["quantity"]].insert(static_cast<std::size_t>(from - first.begin()));
+        }
+        for (const auto& [quantity, of] : results_of_quantity) {
+            EXPECT_EQ(of.size(), 1U) << quantity << " of " << results;
+        }
+    }
 }
 
 TEST(ImportStandard, ResultsBeforeAnAdjustmentAreNoValuesOfTheStandard) {

@@ -17,6 +17,12 @@ namespace gumcert::reports {
 
 namespace {
 
+/// Whether a point states an input, which no equation may need: a nominal value.
+bool is_stated_at(const jobs::BudgetJob& job, std::optional<std::size_t> point, std::size_t input) {
+    return point &&
+           std::ranges::any_of(job.points[*point].inputs, [&](const auto& stated) { return stated.first == input; });
+}
+
 certificate::InputValues values_of(const jobs::BudgetJob& job, const gum::BudgetResult& result, std::size_t input) {
     certificate::InputValues out{.unit = job.inputs[input].unit.text(), .values = {}};
     const auto value_at = [&](std::optional<std::size_t> point) {
@@ -27,7 +33,7 @@ certificate::InputValues values_of(const jobs::BudgetJob& job, const gum::Budget
         return out;
     }
     for (const gum::BudgetPointResult& point : result.points) {
-        const bool is_used = !point.section || point.model->uses(input);
+        const bool is_used = !point.section || point.model->uses(input) || is_stated_at(job, point.point, input);
         if (point.point) {
             out.values.push_back(is_used ? std::optional(value_at(point.point)) : std::nullopt);
         } else if (is_used) {

@@ -236,6 +236,10 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
         const ConformityDecision by_hand =
             gum::decide_conformity(rule.rule, rule.parameters, rule.limits, numbers->printed);
         verdict.verdict_from_printed = gum::verdict_name(by_hand.verdict);
+        if (by_hand.rule == shown.rule && by_hand.accepts_nothing &&
+            by_hand.verdict == gum::ConformityVerdict::not_applicable) {
+            fill(verdict, by_hand);  // nobody could follow that a value fails where none can pass
+        }
         if (by_hand.rule == shown.rule) {  // else rounding has moved a ratio past the one where an alternative begins
             shown = by_hand;
         }

@@ -10,7 +10,7 @@ using nlohmann::json;
 reports::EvaluationRecord record_of(const char* points, std::vector<reports::InputFile> files = {}) {
     reports::EvaluationRecord record;
     record.job_json = std::string(R"({"inputs": {"x": {"unit": "V", "U": 1, "k": 2, "source": "STD-1"},
-        "y": {"observations": [0, 1]}, "z": {"components": [{"u": 1}, {"u": 2}]}}, "points": )") +
+        "y": {"observations": [0, 1]}, "z": {"components": [{"name": "a", "u": 1}, {"name": "b", "u": 2}]}}, "points": )") +
                       points + "}";
     record.job_files = std::move(files);
     return record;
@@ -48,11 +48,38 @@ TEST(JobStatements, OfSectionsAreNumberedThroughTheJob) {
     EXPECT_EQ(job.of("x", "3").at("value"), 3) << "z stands before a in the record";
 }
 
+reports::BudgetRow part_named(const std::string& name, const std::string& standard = "") {
+    reports::BudgetRow part;
+    part.input = name;
+    part.standard = standard;
+    return part;
+}
+
 TEST(JobStatements, HaveComponents) {
     const JobStatements job(record_of("[]"));
-    EXPECT_EQ(job.of("z", "", 1), json::parse(R"({"u": 2})"));
-    EXPECT_TRUE(job.of("z", "", 2).is_null());
-    EXPECT_TRUE(job.of("x", "", 0).is_null());
+    EXPECT_EQ(job.of_part("z", "", part_named("b")), json::parse(R"({"name": "b", "u": 2})"));
+    EXPECT_TRUE(job.of_part("z", "", part_named("c")).is_null());
+    EXPECT_TRUE(job.of_part("z", "", part_named("a", "STD-1")).is_null()) << "the part of a standard";
+    EXPECT_TRUE(job.of_part("x", "", part_named("b")).is_null());
+    EXPECT_TRUE(job.of_whole("z", "").is_null()) << "a sum of two has no statement of its own";
+    EXPECT_EQ(job.of_whole("x", "").at("U"), 1);
+}
+
+TEST(JobStatements, OfAPointAreReadingsBesideTheComponentsOfTheJob) {
+    const JobStatements job(
+        record_of(R"([{"point": "a", "z": {"observations": [1, 2]}}, {"point": "b", "z": {"u": 5}}])"));
+    EXPECT_EQ(job.of_part("z", "a", part_named("readings")), json::parse(R"({"observations": [1, 2]})"));
+    EXPECT_EQ(job.of_part("z", "a", part_named("b")).at("u"), 2);
+    EXPECT_TRUE(job.of_part("z", "b", part_named("b")).is_null());
+}
+
+TEST(JobStatements, OfAResolutionBesideReadingsIsItsOwn) {
+    reports::EvaluationRecord record;
+    record.job_json = R"({"inputs": {"x": {"observations": [1, 2], "resolution": 0.1, "distribution": "uniform"}}})";
+    const JobStatements job(record);
+    EXPECT_EQ(job.of_part("x", "", part_named("readings")), json::parse(R"({"observations": [1, 2]})"));
+    EXPECT_EQ(job.of_part("x", "", part_named("resolution")),
+              json::parse(R"({"resolution": 0.1, "distribution": "uniform"})"));
 }
 
 TEST(JobStatements, OfATextThatIsNoJobAreNone) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 #include <string>
@@ -355,6 +356,52 @@ TEST(SubjectOfRecord, ComponentsAreRowsOfTheirOwn) {
     ASSERT_EQ(subject.budgets.front().rows.size(), 3U);
     EXPECT_EQ(subject.budgets.front().rows[0].quantity, "a: first");
     EXPECT_NEAR(evaluate(subject.budgets.front()).u_c, 0.5, 1e-12);
+}
+
+/// A record lists the readings before the components of the job, and those of standards before both.
+TEST(SubjectOfRecord, AuditsEachComponentWithTheStatementOfItsName) {
+    std::mt19937 random(20261128);
+    for (int made = 0; made < 100; ++made) {
+        reports::EvaluationRecord record = two_rows();
+        reports::BudgetRow& a = record.results[0].budget[0];
+        nlohmann::json job{{"inputs", {{"a", {{"unit", "um"}, {"components", nlohmann::json::array()}}}}}};
+        nlohmann::json& stated = job["inputs"]["a"];
+        const std::size_t count = 2 + static_cast<std::size_t>(made) % 4;
+        for (std::size_t c = 0; c < count; ++c) {
+            const double U = 0.1 * static_cast<double>(c + 1);
+            stated["components"].push_back({{"name", "part " + std::to_string(c)}, {"U", U}, {"k", 2}});
+            reports::BudgetRow part = a;
+            part.input = "part " + std::to_string(c);
+            part.u.number = 0.5 * U;
+            a.components.push_back(part);
+        }
+        if (made % 2 == 0) {
+            stated["observations"] = {1.0, 1.2, 1.1};
+            a.components.push_back(a.components.front());
+            a.components.back().input = "readings";
+        }
+        if (made % 3 == 0) {
+            a.components.push_back(a.components.front());
+            a.components.back().input = "part 1";  // of the register, called as one of the job is
+            a.components.back().standard = "STD-1";
+        }
+        std::shuffle(a.components.begin(), a.components.end(), random);
+        record.job_json = job.dump();
+        const AuditSubject subject = subject_of(record, "record.json");
+        for (std::size_t c = 0; c < a.components.size(); ++c) {
+            const AuditedRow& row = subject.budgets.front().rows.at(c);
+            const reports::BudgetRow& part = a.components[c];
+            if (part.input == "readings") {
+                EXPECT_EQ(row.origin, Origin::readings);
+                EXPECT_EQ(row.readings.size(), 3U);
+            } else if (!part.standard.empty()) {
+                EXPECT_FALSE(row.origin_value);
+            } else {
+                EXPECT_EQ(row.origin_value, 2.0 * part.u.number) << part.input;
+                EXPECT_TRUE(row.readings.empty());
+            }
+        }
+    }
 }
 
 }  // namespace

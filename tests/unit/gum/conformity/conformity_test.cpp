@@ -341,7 +341,7 @@ TEST(DecideConformity, Dr09GuardBandsOfTheHandbook) {
     EXPECT_NE(decision.note.find("largest one of all normal populations"), std::string::npos) << decision.note;
     EXPECT_EQ(z540_3({.method = "rds"}, 2.0, 0.867).verdict, fail);
     EXPECT_EQ(z540_3({.method = "rds"}, 2.0, 0.866).verdict, pass);
-    EXPECT_EQ(z540_3({.method = "rds"}, 1.0, 0.0).verdict, pass);
+    EXPECT_EQ(z540_3({.method = "rds"}, 1.0, 0.0).verdict, not_applicable);  // the zone is one value
     EXPECT_EQ(z540_3({.method = "rp10"}, 2.0, 0.76).verdict, fail);
     EXPECT_EQ(z540_3({.method = "5"}, 2.0, -0.5).verdict, pass);
 }
@@ -576,6 +576,38 @@ TEST(DecideConformity, OnlyWhatIsProvenFailsWhereNothingCanPass) {
     EXPECT_EQ(iso(9.5, 100.0), not_applicable);
     EXPECT_EQ(iso(10.1, 100.0), not_applicable);
     EXPECT_EQ(iso(180.0, 100.0), fail);
+}
+
+// U = T: A_L and A_U were the same or not by the last bit of a conversion, and the item failed or the rule was not applicable.
+TEST(DecideConformity, AZoneWithoutWidthAcceptsNothing) {
+    for (const double tolerance : {1.1, 3.0, 0.7, 0.03, 12.0, 1e-9}) {
+        for (const double unit : {1.0, 1e-3, 1e-6, 1e3}) {
+            const double T = tolerance * unit;
+            for (int bits = -3; bits <= 3; ++bits) {
+                const double U = T * (1.0 + bits * std::numeric_limits<double>::epsilon());
+                for (const double y : {-0.6 * T, 0.0, 0.6 * T, T}) {
+                    const MeasuredValue value{.value = y, .standard_uncertainty = U / 2.0, .expanded_uncertainty = U};
+                    const ToleranceLimits limits{.lower = -T, .upper = T};
+                    for (const DecisionRule rule :
+                         {DecisionRule::guard_band_u, DecisionRule::non_binary, DecisionRule::three_way}) {
+                        const ConformityDecision decision = decide_conformity(rule, {}, limits, value);
+                        EXPECT_EQ(decision.verdict, not_applicable)
+                            << decision_rule_id(rule) << ' ' << T << ' ' << bits;
+                        EXPECT_TRUE(decision.accepts_nothing);
+                    }
+                }
+            }
+            const MeasuredValue narrower{
+                .value = 0.0, .standard_uncertainty = 0.4999999 * T, .expanded_uncertainty = 0.9999998 * T};
+            EXPECT_EQ(decide_conformity(DecisionRule::guard_band_u, {}, {.lower = -T, .upper = T}, narrower).verdict,
+                      pass);
+        }
+    }
+    const ConformityDecision agreed =
+        decide_conformity(DecisionRule::agreed, {.guard_band = 1.0}, k_symmetric_tolerance, normal_value(0.0, 0.1));
+    EXPECT_EQ(agreed.note,
+              "DR-13 cannot be applied: no value can pass, because the guard band is half of the "
+              "tolerance.");
 }
 
 TEST(DecideConformity, WhereTheRatioIsNotReachedTheFarFailAndNothingIsPrinted) {

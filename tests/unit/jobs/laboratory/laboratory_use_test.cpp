@@ -172,6 +172,23 @@ TEST(LaboratoryUseTest, ContradictionsAreNoted) {
     EXPECT_FALSE(register_of_job(MemoryFileSource(std::map<std::string, std::string>{{"job.json", "{}"}}), "job.json"));
 }
 
+// "the certificate states an array, and the register an array" tells nobody which person or entry it is.
+TEST(LaboratoryUseTest, AContradictionNamesTheEntryThatDiffers) {
+    json certificate = k_work;
+    certificate["accreditation"] = {{"signatories", {"A. Nobody"}}};
+    const std::vector<certificate::LaboratoryRegister::Contradiction> found =
+        register_of(job_of({{"V", {{"standard", "STD-1"}}}}, certificate)).contradictions;
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].where, "/accreditation/signatories/0");
+    EXPECT_EQ(found[0].stated, "\"A. Nobody\"");
+    EXPECT_EQ(found[0].registered, "nothing");
+    for (const certificate::LaboratoryRegister::Contradiction& one : found) {
+        EXPECT_EQ((one.stated + one.registered).find("an array"), std::string::npos);
+        EXPECT_EQ((one.stated + one.registered).find("an object"), std::string::npos);
+        EXPECT_NE(one.stated, one.registered);
+    }
+}
+
 // ---- points in a table ----------------------------------------------------------------------------------------------
 
 /// Two ranges of one standard, and a job whose points stand in a table.

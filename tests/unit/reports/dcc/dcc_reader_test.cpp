@@ -121,7 +121,7 @@ TEST(DccReader, ReadsListsWithOneEntryForAllRowsOrOneForEach) {
 TEST(DccReader, RemarksWhatItCannotCarryOver) {
     const ImportedCertificate c =
         read_dcc(with_quantities(quantity("<si:realListXMLList><si:valueXMLList>1 2 3</si:valueXMLList>"
-                                          "<si:unitXMLList>|inch</si:unitXMLList><si:expandedUncXMLList>"
+                                          "<si:unitXMLList>|quux</si:unitXMLList><si:expandedUncXMLList>"
                                           "<si:uncertaintyXMLList>0.1 0.2</si:uncertaintyXMLList>"
                                           "<si:coverageFactorXMLList>2</si:coverageFactorXMLList>"
                                           "</si:expandedUncXMLList></si:realListXMLList>") +

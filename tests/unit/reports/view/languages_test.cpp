@@ -97,6 +97,23 @@ std::string difference(const std::vector<std::string>& a, const std::vector<std:
            " only in the second: " + ::testing::PrintToString(only_b);
 }
 
+// Names that data bring are looked up by Wording::has(): a certificate once had "{heading}: {group}." in it.
+TEST(Languages, NoNameLeadsToATextWithPlacesToFill) {
+    for (const std::string& language : k_four_languages) {
+        const json texts = wording_file(language);
+        const Wording words(texts);
+        for (const auto& [group, names] : texts.items()) {
+            if (!names.is_object()) {
+                continue;
+            }
+            for (const auto& [name, text] : names.items()) {
+                const bool stands_by_itself = text.is_string() && placeholders(text.get<std::string>()).empty();
+                EXPECT_EQ(words.has(group, name), stands_by_itself) << language << " " << group << " " << name;
+            }
+        }
+    }
+}
+
 TEST(WordingFiles, HaveTheSameKeysAndPlaceholders) {
     const std::map<std::string, std::string> english = texts_of(wording_file("en"));
     EXPECT_GT(english.size(), 600U);

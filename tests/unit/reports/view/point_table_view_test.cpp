@@ -110,6 +110,26 @@ std::vector<std::string> row(const json& table, std::size_t index) {
     return all;
 }
 
+// The wording of tables has patterns beside its words: a column called "group" was headed "{heading}: {group}.".
+TEST(PointTableView, NoNameOfAColumnIsTakenForAPattern) {
+    for (const std::string language : {"en", "de", "es", "zh-Hant"}) {
+        const json texts = json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+        for (const auto& [name, text] : texts.at("point_table").items()) {
+            certificate::Certificate certificate = table_of_points();
+            certificate::TableLayout& layout = *certificate.tables.front().layout;
+            layout.group_role = name;
+            layout.columns.front().name = name;
+            layout.columns.front().role = "";
+            layout.shown.front() = shown("column", name);
+            EXPECT_THAT(table_in(certificate, language).dump(), Not(HasSubstr("{heading}"))) << name;
+            EXPECT_THAT(table_in(certificate, language).at("caption").get<std::string>(), Not(HasSubstr("{"))) << name;
+            for (const std::string& head : heads(table_in(certificate, language))) {
+                EXPECT_THAT(head, Not(HasSubstr("{"))) << name;
+            }
+        }
+    }
+}
+
 TEST(PointTableView, ShowsWhatTheLayoutSays) {
     const json table = table_in(table_of_points());
     EXPECT_EQ(table.at("caption"), "DC voltage. Range: 10 V.");

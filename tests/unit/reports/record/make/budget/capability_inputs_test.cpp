@@ -50,6 +50,24 @@ TEST(CapabilityInputs, HoldWhatTheResultsOfASectionRestOn) {
     EXPECT_NEAR(inputs.values.at("t").without_point.value(), 23.0, 1e-12);
 }
 
+// A nominal value that no equation of the section needs says where in the scope a result lies, as it says which limits it has.
+TEST(CapabilityInputs, HoldWhatThePointsOfASectionState) {
+    jobs::BudgetJob job = jobs::test::read_budget(
+        R"("inputs": {"n": {"unit": "mm", "constant": true, "role": "nominal"}, "x": {"unit": "mm"}, "w": {"unit": "1"}},
+           "sections": {"a": {"model": ["y = 2*x"], "points": [{"n": 20, "x": {"value": 20.1, "u": 0.1}},
+                                                               {"n": 30, "x": {"value": 30.1, "u": 0.1}}]},
+                        "b": {"model": ["z = w"], "points": [{"w": {"value": 7, "u": 1}}]},
+                        "c": {"model": ["v = x/2"], "points": [{"n": 40, "x": {"value": 40.1, "u": 0.1}}]}})");
+    job.certificate = test::sample_certificate_data();
+    const std::vector<std::optional<double>> nominal =
+        capability_inputs(job, gum::evaluate_budget(job, 1)).values.at("n").values;
+    ASSERT_EQ(nominal.size(), 4U);
+    EXPECT_NEAR(nominal[0].value(), 20.0, 1e-12);
+    EXPECT_NEAR(nominal[1].value(), 30.0, 1e-12);
+    EXPECT_EQ(nominal[2], std::nullopt);
+    EXPECT_NEAR(nominal[3].value(), 40.0, 1e-12);
+}
+
 // The trials that are drawn again are those of the evaluation: its interval has its ends at the same ranks.
 TEST(CapabilityInputs, HoldTheTrialsWhereMonteCarloIsReported) {
     const jobs::BudgetJob job = certified_budget(

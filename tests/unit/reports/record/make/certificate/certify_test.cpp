@@ -477,6 +477,23 @@ TEST(Certify, FindsAVerdictThatRoundingChanges) {
     EXPECT_TRUE(record.certificate->blocked);
 }
 
+TEST(Certify, WhereThePrintedUIsTheToleranceNothingIsDecided) {
+    for (int i = 490; i <= 510; ++i) {
+        const double U = 0.001 * i + 0.0003;
+        for (const double y : {-0.3, 0.0, 0.2}) {
+            CertificateData data = data_with_rule("DR-03", -0.5, 0.5, "m");
+            data.accreditation.reset();
+            const CertifiedValue value = certified(one_result(y, U, "m"), data);
+            const Verdict& v = *value.verdict;
+            EXPECT_EQ(v.verdict, v.verdict_from_printed) << y << " ± " << U;
+            if (certificate::number_of(value.printed_U).value_or(0.0) >= 0.5) {
+                EXPECT_EQ(v.verdict, "not_applicable") << y << " ± " << U;
+                EXPECT_THAT(v.note, HasSubstr("no value can pass")) << y << " ± " << U;
+            }
+        }
+    }
+}
+
 TEST(Certify, DecidesWithTheCapabilityWhereItReplacesU) {
     CertificateData data = data_with_rule("DR-03", 9.0, 10.0, "m");
     EXPECT_EQ(certified(one_result(9.85, 0.1, "m"), data).verdict->verdict, "pass");
