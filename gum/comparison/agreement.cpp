@@ -401,7 +401,8 @@ void add_test_of_uncertainty(const ScoreLaw& law, const SumOfSquaredScores& of_z
     const double high = std::min(if_too_small.quantile(k_error_of_confirmation), of_zeta.quantile(1.0 - k_significant));
     const double low = std::max(if_too_large.quantile(1.0 - k_error_of_confirmation), of_zeta.quantile(k_significant));
     // high ≤ low: whatever the sum is, it cannot refute both. Few points, or points that share much, confirm nothing.
-    result.power_to_confirm = high > low ? of_zeta.lower_tail(high) - of_zeta.lower_tail(low) : 0.0;
+    // Where both are nearly one, the tails differ by no more than their accuracy.
+    result.power_to_confirm = high > low ? std::max(0.0, of_zeta.lower_tail(high) - of_zeta.lower_tail(low)) : 0.0;
 }
 
 void add_band(const ScoreLaw& law, const SumOfSquaredScores& of_zeta, const VectorXd& inverse_k, Agreement& result) {
