@@ -101,7 +101,7 @@ std::optional<Agreement> agreement_of(const EvaluatedItem& item, double probabil
             points.push_back(&point);
             positions.push_back(i);
         }
-        if (point.en_worst) {
+        if (point.en && point.in_unknown_group) {
             return std::nullopt;  // nobody knows what the group shares
         }
     }

@@ -58,8 +58,10 @@ struct ScoredResult {
     std::optional<double> z = {}, z_prime = {};     ///< where there is a σ_pt
     std::optional<double> percent = {};             ///< D%, of a quantity on a ratio scale
     std::optional<double> percent_of_allowed = {};  ///< P_A, where there is a δ_E
-    std::optional<double> en_worst = {};            ///< for the worst plausible correlation in a group
-    std::optional<double> en_audited = {};          ///< with findings on the uncertainties corrected
+    bool in_unknown_group = false;                  ///< shares with others of its group what nobody knows
+    /// For the worst plausible correlation in a group; infinite where no finite number bounds it.
+    std::optional<double> en_worst = {};
+    std::optional<double> en_audited = {};  ///< with findings on the uncertainties corrected
     Verdict verdict = Verdict::no_score;
     /// Scores that give a warning or an action; en_worst alone where it leaves a result open that no score speaks against.
     std::vector<Score> verdict_by = {};

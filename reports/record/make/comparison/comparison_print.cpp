@@ -58,6 +58,13 @@ std::string printed_en(const std::optional<double>& en) {
     return printed_on_its_side(en, SideOf::en);
 }
 
+reports::Shown<std::optional<double>> shown_worst_en(const std::optional<double>& en) {
+    if (en && std::isinf(*en)) {
+        return {std::nullopt, *en < 0.0 ? "-∞" : "∞"};
+    }
+    return shown(en, printed_en);
+}
+
 std::string printed_z(const std::optional<double>& score) {
     return printed_on_its_side(score, SideOf::z);
 }

@@ -25,6 +25,8 @@ namespace gumcert::reports {
 /// same signal as the number does (gum::signal_of_en(), gum::signal_of_z(), above 100 %). A score of 1.0004 beside an
 /// action is not printed as 1.00. "" for nothing.
 [[nodiscard]] std::string printed_en(const std::optional<double>& en);
+/// E_n for the worst plausible correlation: "∞" without a number where no finite number bounds it.
+[[nodiscard]] reports::Shown<std::optional<double>> shown_worst_en(const std::optional<double>& en);
 [[nodiscard]] std::string printed_z(const std::optional<double>& score);
 [[nodiscard]] std::string printed_share_of_allowed(const std::optional<double>& percent);
 /// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.

@@ -393,6 +393,13 @@ void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::Labor
             "Laboratories of one group may share effects, and the job states no correlation for the group. En is given "
             "for none, and beside it for the worst that is plausible: that the smaller uncertainty is shared whole.");
     }
+    if (count_results(comparison, [](const gum::ScoredResult& result) {
+            return result.en_worst && !std::isfinite(*result.en_worst);
+        }) > 0) {
+        remarks.emplace_back(
+            "Where all of the uncertainty of a difference may be common to both sides, no finite En bounds what that "
+            "would do.");
+    }
     if (comparison.summary && comparison.summary->agreement && comparison.summary->agreement->is_bounded) {
         remarks.emplace_back(
             "Uncertainties have finite degrees of freedom, and the differences from the assigned value correlate: no "
