@@ -102,7 +102,8 @@ RobustEstimate estimate(Real location, Real scale, std::size_t results) {
     const RobustEstimate found{
         .location = static_cast<double>(location),
         .scale = static_cast<double>(scale),
-        .u = static_cast<double>(k_robust_location_factor * scale / std::sqrt(static_cast<Real>(results)))};
+        .u = static_cast<double>(k_robust_location_factor * scale / std::sqrt(static_cast<Real>(results))),
+        .rest = static_cast<double>(location - static_cast<Real>(static_cast<double>(location)))};
     require_finite(found.location, "robust mean");
     require_finite(found.scale, "robust standard deviation");
     return found;

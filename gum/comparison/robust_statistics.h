@@ -11,6 +11,7 @@ struct RobustEstimate {
     double location = 0.0;
     double scale = 0.0;  ///< robust standard deviation s*
     double u = 0.0;      ///< standard uncertainty of the location
+    double rest = 0.0;   ///< the location is location + rest: what the nearest double leaves
 };
 
 /// u(x*) = 1.25 s*/√p of p results (ISO 13528:2022, clause 7); √(π/2) ≈ 1.2533 for a median.

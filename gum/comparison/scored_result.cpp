@@ -27,7 +27,7 @@ struct Scene {
 
 /// D over a scale, settled.
 double score_of(const ScoredResult& point, double scale) {
-    return settled_score(point.value, point.assigned_value, scale);
+    return settled_score(point.value, point.assigned_value, scale, point.assigned_rest);
 }
 
 /// U of a result as E_n takes it.
@@ -129,8 +129,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
             uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
     }
     require_explained_difference(scene, point);
-    if (const std::optional<ComparisonScore> score =
-            score_of_difference(point.value, point.assigned_value, *point.u_difference, *point.U_difference)) {
+    if (const std::optional<ComparisonScore> score = score_of_difference(
+            point.value, point.assigned_value, *point.u_difference, *point.U_difference, point.assigned_rest)) {
         point.en = score->en;
         point.zeta = score->zeta;
     }
@@ -210,17 +210,18 @@ void score_audited(const Scene& scene, std::size_t position, ScoredResult& point
 void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
     if (scene.item.sigma_pt) {
         const double sigma = *scene.item.sigma_pt;
-        point.z = z_score(point.value, point.assigned_value, sigma);
+        point.z = z_score(point.value, point.assigned_value, sigma, point.assigned_rest);
         if (scene.item.u) {
-            point.z_prime = z_prime_score(point.value, point.assigned_value, sigma, *scene.item.u);
+            point.z_prime = z_prime_score(point.value, point.assigned_value, sigma, *scene.item.u, point.assigned_rest);
         }
     }
     if (scene.item.delta_E) {
-        point.percent_of_allowed = percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E);
+        point.percent_of_allowed =
+            percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E, point.assigned_rest);
     }
     // A percentage of a Celsius temperature depends on where its zero was put.
     if (!scene.data.item->unit.is_celsius_temperature()) {
-        point.percent = percent_difference(point.value, point.assigned_value);
+        point.percent = percent_difference(point.value, point.assigned_value, point.assigned_rest);
     }
 }
 
@@ -365,10 +366,11 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
     point.value = result.value;
     point.uncertainty = result.uncertainty;
     point.assigned_value = scene.item.value;
+    point.assigned_rest = scene.item.rest;
     point.u_assigned = scene.item.u;
     point.U_assigned = scene.item.U;
     point.k_assigned = scene.item.k;
-    point.difference = result.value - scene.item.value;
+    point.difference = (result.value - scene.item.value) - scene.item.rest;
     if (result.uncertainty) {
         if (const EnUncertainty taken = of_scores(scene, *result.uncertainty); taken.converted) {
             point.of_scores = taken;

@@ -47,6 +47,7 @@ struct ScoredResult {
     std::optional<EnUncertainty> of_scores = {};
 
     double assigned_value = 0.0;
+    double assigned_rest = 0.0;  ///< the assigned value is the sum of both: see SplitNumber
     std::optional<double> u_assigned = {}, U_assigned = {}, k_assigned = {};
     double difference = 0.0;                        ///< D = x − X
     std::optional<double> u_difference = {};        ///< with u on both sides

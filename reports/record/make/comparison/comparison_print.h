@@ -11,6 +11,9 @@ namespace gumcert::reports {
 
 /// A value to the decimal place of two significant digits of U; all its digits where there is no U, or U is 0.
 [[nodiscard]] std::string printed_value(double value, const std::optional<double>& U);
+/// The same of value + rest, where the rest is what the nearest double leaves of a value: 473 612 353 604 000.0225 ± 0.13 is
+/// printed as …000.02, though doubles of that size are 1/16 apart.
+[[nodiscard]] std::string printed_value(double value, double rest, const std::optional<double>& U);
 /// A difference that may have no U: then to two significant digits of `scale`, a standard deviation or another U; to
 /// four significant digits without one.
 [[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,

@@ -253,7 +253,7 @@ std::string printed_share(const std::optional<double>& share) {
 }
 
 void add_assigned_value(const gum::ItemResult& from, ComparisonItemEvaluation& item) {
-    item.value = {from.value, printed_value(from.value, from.U)};
+    item.value = {from.value, printed_value(from.value, from.rest, from.U)};
     item.u = shown(from.u, printed_uncertainty);
     item.U = shown(from.U, printed_uncertainty);
     item.k = shown(from.k, printed_score);

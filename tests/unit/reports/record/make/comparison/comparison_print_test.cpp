@@ -53,6 +53,15 @@ TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
     }
 }
 
+TEST(ComparisonPrint, AValueBetweenTwoDoubles) {
+    EXPECT_EQ(printed_value(473612353604000.0, 0.0225, 0.13), "473612353604000.02");
+    EXPECT_EQ(printed_value(-473612353604000.0, -0.0225, 0.13), "-473612353604000.02");
+    EXPECT_EQ(printed_value(473612353604000.0, -0.0225, 0.13), "473612353603999.98");
+    EXPECT_EQ(printed_value(99999999999999.984375, 0.0125, 0.13), "100000000000000.00");
+    EXPECT_EQ(printed_value(473612353604000.0, 0.0225, 13.0), "473612353604000");
+    EXPECT_EQ(printed_value(10.25, 1e-17, 0.13), printed_value(10.25, 0.13));
+}
+
 TEST(ComparisonPrint, AWorstEnWithoutALimitHasAText) {
     constexpr double k_infinite = std::numeric_limits<double>::infinity();
     EXPECT_EQ(shown_worst_en(k_infinite).text, "∞");
