@@ -676,16 +676,6 @@ double least_square_of_bias(const BiasLine& line, const BiasQuestion& question) 
     return std::min(square_of_bias(as_is, covariance, question), square_of_bias(without, covariance, question));
 }
 
-/// The normal quantity with the same two-sided tail and sign as a t.
-double normal_score(double t, double degrees_of_freedom) {
-    if (std::isinf(degrees_of_freedom)) {
-        return t;
-    }
-    constexpr double k_least_tail = 1e-300;
-    const double tail = std::clamp(two_sided_tail_of_t(std::abs(t), degrees_of_freedom), k_least_tail, 1.0);
-    return tail < 1.0 ? std::copysign(two_sided_normal_critical_value(tail), t) : 0.0;
-}
-
 /// χ² of a line in t through the normal scores of ζ of points that do not correlate.
 double square_of_normal_scores(const MethodDifferences& differences, const VectorXd& t, const BiasQuestion& question) {
     const Index m = t.size();

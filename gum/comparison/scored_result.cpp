@@ -133,6 +133,9 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
             point.value, point.assigned_value, *point.u_difference, *point.U_difference, point.assigned_rest)) {
         point.en = score->en;
         point.zeta = score->zeta;
+        if (const double nu = degrees_of_freedom_of_difference(point, scene.assigned); std::isfinite(nu)) {
+            point.zeta_as_normal = normal_score(score->zeta, nu);
+        }
     }
     // The trials drew the value and the results, and not the items: what the items add is not in these intervals.
     if (scene.assigned.intervals && scene.item.u_of_item() == 0.0) {
@@ -251,7 +254,7 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
     }
     add(Score::en, point.en, signal_of_en);
     if (!is_beyond_zeta(scene, point)) {
-        add(Score::zeta, point.zeta, signal_of_z);
+        add(Score::zeta, point.zeta_as_normal ? point.zeta_as_normal : point.zeta, signal_of_z);
     }
     add(Score::en_audited, point.en_audited, signal_of_en);
     if (point.percent_of_allowed) {
@@ -445,6 +448,16 @@ void hold_against_others(std::vector<ScoredResult>& points) {
 }
 
 }  // namespace
+
+double degrees_of_freedom_of_difference(const ScoredResult& point, const AssignedValue& assigned) {
+    constexpr double k_least = 1.0;
+    const double of_result = point.uncertainty->u / *point.u_difference;
+    const double of_value = *point.u_assigned / *point.u_difference;
+    const double nu_of_value = assigned.scatter ? std::numeric_limits<double>::infinity() : assigned.degrees_of_freedom;
+    const double inverse =
+        std::pow(of_result, 4) / point.uncertainty->degrees_of_freedom + std::pow(of_value, 4) / nu_of_value;
+    return inverse > 0.0 ? std::max(k_least, 1.0 / inverse) : std::numeric_limits<double>::infinity();
+}
 
 double ScoredResult::U_of_scores() const {
     return of_scores ? of_scores->U : uncertainty->U;

@@ -138,6 +138,16 @@ double percent_of_allowed(double value, double assigned_value, double largest_al
     return 100.0 * settled_score(value, assigned_value, largest_allowed, assigned_rest);
 }
 
+double normal_score(double t, double degrees_of_freedom) {
+    require_finite(t, "score");
+    if (std::isinf(degrees_of_freedom)) {
+        return t;
+    }
+    constexpr double k_least_tail = 1e-300;
+    const double tail = std::clamp(two_sided_tail_of_t(std::abs(t), degrees_of_freedom), k_least_tail, 1.0);
+    return tail < 1.0 ? std::copysign(two_sided_normal_critical_value(tail), t) : 0.0;
+}
+
 Signal signal_of_z(double score) {
     require_finite(score, "score");
     // 2.0 is still acceptable and 3.0 is not: that the limits are on different sides is meant.

@@ -96,6 +96,10 @@ inline constexpr double k_same_coverage_factor = 0.025;
 /// The probability p of E_n: that of the comparison where it is about 95 % (0.94 to 0.96), else 0.9545.
 [[nodiscard]] double en_coverage_probability(double coverage_probability);
 
+/// The normal quantity with the same two-sided tail and sign as a t with ν degrees of freedom.
+/// \throws InputError  GC-GUM-0001; those of two_sided_tail_of_t()
+[[nodiscard]] double normal_score(double t, double degrees_of_freedom);
+
 /// What a score calls for: |z|, |z'| and |ζ| warn above 2 and act from 3 (2.0 is acceptable, 3.0 is not); |E_n| acts
 /// above 1 and |D| above δ_E.
 enum class Signal { none, warning, action };

@@ -468,6 +468,13 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
             "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
             "laboratory; the value assigned from other results stays as it is.");
     }
+    if (count_results(comparison, [](const gum::ScoredResult& point) {
+            return point.zeta_as_normal && gum::signal_of_z(*point.zeta) != gum::signal_of_z(*point.zeta_as_normal);
+        }) > 0) {
+        remarks.emplace_back(
+            "The limits 2 and 3 of zeta are those of a normal distribution: with few degrees of freedom zeta calls for "
+            "what the normal quantity with the same probability calls for.");
+    }
     const std::size_t without_score =
         count_results(comparison, [](const gum::ScoredResult& point) { return point.U_difference && !point.en; });
     if (without_score > 0) {

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
 #include "tests/unit/gum/printed.h"
@@ -348,6 +350,43 @@ TEST(ScoredResults, AConstantChangesNoScore) {
                 EXPECT_NEAR(*moved[i].zeta, *about_zero[i].zeta, 1e-4) << what;
                 EXPECT_EQ(moved[i].verdict, about_zero[i].verdict) << what;
             }
+        }
+    }
+}
+
+// ζ of a u with 2 degrees of freedom is a t: 3.5 has a probability of 7 %, and calls for nothing.
+TEST(ScoredResults, ZetaOfFewDegreesOfFreedomIsJudgedAsT) {
+    const auto scored = [](double nu, double value) {
+        test::StatedComparison stated;
+        ComparisonItem& item = stated.scheme.items.emplace_back();
+        item.id = "block";
+        item.unit = Unit::parse("mm");
+        item.assigned_value.method = AssignedValueMethod::given;
+        item.assigned_value.value = 10.0;
+        item.assigned_value.uncertainty = test::u_with_k_2(0.01);
+        stated.add("A", value,
+                   ResultUncertainty{.u = 0.1,
+                                     .U = coverage_factor(0.9545, nu) * 0.1,
+                                     .k = coverage_factor(0.9545, nu),
+                                     .degrees_of_freedom = nu});
+        return scores_of(stated)[0];
+    };
+    const ScoredResult two = scored(2.0, 10.35);
+    EXPECT_NEAR(*two.zeta, 3.4827, 1e-3);
+    EXPECT_LT(*two.en, 1.0);
+    EXPECT_EQ(two.verdict, Verdict::none);
+    EXPECT_EQ(scored(std::numeric_limits<double>::infinity(), 10.35).verdict, Verdict::action);
+    // The law: with the same D, fewer degrees of freedom never call for more; and ζ speaks where E_n nearly does.
+    for (double value = 10.0; value < 12.0; value += 0.05) {
+        int before = 0;
+        for (const double nu : {1.0, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, std::numeric_limits<double>::infinity()}) {
+            const ScoredResult result = scored(nu, value);
+            const double judged = result.zeta_as_normal.value_or(*result.zeta);
+            const int signal = static_cast<int>(signal_of_z(judged));
+            EXPECT_GE(signal, before) << nu << " " << value;
+            before = signal;
+            EXPECT_NEAR(std::abs(judged) > 2.0, std::abs(*result.en) > 1.0, std::abs(judged - 2.0) < 0.03 ? 1.0 : 0.0)
+                << nu << " " << value;
         }
     }
 }
