@@ -425,7 +425,7 @@ AssignedValue consensus(const ComparisonScheme& scheme, const LaboratoryData& da
                                                                             : AlgorithmAConstants::published),
                                 p);
         case AssignedValueMethod::q_hampel:
-            return robust_value(data, RobustMean::q_hampel, q_hampel(values), p);
+            return robust_value(data, RobustMean::q_hampel, supported_q_hampel(values), p);
         case AssignedValueMethod::largest_consistent_subset:
             return largest_subset(data, request.alpha);
         case AssignedValueMethod::dersimonian_laird:
