@@ -157,9 +157,9 @@ void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, con
 }  // namespace
 
 bool agreement_is_open(const ComparisonPoint& point) {
-    // A text without a number: no finite number bounds it.
+    // "∞" without a number: no finite number bounds it.
     const bool is_above_1 =
-        point.En_worst.number ? std::abs(*point.En_worst.number) > 1.0 : !point.En_worst.text.empty();
+        point.En_worst.number ? std::abs(*point.En_worst.number) > 1.0 : point.En_worst.text.ends_with("∞");
     return point.En.number && std::abs(*point.En.number) <= 1.0 && is_above_1;
 }
 
