@@ -14,12 +14,14 @@ struct SquaredT {
 
 /// P(Q ≤ x) of Q = Σ λ_k T_k² with T_k independent of each other: every uncertainty was estimated by itself.
 ///
-/// T² = Z²/S with S = χ²_ν/ν, so that the Laplace transform of Q is Π E[(1 + 2 λ_k s/S)^(−1/2)]; it is inverted along
-/// the hyperbola of Weideman and Trefethen (2007, Mathematics of Computation 76, 1341-1356).
+/// T² = Z²/S with S = χ²_ν/ν, so that the Laplace transform of Q is Π E[(1 + 2 λ_k s/S)^(−1/2)]; it is inverted along a
+/// hyperbola through the saddle point, as that of weighted_chi_square_lower_tail(), with steps that are halved until two
+/// of them agree. A fixed path does not resolve many terms, whose relative width is √(2/n).
 /// \param terms  not all of weight 0, in any order; weights that differ by less than 1e8
 /// \param x      finite; 0 is returned below 0
 /// \throws InputError  GC-GUM-0001 or -0002 for a weight, -0003 where all are 0, -0005 for ν, -0001 for x
-/// Accuracy: absolute error below 1e-9. k_least_tail_of_t stands for everything below it
+/// \throws NoResultError  GC-GUM-0140 where the integral does not converge
+/// Accuracy: absolute error below 1e-9 for up to 3000 terms; both tails add up to 1. k_least_tail_of_t stands for everything below it
 /// (docs/accuracy.md#comparisons-and-robust-statistics).
 [[nodiscard]] double squared_t_lower_tail(std::span<const SquaredT> terms, double x);
 /// P(Q ≥ x).

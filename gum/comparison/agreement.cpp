@@ -401,7 +401,8 @@ void add_test_of_uncertainty(const ScoreLaw& law, const SumOfSquaredScores& of_z
     const double high = std::min(if_too_small.quantile(k_error_of_confirmation), of_zeta.quantile(1.0 - k_significant));
     const double low = std::max(if_too_large.quantile(1.0 - k_error_of_confirmation), of_zeta.quantile(k_significant));
     // high ≤ low: whatever the sum is, it cannot refute both. Few points, or points that share much, confirm nothing.
-    result.power_to_confirm = high > low ? of_zeta.lower_tail(high) - of_zeta.lower_tail(low) : 0.0;
+    // Where both are nearly one, the tails differ by no more than their accuracy.
+    result.power_to_confirm = high > low ? std::max(0.0, of_zeta.lower_tail(high) - of_zeta.lower_tail(low)) : 0.0;
 }
 
 void add_band(const ScoreLaw& law, const SumOfSquaredScores& of_zeta, const VectorXd& inverse_k, Agreement& result) {
@@ -673,16 +674,6 @@ double least_square_of_bias(const BiasLine& line, const BiasQuestion& question) 
     const Eigen::Vector2d as_is(line.constant / line.u_constant, line.slope / line.u_slope);
     const Eigen::Vector2d without(as_is(0), (line.slope - within) / line.u_slope);
     return std::min(square_of_bias(as_is, covariance, question), square_of_bias(without, covariance, question));
-}
-
-/// The normal quantity with the same two-sided tail and sign as a t.
-double normal_score(double t, double degrees_of_freedom) {
-    if (std::isinf(degrees_of_freedom)) {
-        return t;
-    }
-    constexpr double k_least_tail = 1e-300;
-    const double tail = std::clamp(two_sided_tail_of_t(std::abs(t), degrees_of_freedom), k_least_tail, 1.0);
-    return tail < 1.0 ? std::copysign(two_sided_normal_critical_value(tail), t) : 0.0;
 }
 
 /// χ² of a line in t through the normal scores of ζ of points that do not correlate.

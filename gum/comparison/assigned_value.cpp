@@ -72,6 +72,7 @@ AssignedValue linear_value(const LaboratoryData& data, const std::vector<std::si
                            const ReferenceValue& reference) {
     AssignedValue assigned;
     assigned.value = reference.value;
+    assigned.rest = reference.rest;
     assigned.u = reference.u;
     assigned.weights = Eigen::VectorXd::Zero(size_of(data));
     for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -238,6 +239,7 @@ AssignedValue robust_value(const LaboratoryData& data, RobustMean kind, const Ro
                            double coverage_probability) {
     AssignedValue assigned;
     assigned.value = estimate.location;
+    assigned.rest = estimate.rest;
     // A scale of 0 says that more than half of the results are equal, not that the value is exactly known.
     assigned.u = estimate.scale > 0.0 ? std::optional(estimate.u) : std::nullopt;
     assigned.correlation_known = false;
@@ -423,7 +425,7 @@ AssignedValue consensus(const ComparisonScheme& scheme, const LaboratoryData& da
                                                                             : AlgorithmAConstants::published),
                                 p);
         case AssignedValueMethod::q_hampel:
-            return robust_value(data, RobustMean::q_hampel, q_hampel(values), p);
+            return robust_value(data, RobustMean::q_hampel, supported_q_hampel(values), p);
         case AssignedValueMethod::largest_consistent_subset:
             return largest_subset(data, request.alpha);
         case AssignedValueMethod::dersimonian_laird:

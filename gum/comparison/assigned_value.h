@@ -34,6 +34,7 @@ struct TrialIntervals {
 /// the item add is not in it. Positions are those of LaboratoryData.
 struct AssignedValue {
     double value = 0.0;
+    double rest = 0.0;        ///< the value is value + rest: see SplitNumber
     std::optional<double> u;  ///< 0: taken as exactly known; none: cannot be stated
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     /// u is not that of the scatter, but that which the stated uncertainties and their covariance give the value.

@@ -252,7 +252,7 @@ void add_consensus_check(const LaboratoryData& data, ItemResult& result) {
     check.u_reference = *item.u_reference_value;
     check.consensus = result.value;
     check.u_consensus = *result.u;
-    check.difference = check.consensus - check.reference_value;
+    check.difference = (check.consensus - check.reference_value) + result.rest;
     // The reference value is independent of the laboratories; else it could not check their consensus.
     check.u_difference = std::hypot(check.u_consensus, check.u_reference);
     if (!(check.u_difference > 0.0)) {
@@ -296,6 +296,7 @@ double ItemResult::u_of_item() const {
 ItemResult item_result(const ComparisonScheme& scheme, const LaboratoryData& data, const AssignedValue& assigned) {
     ItemResult result;
     result.value = assigned.value;
+    result.rest = assigned.rest;
     describe(scheme, data, assigned, result);
     at_place(data.where, [&] {
         add_sigma_pt(data, result);

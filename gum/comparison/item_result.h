@@ -40,7 +40,8 @@ struct ItemResult {
     AssignedValueMethod method = AssignedValueMethod::weighted_mean;
     std::optional<std::size_t> reference_participant = {};
     double value = 0.0;
-    std::optional<double> u = {}, U = {}, k = {};                         ///< of X; no u: it cannot be stated
+    double rest = 0.0;                             ///< the value is value + rest: see SplitNumber
+    std::optional<double> u = {}, U = {}, k = {};  ///< of X; no u: it cannot be stated
     double degrees_of_freedom = std::numeric_limits<double>::infinity();  ///< of U
     ExpandedBy expanded_by = ExpandedBy::nothing;
     /// Of ExpandedBy::uncertainties: share of all y ± U that would cover the value if laboratories differed by a further

@@ -179,13 +179,15 @@ std::vector<std::optional<double>> least_variance_of_unknown_groups(const Compar
     }
     // What is stated or follows from sources is known, a stated r = 0 as well. Else the worst plausible case is that
     // the whole of the smaller uncertainty comes from a common source: cov = min(u_i, u_j)².
+    const auto is_known = [&](std::size_t i, std::size_t j) {
+        return (data.covariance.size() > 0 &&
+                data.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) != 0.0) ||
+               (!stated.empty() &&
+                stated.contains(std::minmax(data.results[i]->participant, data.results[j]->participant)));
+    };
     const auto largest_covariance = [&](std::size_t i, std::size_t j) {
-        const auto a = static_cast<Eigen::Index>(i);
-        const auto b = static_cast<Eigen::Index>(j);
-        const bool known = (data.covariance.size() > 0 && data.covariance(a, b) != 0.0) ||
-                           (!stated.empty() &&
-                            stated.contains(std::minmax(data.results[i]->participant, data.results[j]->participant)));
-        return known ? 0.0 : std::pow(std::min(data.u[a], data.u[b]), 2);
+        const double smaller = std::min(data.u[static_cast<Eigen::Index>(i)], data.u[static_cast<Eigen::Index>(j)]);
+        return is_known(i, j) ? 0.0 : smaller * smaller;
     };
     for (const auto& [group, positions] : members) {
         if (positions.size() < 2) {
@@ -208,6 +210,11 @@ std::vector<std::optional<double>> least_variance_of_unknown_groups(const Compar
             of_weights += weights[static_cast<Eigen::Index>(positions[a])] * with_weights[static_cast<Eigen::Index>(a)];
         }
         for (std::size_t a = 0; a < positions.size(); ++a) {
+            const std::size_t one = positions[a];
+            if (std::all_of(positions.begin(), positions.end(),
+                            [&](std::size_t other) { return other == one || is_known(one, other); })) {
+                continue;
+            }
             // A change that makes the variance larger is left out: E_n would only become smaller, and no correlation at
             // all is among the possible cases.
             change[positions[a]] = std::min(0.0, of_weights - 2.0 * with_weights[static_cast<Eigen::Index>(a)]);

@@ -29,7 +29,7 @@ inline constexpr std::size_t k_most_correlated_laboratories = 500;
 /// Variance of x_i − Σ w_j x_j with the largest correlation that is plausible inside groups of unknown correlation,
 /// less the variance without it: never positive. cov = min(u_i, u_j)² is the whole of the smaller uncertainty.
 /// \param weights  n, of the assigned value
-/// \return n; nothing for a result that is in no such group
+/// \return n; nothing for a result that is in no such group, or whose correlations with all others in it are known
 [[nodiscard]] std::vector<std::optional<double>> least_variance_of_unknown_groups(const ComparisonScheme& scheme,
                                                                                   const LaboratoryData& data,
                                                                                   const Eigen::VectorXd& weights);

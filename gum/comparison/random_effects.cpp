@@ -63,10 +63,12 @@ double variance_of_values(const ShiftedResults& c) {
 
 ReferenceValue random_effects_mean(const ShiftedResults& c, double between_variance) {
     const WeightedSums sums = weighted_sums(c, between_variance);
-    return {.value = c.centre + c.unit * sums.mean,
+    const SplitNumber value = split_sum(c.centre, c.unit * sums.mean);
+    return {.value = value.value,
             .u = c.unit / std::sqrt(sums.total),
             .weights = (sums.weights / sums.total).matrix(),
-            .between_standard_deviation = c.unit * std::sqrt(between_variance)};
+            .between_standard_deviation = c.unit * std::sqrt(between_variance),
+            .rest = value.rest};
 }
 
 /// Σ (x_i − y)²/(u_i² + τ²) falls with τ². At τ² = s², the variance of the values, it is at most n − 1: the sum is the
@@ -177,10 +179,12 @@ ReferenceValue power_moderated_mean(const LaboratoryResults& results, double alp
     const ArrayXd weights = ((c.variance + between_variance) / characteristic).pow(-0.5 * alpha);
     const double total = weights.sum();
     const double mean = (weights * c.x).sum() / total;
-    return {.value = c.centre + c.unit * mean,
+    const SplitNumber value = split_sum(c.centre, c.unit * mean);
+    return {.value = value.value,
             .u = c.unit * std::sqrt(characteristic / total),
             .weights = (weights / total).matrix(),
-            .between_standard_deviation = c.unit * std::sqrt(between_variance)};
+            .between_standard_deviation = c.unit * std::sqrt(between_variance),
+            .rest = value.rest};
 }
 
 }  // namespace gumcert::gum

@@ -157,7 +157,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
         return algorithm_a(values,
                            request.exact_constants ? AlgorithmAConstants::exact : AlgorithmAConstants::published);
     });
-    add_robust(AssignedValueMethod::q_hampel, RobustMean::q_hampel, [&] { return q_hampel(values); });
+    add_robust(AssignedValueMethod::q_hampel, RobustMean::q_hampel, [&] { return supported_q_hampel(values); });
     if (weighed) {
         add_by_uncertainty(estimates, data, results);
     }

@@ -187,6 +187,12 @@ LeastSquares least_squares(const LaboratoryResults& results, const CentredResult
 
 }  // namespace
 
+SplitNumber split_sum(double a, double b) {
+    const double sum = a + b;
+    const double of_b = sum - a;
+    return {sum, (a - (sum - of_b)) + (b - of_b)};
+}
+
 Eigen::Index most_precise(const LaboratoryResults& results) {
     Index precise = 0;
     results.u.minCoeff(&precise);
@@ -288,7 +294,8 @@ ReferenceValue weighted_mean(const LaboratoryResults& results) {
     require_results(results);
     const CentredResults c = centred(results);
     LeastSquares fit = least_squares(results, c);
-    return {.value = c.centre + c.unit * fit.value, .u = c.unit * fit.u, .weights = std::move(fit.weights)};
+    const SplitNumber mean = split_sum(c.centre, c.unit * fit.value);
+    return {.value = mean.value, .u = c.unit * fit.u, .weights = std::move(fit.weights), .rest = mean.rest};
 }
 
 ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
@@ -310,9 +317,11 @@ ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
     from_centre /= unit;
     const double mean = from_centre.mean();
     const double sum_of_squares = (from_centre - mean).square().sum();
-    return {.value = centre + unit * mean,
+    const SplitNumber value = split_sum(centre, unit * mean);
+    return {.value = value.value,
             .u = unit * std::sqrt(sum_of_squares / ((count - 1.0) * count)),
-            .weights = Eigen::VectorXd::Constant(n, 1.0 / count)};
+            .weights = Eigen::VectorXd::Constant(n, 1.0 / count),
+            .rest = value.rest};
 }
 
 ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha) {

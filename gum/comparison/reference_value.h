@@ -24,12 +24,21 @@ void require_results(const LaboratoryResults& results);
 [[nodiscard]] LaboratoryResults selected_results(const LaboratoryResults& results,
                                                  const std::vector<std::size_t>& members);
 
+/// A number as the sum of two: the nearest double, and what it leaves. A mean may be known to a fraction of the last
+/// binary digit of its value, where results have many digits in common and one of them nearly all of the weight.
+struct SplitNumber {
+    double value = 0.0, rest = 0.0;
+};
+/// a + b without loss.                                                       (Knuth, Dekker: the sum and its error)
+[[nodiscard]] SplitNumber split_sum(double a, double b);
+
 /// An estimate from the results of several laboratories that is linear in them: y = Σ w_i x_i, Σ w_i = 1.
 struct ReferenceValue {
     double value = 0.0;
     double u = 0.0;
     Eigen::VectorXd weights = {};             ///< n; empty or all 0: the value does not depend on the results
     double between_standard_deviation = 0.0;  ///< τ of a random-effects model; 0 without one
+    double rest = 0.0;                        ///< the estimate is value + rest: see SplitNumber
 };
 
 /// The same value with the weights spread over all n results: those of the members, 0 for the others.

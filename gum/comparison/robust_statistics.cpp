@@ -102,7 +102,8 @@ RobustEstimate estimate(Real location, Real scale, std::size_t results) {
     const RobustEstimate found{
         .location = static_cast<double>(location),
         .scale = static_cast<double>(scale),
-        .u = static_cast<double>(k_robust_location_factor * scale / std::sqrt(static_cast<Real>(results)))};
+        .u = static_cast<double>(k_robust_location_factor * scale / std::sqrt(static_cast<Real>(results))),
+        .rest = static_cast<double>(location - static_cast<Real>(static_cast<double>(location)))};
     require_finite(found.location, "robust mean");
     require_finite(found.scale, "robust standard deviation");
     return found;
@@ -568,7 +569,7 @@ RobustEstimate algorithm_a(std::span<const double> results, AlgorithmAConstants 
                                    .where = "algorithm A",
                                    .what = "not converged after " + std::to_string(k_most_steps) + " steps",
                                    .rule = "two successive steps must agree",
-                                   .action = "Use the median, or the Q method with Hampel's estimator."});
+                                   .action = "Look for groups of results; use the median where they are one."});
 }
 
 AlgorithmSFactors algorithm_s_factors(double degrees_of_freedom) {
@@ -638,6 +639,25 @@ RobustEstimate q_hampel(std::span<const double> results) {
     const Real centre = median_of_sorted(ascending);
     const Real location = centre + static_cast<Real>(scale) * hampel_location(centred(ascending, centre, scale));
     return estimate(location, scale, ascending.size());
+}
+
+RobustEstimate supported_q_hampel(std::span<const double> results) {
+    constexpr double k_reach_of_psi = 4.5;
+    const RobustEstimate estimate = q_hampel(results);
+    const auto within = static_cast<std::size_t>(std::count_if(results.begin(), results.end(), [&](double result) {
+        return std::abs((result - estimate.location) - estimate.rest) <= k_reach_of_psi * estimate.scale;
+    }));
+    if (2 * within < results.size()) {
+        throw NoResultError(Diagnostic{
+            .code = "GC-GUM-0144",
+            .where = "Q method with Hampel's estimator",
+            .what = std::to_string(within) + " of " + std::to_string(results.size()) +
+                    " results lie within 4.5 s* = " + text::shortest(k_reach_of_psi * estimate.scale) +
+                    " of the location " + text::shortest(estimate.location),
+            .rule = "at least half of the results must speak for it",
+            .action = "Look for groups of results and for what tells them apart; one value does not describe them."});
+    }
+    return estimate;
 }
 
 double kernel_density_mode(std::span<const double> results, double bandwidth) {

@@ -11,6 +11,7 @@ struct RobustEstimate {
     double location = 0.0;
     double scale = 0.0;  ///< robust standard deviation s*
     double u = 0.0;      ///< standard uncertainty of the location
+    double rest = 0.0;   ///< the location is location + rest: what the nearest double leaves
 };
 
 /// u(x*) = 1.25 s*/√p of p results (ISO 13528:2022, clause 7); √(π/2) ≈ 1.2533 for a median.
@@ -80,6 +81,11 @@ struct AlgorithmSFactors {
 /// median itself where two are; ψ has the corners 1.5, 3 and 4.5.
 /// \throws InputError  GC-GUM-0001; GC-GUM-0101 fewer than 2 results; GC-GUM-0102 all results are equal
 [[nodiscard]] RobustEstimate q_hampel(std::span<const double> results);
+/// The same where at least half of the results lie within 4.5 s* of the location, so that ψ lets them speak for it. Of two
+/// groups of equal size far apart every ψ is 0 at the median between them: that solves the equation and is the value of
+/// nobody.
+/// \throws NoResultError  GC-GUM-0144 for others
+[[nodiscard]] RobustEstimate supported_q_hampel(std::span<const double> results);
 
 /// Greatest mode of a Gaussian kernel density of the results; the lowest one where several are equally high.
 /// (ISO 13528:2022, annex D)

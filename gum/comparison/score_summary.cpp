@@ -40,19 +40,6 @@ ComparisonSummary summary_of(const std::vector<const ScoredResult*>& points) {
     return summarise(scores);
 }
 
-/// ν of u(D) by Welch and Satterthwaite (JCGM 100:2008, G.4.1). A value that is made of the results has no ν here: their
-/// own uncertainties make its u, and how far they scatter is what is tested.
-double degrees_of_score(const ScoredResult& point, const EvaluatedItem& item) {
-    constexpr double k_least = 1.0;
-    const double of_result = point.uncertainty->u / *point.u_difference;
-    const double of_value = *point.u_assigned / *point.u_difference;
-    const double nu_of_value =
-        item.assigned.scatter ? std::numeric_limits<double>::infinity() : item.assigned.degrees_of_freedom;
-    const double inverse =
-        std::pow(of_result, 4) / point.uncertainty->degrees_of_freedom + std::pow(of_value, 4) / nu_of_value;
-    return inverse > 0.0 ? std::max(k_least, 1.0 / inverse) : std::numeric_limits<double>::infinity();
-}
-
 /// Differences of one item with their covariance: cov(D_i, D_j) = V_ij − c_i − c_j + u²(X).
 MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
                                  const std::vector<std::size_t>& positions, const EvaluatedItem& item) {
@@ -72,7 +59,7 @@ MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
         const auto a = static_cast<Eigen::Index>(positions[static_cast<std::size_t>(i)]);
         differences.d[i] = point.difference;
         differences.U[i] = *point.U_difference;
-        differences.degrees_of_freedom[i] = degrees_of_score(point, item);
+        differences.degrees_of_freedom[i] = degrees_of_freedom_of_difference(point, item.assigned);
         differences.U_method[i] = point.U_of_scores();
         differences.U_reference[i] = *point.U_assigned;
         for (Eigen::Index j = 0; j < m; ++j) {
@@ -101,7 +88,7 @@ std::optional<Agreement> agreement_of(const EvaluatedItem& item, double probabil
             points.push_back(&point);
             positions.push_back(i);
         }
-        if (point.en_worst) {
+        if (point.en && point.in_unknown_group) {
             return std::nullopt;  // nobody knows what the group shares
         }
     }

@@ -27,7 +27,7 @@ struct Scene {
 
 /// D over a scale, settled.
 double score_of(const ScoredResult& point, double scale) {
-    return settled_score(point.value, point.assigned_value, scale);
+    return settled_score(point.value, point.assigned_value, scale, point.assigned_rest);
 }
 
 /// U of a result as E_n takes it.
@@ -57,18 +57,22 @@ bool is_scored_by_scatter(const Scene& scene) {
     return scene.assigned.scatter && !scene.assigned.scatter->others.empty();
 }
 
+/// What rounding alone makes of a D of 0.
+double rounding_of_difference(const ScoredResult& point) {
+    constexpr double k_roundings = 64.0;  // of the values and of the weights of a mean
+    constexpr double k_of_u = 1e-9;
+    return k_roundings * std::numeric_limits<double>::epsilon() *
+               (std::abs(point.value) + std::abs(point.assigned_value)) +
+           k_of_u * point.uncertainty->u;
+}
+
 /// A difference that has no uncertainty and is not 0: the result and the assigned value are stated to be one quantity
 /// with all of their uncertainty in common, and they differ. No score says so, and none of the two can stand.
 void require_explained_difference(const Scene& scene, const ScoredResult& point) {
-    constexpr double k_roundings = 64.0;  // of the values and of the weights of a mean
-    constexpr double k_of_u = 1e-9;
     if (*point.u_difference > 0.0 && *point.U_difference > 0.0) {
         return;
     }
-    const double rounding = k_roundings * std::numeric_limits<double>::epsilon() *
-                                (std::abs(point.value) + std::abs(point.assigned_value)) +
-                            k_of_u * point.uncertainty->u;
-    if (std::abs(point.difference) > rounding) {
+    if (std::abs(point.difference) > rounding_of_difference(point)) {
         refuse("GC-GUM-0031",
                (scene.data.where.empty() ? "result of " : scene.data.where + ", result of ") +
                    scene.scheme.participants[point.participant].id,
@@ -125,10 +129,13 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
             uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
     }
     require_explained_difference(scene, point);
-    if (const std::optional<ComparisonScore> score =
-            score_of_difference(point.value, point.assigned_value, *point.u_difference, *point.U_difference)) {
+    if (const std::optional<ComparisonScore> score = score_of_difference(
+            point.value, point.assigned_value, *point.u_difference, *point.U_difference, point.assigned_rest)) {
         point.en = score->en;
         point.zeta = score->zeta;
+        if (const double nu = degrees_of_freedom_of_difference(point, scene.assigned); std::isfinite(nu)) {
+            point.zeta_as_normal = normal_score(score->zeta, nu);
+        }
     }
     // The trials drew the value and the results, and not the items: what the items add is not in these intervals.
     if (scene.assigned.intervals && scene.item.u_of_item() == 0.0) {
@@ -140,34 +147,33 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
     }
 }
 
+/// E_n of a difference of which all uncertainty may be common to both sides.
+double en_without_limit(const ScoredResult& point) {
+    return std::abs(point.difference) > rounding_of_difference(point)
+               ? std::copysign(std::numeric_limits<double>::infinity(), point.difference)
+               : 0.0;
+}
+
 /// E_n with the least variance that what the members of a group may share can leave.
 void score_with_unknown_group(const Scene& scene, double variance_change, ScoredResult& point) {
+    constexpr double k_rounding = 1e-12;  // of variances of which all may be common
     const double u_x = point.uncertainty->u;
     const double u_X = *scene.item.u;
     // One result against one result: the bound is known in closed form. As soon as the items add to U(X) it is no
     // longer that of the reference laboratory alone.
     if (scene.data.reference && scene.item.U == scene.assigned.stated->U) {
-        point.en_worst =
+        const std::optional<double> worst =
             worst_plausible_en({point.value, u_x, point.U_of_scores()},
                                {point.assigned_value, u_X, scene.item.U_of_scores.value_or(*scene.item.U)});
+        point.en_worst = worst ? *worst : en_without_limit(point);
         return;
     }
     const double least = *point.u_difference * *point.u_difference + variance_change;
-    if (is_scored_by_scatter(scene)) {
-        if (least > 0.0) {
-            point.en_worst = score_of(point, *point.U_difference * std::sqrt(least) / *point.u_difference);
-        }
-        return;
-    }
-    // The correlation that leaves this variance; the same r then takes the expanded uncertainties together.
-    const double r = u_X > 0.0 ? (u_x * u_x + u_X * u_X - least) / (2.0 * u_x * u_X) : 0.0;
-    if (least > 0.0 && std::abs(r) <= 1.0) {
-        const double U =
-            uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
-        if (U > 0.0) {
-            point.en_worst = score_of(point, U);
-        }
-    }
+    // What a group shares changes u(X) as well as what x and X have in common: no correlation coefficient with the u(X)
+    // of results that share nothing describes it, but the variance of D does, and U(D) follows u(D).
+    point.en_worst = least > k_rounding * (u_x * u_x + u_X * u_X)
+                         ? score_of(point, *point.U_difference * std::sqrt(least) / *point.u_difference)
+                         : en_without_limit(point);
 }
 
 /// What an audit changes of the square of an expanded uncertainty; 0 without a finding.
@@ -207,17 +213,18 @@ void score_audited(const Scene& scene, std::size_t position, ScoredResult& point
 void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
     if (scene.item.sigma_pt) {
         const double sigma = *scene.item.sigma_pt;
-        point.z = z_score(point.value, point.assigned_value, sigma);
+        point.z = z_score(point.value, point.assigned_value, sigma, point.assigned_rest);
         if (scene.item.u) {
-            point.z_prime = z_prime_score(point.value, point.assigned_value, sigma, *scene.item.u);
+            point.z_prime = z_prime_score(point.value, point.assigned_value, sigma, *scene.item.u, point.assigned_rest);
         }
     }
     if (scene.item.delta_E) {
-        point.percent_of_allowed = percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E);
+        point.percent_of_allowed =
+            percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E, point.assigned_rest);
     }
     // A percentage of a Celsius temperature depends on where its zero was put.
     if (!scene.data.item->unit.is_celsius_temperature()) {
-        point.percent = percent_difference(point.value, point.assigned_value);
+        point.percent = percent_difference(point.value, point.assigned_value, point.assigned_rest);
     }
 }
 
@@ -247,7 +254,7 @@ std::vector<std::pair<Score, Signal>> signals_of(const Scene& scene, const Score
     }
     add(Score::en, point.en, signal_of_en);
     if (!is_beyond_zeta(scene, point)) {
-        add(Score::zeta, point.zeta, signal_of_z);
+        add(Score::zeta, point.zeta_as_normal ? point.zeta_as_normal : point.zeta, signal_of_z);
     }
     add(Score::en_audited, point.en_audited, signal_of_en);
     if (point.percent_of_allowed) {
@@ -362,10 +369,11 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
     point.value = result.value;
     point.uncertainty = result.uncertainty;
     point.assigned_value = scene.item.value;
+    point.assigned_rest = scene.item.rest;
     point.u_assigned = scene.item.u;
     point.U_assigned = scene.item.U;
     point.k_assigned = scene.item.k;
-    point.difference = result.value - scene.item.value;
+    point.difference = (result.value - scene.item.value) - scene.item.rest;
     if (result.uncertainty) {
         if (const EnUncertainty taken = of_scores(scene, *result.uncertainty); taken.converted) {
             point.of_scores = taken;
@@ -387,9 +395,26 @@ ScoredResult scored(const Scene& scene, std::size_t position) {
     return point;
 }
 
+/// The share of each result in the assigned value. A robust value follows its results as their mean does, as its
+/// covariance with them is taken.
+Eigen::VectorXd shares_in_value(const LaboratoryData& data, const AssignedValue& assigned) {
+    if (assigned.weights.size() > 0) {
+        return assigned.weights;
+    }
+    Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(data.size()));
+    if (data.item->assigned_value.method != AssignedValueMethod::given) {
+        for (const std::size_t i : data.contributing) {
+            shares[static_cast<Eigen::Index>(i)] = 1.0 / static_cast<double>(data.contributing.size());
+        }
+    }
+    return shares;
+}
+
 /// Where what a group shares is not known, a result that would be above 1 with it is not cleared by a smaller E_n.
 void leave_open(ScoredResult& point) {
-    if (point.verdict == Verdict::none && point.en_worst && signal_of_en(*point.en_worst) != Signal::none) {
+    const bool is_above_1 =
+        point.en_worst && (std::isinf(*point.en_worst) || signal_of_en(*point.en_worst) != Signal::none);
+    if (point.verdict == Verdict::none && is_above_1) {
         point.verdict = Verdict::inconclusive;
         point.verdict_by.push_back(Score::en_worst);
     }
@@ -424,6 +449,16 @@ void hold_against_others(std::vector<ScoredResult>& points) {
 
 }  // namespace
 
+double degrees_of_freedom_of_difference(const ScoredResult& point, const AssignedValue& assigned) {
+    constexpr double k_least = 1.0;
+    const double of_result = point.uncertainty->u / *point.u_difference;
+    const double of_value = *point.u_assigned / *point.u_difference;
+    const double nu_of_value = assigned.scatter ? std::numeric_limits<double>::infinity() : assigned.degrees_of_freedom;
+    const double inverse =
+        std::pow(of_result, 4) / point.uncertainty->degrees_of_freedom + std::pow(of_value, 4) / nu_of_value;
+    return inverse > 0.0 ? std::max(k_least, 1.0 / inverse) : std::numeric_limits<double>::infinity();
+}
+
 double ScoredResult::U_of_scores() const {
     return of_scores ? of_scores->U : uncertainty->U;
 }
@@ -436,14 +471,13 @@ std::vector<ScoredResult> scored_results(const ComparisonScheme& scheme, const L
     for (std::size_t i = 0; i < data.size(); ++i) {
         points.push_back(scored(scene, i));
     }
-    if (assigned.weights.size() > 0) {
-        const std::vector<std::optional<double>> change =
-            least_variance_of_unknown_groups(scheme, data, assigned.weights);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (change[i] && *change[i] < 0.0 && points[i].en) {
-                score_with_unknown_group(scene, *change[i], points[i]);
-                leave_open(points[i]);
-            }
+    const std::vector<std::optional<double>> change =
+        least_variance_of_unknown_groups(scheme, data, shares_in_value(data, assigned));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].in_unknown_group = change[i].has_value();
+        if (change[i] && *change[i] < 0.0 && points[i].en) {
+            score_with_unknown_group(scene, *change[i], points[i]);
+            leave_open(points[i]);
         }
     }
     hold_against_others(points);

@@ -47,19 +47,25 @@ struct ScoredResult {
     std::optional<EnUncertainty> of_scores = {};
 
     double assigned_value = 0.0;
+    double assigned_rest = 0.0;  ///< the assigned value is the sum of both: see SplitNumber
     std::optional<double> u_assigned = {}, U_assigned = {}, k_assigned = {};
-    double difference = 0.0;                        ///< D = x − X
-    std::optional<double> u_difference = {};        ///< with u on both sides
-    std::optional<double> U_difference = {};        ///< also D_fail, the smallest |D| that fails
-    std::optional<double> correlation = {};         ///< of x and X as used in u_D and U_D
-    std::optional<ScatterOfOthers> scatter = {};    ///< U_D comes from it
-    std::optional<double> low = {}, high = {};      ///< coverage interval of D by trials
-    std::optional<double> en = {}, zeta = {};       ///< where u_D and U_D are greater than 0
+    double difference = 0.0;                      ///< D = x − X
+    std::optional<double> u_difference = {};      ///< with u on both sides
+    std::optional<double> U_difference = {};      ///< also D_fail, the smallest |D| that fails
+    std::optional<double> correlation = {};       ///< of x and X as used in u_D and U_D
+    std::optional<ScatterOfOthers> scatter = {};  ///< U_D comes from it
+    std::optional<double> low = {}, high = {};    ///< coverage interval of D by trials
+    std::optional<double> en = {}, zeta = {};     ///< where u_D and U_D are greater than 0
+    /// The normal quantity with the tail of ζ, which is a t where u_D has finite degrees of freedom: what its signal
+    /// goes by, since the limits are those of a normal distribution. None where ζ is one itself.
+    std::optional<double> zeta_as_normal = {};
     std::optional<double> z = {}, z_prime = {};     ///< where there is a σ_pt
     std::optional<double> percent = {};             ///< D%, of a quantity on a ratio scale
     std::optional<double> percent_of_allowed = {};  ///< P_A, where there is a δ_E
-    std::optional<double> en_worst = {};            ///< for the worst plausible correlation in a group
-    std::optional<double> en_audited = {};          ///< with findings on the uncertainties corrected
+    bool in_unknown_group = false;                  ///< shares with others of its group what nobody knows
+    /// For the worst plausible correlation in a group; infinite where no finite number bounds it.
+    std::optional<double> en_worst = {};
+    std::optional<double> en_audited = {};  ///< with findings on the uncertainties corrected
     Verdict verdict = Verdict::no_score;
     /// Scores that give a warning or an action; en_worst alone where it leaves a result open that no score speaks against.
     std::vector<Score> verdict_by = {};
@@ -70,6 +76,11 @@ struct ScoredResult {
     /// U as E_n takes it. Only where an uncertainty is stated.
     [[nodiscard]] double U_of_scores() const;
 };
+
+/// ν of u(D) by Welch and Satterthwaite (JCGM 100:2008, G.4.1), 1 or more. A value that is made of results that scatter
+/// has no ν here: their own uncertainties make its u, and how far they scatter is what is tested.
+/// \param point  with u_D > 0
+[[nodiscard]] double degrees_of_freedom_of_difference(const ScoredResult& point, const AssignedValue& assigned);
 
 /// Scores of all results of one item in one round against its assigned value.
 ///

@@ -16,10 +16,10 @@ namespace {
 constexpr double k_warning_limit_of_z = 2.0;
 constexpr double k_action_limit_of_z = 3.0;
 
-double difference_of(double value, double reference) {
+double difference_of(double value, double reference, double reference_rest = 0.0) {
     require_finite(value, "laboratory value");
     require_finite(reference, "reference value");
-    const double difference = value - reference;
+    const double difference = (value - reference) - reference_rest;
     require_finite(difference, "difference of laboratory and reference value");
     return difference;
 }
@@ -63,10 +63,10 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
     return std::sqrt(gap * gap + 2.0 * (1.0 - correlation) * laboratory * reference);
 }
 
-double settled_score(double value, double reference, double scale) {
+double settled_score(double value, double reference, double scale, double reference_rest) {
     constexpr double k_most_settled = 1e-6;  // values that are stated too coarsely for more are not helped
     constexpr double k_roundings = 8.0;      // of the two values, their difference, the scale and the quotient
-    const double difference = difference_of(value, reference);
+    const double difference = difference_of(value, reference, reference_rest);
     require_positive(scale, "scale of a score");
     const double score = difference / scale;
     // The stated decimal numbers are meant: a score that misses a limit by what binary numbers lose is on the limit.
@@ -91,16 +91,16 @@ ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& refe
 }
 
 std::optional<ComparisonScore> score_of_difference(double value, double reference, double u_difference,
-                                                   double U_difference) {
-    const double difference = difference_of(value, reference);
+                                                   double U_difference, double reference_rest) {
+    const double difference = difference_of(value, reference, reference_rest);
     if (!(u_difference > 0.0) || !(U_difference > 0.0)) {
         return std::nullopt;
     }
     return ComparisonScore{.difference = difference,
                            .u_difference = u_difference,
                            .U_difference = U_difference,
-                           .en = settled_score(value, reference, U_difference),
-                           .zeta = settled_score(value, reference, u_difference)};
+                           .en = settled_score(value, reference, U_difference, reference_rest),
+                           .zeta = settled_score(value, reference, u_difference, reference_rest)};
 }
 
 std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const ComparedValue& reference) {
@@ -114,27 +114,38 @@ std::optional<double> worst_plausible_en(const ComparedValue& laboratory, const 
     return settled_score(laboratory.value, reference.value, std::sqrt(larger - smaller) * std::sqrt(larger + smaller));
 }
 
-double z_score(double value, double assigned_value, double sigma_pt) {
-    return z_prime_score(value, assigned_value, sigma_pt, 0.0);
+double z_score(double value, double assigned_value, double sigma_pt, double assigned_rest) {
+    return z_prime_score(value, assigned_value, sigma_pt, 0.0, assigned_rest);
 }
 
-double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value) {
+double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value,
+                     double assigned_rest) {
     require_positive(sigma_pt, "standard deviation for proficiency assessment");
     require_not_negative(u_assigned_value, "uncertainty of the assigned value");
-    return settled_score(value, assigned_value, std::hypot(sigma_pt, u_assigned_value));
+    return settled_score(value, assigned_value, std::hypot(sigma_pt, u_assigned_value), assigned_rest);
 }
 
-std::optional<double> percent_difference(double value, double assigned_value) {
-    const double difference = difference_of(value, assigned_value);
+std::optional<double> percent_difference(double value, double assigned_value, double assigned_rest) {
+    const double difference = difference_of(value, assigned_value, assigned_rest);
     if (assigned_value == 0.0) {
         return std::nullopt;
     }
     return 100.0 * difference / std::abs(assigned_value);
 }
 
-double percent_of_allowed(double value, double assigned_value, double largest_allowed) {
+double percent_of_allowed(double value, double assigned_value, double largest_allowed, double assigned_rest) {
     require_positive(largest_allowed, "largest error allowed");
-    return 100.0 * settled_score(value, assigned_value, largest_allowed);
+    return 100.0 * settled_score(value, assigned_value, largest_allowed, assigned_rest);
+}
+
+double normal_score(double t, double degrees_of_freedom) {
+    require_finite(t, "score");
+    if (std::isinf(degrees_of_freedom)) {
+        return t;
+    }
+    constexpr double k_least_tail = 1e-300;
+    const double tail = std::clamp(two_sided_tail_of_t(std::abs(t), degrees_of_freedom), k_least_tail, 1.0);
+    return tail < 1.0 ? std::copysign(two_sided_normal_critical_value(tail), t) : 0.0;
 }
 
 Signal signal_of_z(double score) {

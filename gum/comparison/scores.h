@@ -34,8 +34,9 @@ struct ComparisonScore {
 /// limit: 10.2 − 10 over 0.1 is 2, which double precision makes 1.999999999999993. All scores below are settled so.
 /// \param value, reference  as stated, whose rounding is meant
 /// \param scale             > 0, in their unit
+/// \param reference_rest    what the reference has beyond `reference`, a part of its last binary digit: SplitNumber
 /// \throws InputError  GC-GUM-0001, GC-GUM-0003 for the scale
-[[nodiscard]] double settled_score(double value, double reference, double scale);
+[[nodiscard]] double settled_score(double value, double reference, double scale, double reference_rest = 0.0);
 
 /// E_n number and ζ-score of a laboratory value against a reference value (ISO 13528:2022; ISO/IEC 17043 for E_n).
 ///
@@ -55,7 +56,7 @@ struct ComparisonScore {
 /// \return nothing where an uncertainty of the difference is not greater than 0: no score exists then
 /// \throws InputError  for a number that is not finite
 [[nodiscard]] std::optional<ComparisonScore> score_of_difference(double value, double reference, double u_difference,
-                                                                 double U_difference);
+                                                                 double U_difference, double reference_rest = 0.0);
 
 /// E_n with all that the smaller uncertainty can hold in common: r = min(U_x, U_X) / max(U_x, U_X), the correlation
 /// where the whole of the smaller uncertainty comes from a source that both sides share with unit sensitivity. Where
@@ -67,15 +68,17 @@ struct ComparisonScore {
 
 /// z = (x − X) / σ_pt.                                                                 (ISO 13528:2022, clause 9)
 /// \throws InputError  GC-GUM-0001, GC-GUM-0003 for σ_pt
-[[nodiscard]] double z_score(double value, double assigned_value, double sigma_pt);
+[[nodiscard]] double z_score(double value, double assigned_value, double sigma_pt, double assigned_rest = 0.0);
 /// z' = (x − X) / √(σ_pt² + u²(X)).                                                    (ISO 13528:2022, clause 9)
-[[nodiscard]] double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value);
+[[nodiscard]] double z_prime_score(double value, double assigned_value, double sigma_pt, double u_assigned_value,
+                                   double assigned_rest = 0.0);
 /// D% = 100 (x − X) / |X|; nothing where X is 0. Only for quantities on a ratio scale.
 /// \throws InputError  GC-GUM-0001
-[[nodiscard]] std::optional<double> percent_difference(double value, double assigned_value);
+[[nodiscard]] std::optional<double> percent_difference(double value, double assigned_value, double assigned_rest = 0.0);
 /// P_A = 100 (x − X) / δ_E, D as percentage of the largest error allowed.
 /// \throws InputError  GC-GUM-0001, GC-GUM-0003 for δ_E
-[[nodiscard]] double percent_of_allowed(double value, double assigned_value, double largest_allowed);
+[[nodiscard]] double percent_of_allowed(double value, double assigned_value, double largest_allowed,
+                                        double assigned_rest = 0.0);
 
 /// An expanded uncertainty as E_n takes it. E_n is defined for about 95 % on both sides, and two factors that mean
 /// different probabilities must not meet in it.
@@ -92,6 +95,10 @@ struct EnUncertainty {
 inline constexpr double k_same_coverage_factor = 0.025;
 /// The probability p of E_n: that of the comparison where it is about 95 % (0.94 to 0.96), else 0.9545.
 [[nodiscard]] double en_coverage_probability(double coverage_probability);
+
+/// The normal quantity with the same two-sided tail and sign as a t with ν degrees of freedom.
+/// \throws InputError  GC-GUM-0001; those of two_sided_tail_of_t()
+[[nodiscard]] double normal_score(double t, double degrees_of_freedom);
 
 /// What a score calls for: |z|, |z'| and |ζ| warn above 2 and act from 3 (2.0 is acceptable, 3.0 is not); |E_n| acts
 /// above 1 and |D| above δ_E.

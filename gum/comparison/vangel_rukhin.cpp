@@ -349,10 +349,12 @@ ReferenceValue vangel_rukhin(const ReplicatedResults& results) {
     }
     const ArrayXd weights = (best.point.between + best.point.t).inverse();
     const double total = weights.sum();
-    return {.value = centre + unit * best.point.mu,
+    const SplitNumber value = split_sum(centre, unit * best.point.mu);
+    return {.value = value.value,
             .u = unit / std::sqrt(total),
             .weights = (weights / total).matrix(),
-            .between_standard_deviation = unit * std::sqrt(best.point.between)};
+            .between_standard_deviation = unit * std::sqrt(best.point.between),
+            .rest = value.rest};
 }
 
 }  // namespace gumcert::gum

@@ -45,6 +45,14 @@ CsvColumn number(const char* head, Number Point::*member) {
     return {head, [member](const Point& p) { return cell(p.*member); }};
 }
 
+/// "inf" where no finite number bounds it.
+CsvColumn worst_en() {
+    return {"En_worst", [](const Point& p) {
+                const Shown<std::optional<double>>& en = p.En_worst;
+                return en.number || en.text.empty() ? cell(en) : std::string(en.text.front() == '-' ? "-inf" : "inf");
+            }};
+}
+
 /// What a row needs of its item.
 class Items {
 public:
@@ -119,7 +127,7 @@ std::vector<CsvColumn> all_columns(const Comparison& comparison, const Items& it
             number("D_percent", &Point::D_percent),
             number("P_A", &Point::P_A),
             number("En", &Point::En),
-            number("En_worst", &Point::En_worst),
+            worst_en(),
             number("En_audited", &Point::En_audited),
             number("zeta", &Point::zeta),
             number("z", &Point::z),

@@ -399,7 +399,8 @@ struct ComparisonPoint {
     std::optional<double> coverage_probability = {}, reference_coverage_probability = {};
     std::optional<double> correlation = {};  ///< r of value and reference value, as used in u_D and U_D
     Shown<std::optional<double>> z = {}, z_prime = {}, D_percent = {}, P_A = {};
-    Shown<std::optional<double>> En_worst = {};    ///< for the worst plausible correlation, where r is not known
+    /// For the worst plausible correlation, where r is not known; text "∞" without a number: no finite number bounds it.
+    Shown<std::optional<double>> En_worst = {};
     Shown<std::optional<double>> En_audited = {};  ///< with findings on the uncertainties corrected
     /// "none", "warning" or "action", the strongest of all scores; "inconclusive" where the reference or assigned value
     /// is too uncertain to clear anybody; "" without score.

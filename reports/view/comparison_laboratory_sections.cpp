@@ -779,8 +779,7 @@ void how_to_read(CertificateBuilder& builder, const Wording& words, const Compar
         }
     };
     add("P_A", "P_A", [](const ComparisonPoint& p) { return !p.P_A.text.empty(); });
-    add("En_worst", words("comparison", "En_worst"),
-        [](const ComparisonPoint& p) { return p.En_worst.number.has_value(); });
+    add("En_worst", words("comparison", "En_worst"), [](const ComparisonPoint& p) { return !p.En_worst.text.empty(); });
     add("En_audited", words("comparison", "En_audited"),
         [](const ComparisonPoint& p) { return p.En_audited.number.has_value(); });
     if (!facts.empty()) {

@@ -80,6 +80,14 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
               : s.count_above_1 == 0                              ? "disagreement_scatter"
                                                                   : key;
     }
+    const bool agreement_falls = s.verdict_audited == "disagreement" || s.verdict_audited == "points_above_1" ||
+                                 s.verdict_audited == "joint_test_open";
+    if (s.verdict == "falls_with_finding" && !agreement_falls) {
+        key = "falls_with_finding_confirmation";
+    }
+    if (s.verdict == "correlation_unknown" && !s.max_abs_En_worst.number) {
+        key = "correlation_unknown_without_limit";
+    }
     return words.filled(
         "comparison_verdict", key,
         {{"p_pattern", words.number(s.p_pattern.text)},

@@ -157,8 +157,10 @@ void numbers_to_recompute(CertificateBuilder& builder, const Wording& words, con
 }  // namespace
 
 bool agreement_is_open(const ComparisonPoint& point) {
-    return point.En.number && point.En_worst.number && std::abs(*point.En.number) <= 1.0 &&
-           std::abs(*point.En_worst.number) > 1.0;
+    // "∞" without a number: no finite number bounds it.
+    const bool is_above_1 =
+        point.En_worst.number ? std::abs(*point.En_worst.number) > 1.0 : point.En_worst.text.ends_with("∞");
+    return point.En.number && std::abs(*point.En.number) <= 1.0 && is_above_1;
 }
 
 void comparison_report_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {

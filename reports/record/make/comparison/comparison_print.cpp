@@ -58,6 +58,13 @@ std::string printed_en(const std::optional<double>& en) {
     return printed_on_its_side(en, SideOf::en);
 }
 
+reports::Shown<std::optional<double>> shown_worst_en(const std::optional<double>& en) {
+    if (en && std::isinf(*en)) {
+        return {std::nullopt, *en < 0.0 ? "-∞" : "∞"};
+    }
+    return shown(en, printed_en);
+}
+
 std::string printed_z(const std::optional<double>& score) {
     return printed_on_its_side(score, SideOf::z);
 }
@@ -68,6 +75,28 @@ std::string printed_share_of_allowed(const std::optional<double>& percent) {
 
 std::string printed_value(double value, const std::optional<double>& U) {
     return U && *U > 0.0 ? gum::round_to_uncertainty(value, *U, reports::k_digits_of_u).value : text::shortest(value);
+}
+
+std::string printed_value(double value, double rest, const std::optional<double>& U) {
+    constexpr double k_part_that_shows = 0.005;  // of the last printed digit
+    constexpr double k_all_integers = 0x1p53;
+    std::string text = printed_value(std::abs(value), U);
+    const std::size_t point = text.find('.');
+    const std::size_t decimals = point == std::string::npos ? 0 : text.size() - point - 1;
+    const double scale = std::pow(10.0, static_cast<double>(decimals));
+    if (!U || text.find('E') != std::string::npos || std::abs(rest) * scale < k_part_that_shows ||
+        !(std::abs(value) < k_all_integers)) {
+        return printed_value(value, U);
+    }
+    // Integer and fraction apart: neither of them rounds, and neither does their sum.
+    double whole = std::floor(std::abs(value));
+    double fraction = std::nearbyint(((std::abs(value) - whole) + (value < 0.0 ? -rest : rest)) * scale);
+    const double carry = std::floor(fraction / scale);
+    whole += carry;
+    fraction -= carry * scale;
+    std::string digits = gum::round_to_quantum(fraction, 0);
+    digits.insert(0, decimals > digits.size() ? decimals - digits.size() : 0, '0');
+    return (value < 0.0 ? "-" : "") + gum::round_to_quantum(whole, 0) + (decimals > 0 ? "." + digits : "");
 }
 
 std::string printed_difference(double difference, const std::optional<double>& U, const std::optional<double>& scale) {

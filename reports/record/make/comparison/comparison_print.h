@@ -11,6 +11,9 @@ namespace gumcert::reports {
 
 /// A value to the decimal place of two significant digits of U; all its digits where there is no U, or U is 0.
 [[nodiscard]] std::string printed_value(double value, const std::optional<double>& U);
+/// The same of value + rest, where the rest is what the nearest double leaves of a value: 473 612 353 604 000.0225 ± 0.13 is
+/// printed as …000.02, though doubles of that size are 1/16 apart.
+[[nodiscard]] std::string printed_value(double value, double rest, const std::optional<double>& U);
 /// A difference that may have no U: then to two significant digits of `scale`, a standard deviation or another U; to
 /// four significant digits without one.
 [[nodiscard]] std::string printed_difference(double difference, const std::optional<double>& U,
@@ -25,6 +28,8 @@ namespace gumcert::reports {
 /// same signal as the number does (gum::signal_of_en(), gum::signal_of_z(), above 100 %). A score of 1.0004 beside an
 /// action is not printed as 1.00. "" for nothing.
 [[nodiscard]] std::string printed_en(const std::optional<double>& en);
+/// E_n for the worst plausible correlation: "∞" without a number where no finite number bounds it.
+[[nodiscard]] reports::Shown<std::optional<double>> shown_worst_en(const std::optional<double>& en);
 [[nodiscard]] std::string printed_z(const std::optional<double>& score);
 [[nodiscard]] std::string printed_share_of_allowed(const std::optional<double>& percent);
 /// Two significant digits, not less than 0.0001 in plain decimals, "<1E-300" below that; "" for nothing.

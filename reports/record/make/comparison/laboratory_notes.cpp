@@ -158,6 +158,12 @@ bool is_of_one_of_several_subsets(const gum::LaboratoryComparison& comparison, c
     });
 }
 
+bool is_judged_by_en(const gum::LaboratoryComparison& comparison, const gum::ScoredResult& point) {
+    return std::any_of(comparison.items.begin(), comparison.items.end(), [&](const gum::ItemResult& item) {
+        return item.item == point.item && item.round == point.round && item.score == gum::DecidingScore::en;
+    });
+}
+
 void add_assigned_value(ItemMessages& messages) {
     messages.add(
         {.code = "GC-COMPARE-0128",
@@ -393,6 +399,13 @@ void add_remarks_on_correlation(const jobs::ComparisonJob& job, const gum::Labor
             "Laboratories of one group may share effects, and the job states no correlation for the group. En is given "
             "for none, and beside it for the worst that is plausible: that the smaller uncertainty is shared whole.");
     }
+    if (count_results(comparison, [](const gum::ScoredResult& result) {
+            return result.en_worst && !std::isfinite(*result.en_worst);
+        }) > 0) {
+        remarks.emplace_back(
+            "Where all of the uncertainty of a difference may be common to both sides, no finite En bounds what that "
+            "would do.");
+    }
     if (comparison.summary && comparison.summary->agreement && comparison.summary->agreement->is_bounded) {
         remarks.emplace_back(
             "Uncertainties have finite degrees of freedom, and the differences from the assigned value correlate: no "
@@ -447,19 +460,39 @@ void add_remarks_on_uncertainties(const gum::LaboratoryComparison& comparison, s
         remarks.push_back(std::to_string(small) + (small > 1 ? " results state" : " result states") +
                           " a standard uncertainty below that of the assigned value.");
     }
-    const std::size_t inconclusive = count_results(comparison, [&](const gum::ScoredResult& point) {
+    const auto is_not_cleared = [&](const gum::ScoredResult& point) {
         return point.verdict == gum::Verdict::inconclusive && point.verdict_by.empty() &&
                !is_of_one_of_several_subsets(comparison, point);
+    };
+    const std::size_t inconclusive = count_results(comparison, [&](const gum::ScoredResult& point) {
+        return is_not_cleared(point) && is_judged_by_en(comparison, point);
     });
     if (inconclusive > 0) {
         remarks.push_back("The assigned value is less certain than " + std::to_string(inconclusive) +
                           (inconclusive > 1 ? " results claim to be: small scores clear none of them."
                                             : " result claims to be: a small score does not clear it."));
     }
+    // sigma_pt or delta_E decides: what a laboratory claims for itself has no say in it.
+    const std::size_t unjudged = count_results(comparison, [&](const gum::ScoredResult& point) {
+        return is_not_cleared(point) && !is_judged_by_en(comparison, point);
+    });
+    if (unjudged > 0) {
+        remarks.push_back(
+            "For " + std::to_string(unjudged) + (unjudged > 1 ? " results" : " result") +
+            " the assigned value is less certain than sigma_pt or delta_E asks, or its uncertainty is not "
+            "known: small scores clear nobody.");
+    }
     if (count_results(comparison, [](const gum::ScoredResult& point) { return point.en_audited.has_value(); }) > 0) {
         remarks.emplace_back(
             "En with findings corrected takes the corrected uncertainty of the laboratory, and of the reference "
             "laboratory; the value assigned from other results stays as it is.");
+    }
+    if (count_results(comparison, [](const gum::ScoredResult& point) {
+            return point.zeta_as_normal && gum::signal_of_z(*point.zeta) != gum::signal_of_z(*point.zeta_as_normal);
+        }) > 0) {
+        remarks.emplace_back(
+            "The limits 2 and 3 of zeta are those of a normal distribution: with few degrees of freedom zeta calls for "
+            "what the normal quantity with the same probability calls for.");
     }
     const std::size_t without_score =
         count_results(comparison, [](const gum::ScoredResult& point) { return point.U_difference && !point.en; });

@@ -253,7 +253,7 @@ std::string printed_share(const std::optional<double>& share) {
 }
 
 void add_assigned_value(const gum::ItemResult& from, ComparisonItemEvaluation& item) {
-    item.value = {from.value, printed_value(from.value, from.U)};
+    item.value = {from.value, printed_value(from.value, from.rest, from.U)};
     item.u = shown(from.u, printed_uncertainty);
     item.U = shown(from.U, printed_uncertainty);
     item.k = shown(from.k, printed_score);
@@ -354,7 +354,7 @@ void add_scores(const gum::ScoredResult& from, const ComparisonItemEvaluation& i
     point.z = shown(from.z, printed_z);
     point.z_prime = shown(from.z_prime, printed_z);
     point.P_A = shown(from.percent_of_allowed, printed_share_of_allowed);
-    point.En_worst = shown(from.en_worst, printed_en);
+    point.En_worst = shown_worst_en(from.en_worst);
     point.En_audited = shown(from.en_audited, printed_en);
     if (from.percent) {
         const double to_percent = 100.0 / std::abs(from.assigned_value);
@@ -435,7 +435,7 @@ reports::ComparisonSummary summary_record(const gum::ScoreSummary& from) {
     row.max_abs_En = shown(from.scores.largest_absolute_en, printed_en);
     row.rms_En = shown(from.scores.rms_en, printed_score);
     if (from.worst) {
-        row.max_abs_En_worst = shown(from.worst->largest_absolute_en, printed_en);
+        row.max_abs_En_worst = shown_worst_en(from.worst->largest_absolute_en);
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
     }
     if (from.audited) {

@@ -73,7 +73,7 @@ ComparisonPoint point_record(const gum::ComparedPoint& from, const gum::MethodSc
     point.u_D = score.u_difference;
     point.En = shown(score.en, printed_en);
     point.zeta = shown(score.zeta, printed_z);
-    point.En_worst = shown(finite(score.en_worst), printed_en);
+    point.En_worst = shown_worst_en(score.en_worst);
     point.En_audited = shown(score.en_audited, printed_en);
     point.signal = calls_for_action(score.en) || calls_for_action(score.en_audited) ? "action" : "none";
     if (calls_for_action(score.en)) {
@@ -184,7 +184,7 @@ ComparisonSummary summary_record(const gum::MethodSummary& from) {
     add_method_agreement(from.agreement, row);
     if (from.worst) {
         row.count_above_1_worst = static_cast<std::int64_t>(from.worst->count_above_1);
-        row.max_abs_En_worst = shown(finite(from.worst->largest_absolute_en), printed_en);
+        row.max_abs_En_worst = shown_worst_en(from.worst->largest_absolute_en);
     }
     if (from.audited) {
         row.mean_abs_En_audited = shown(from.audited->mean_absolute_en, printed_score);

@@ -318,6 +318,46 @@ TEST(FiniteDegrees, SumOfSquaresIsOneOfSquaredT) {
     EXPECT_NE(agreement_verdict(of, std::nullopt), AgreementVerdict::disagreement);
 }
 
+// The p of 200 and more points were those of an integral that had not converged: p_low of 500 points with Σζ² = 0.85 m
+// was 1 (0.0004), and a difference of two such tails was a power of −0.7.
+TEST(FiniteDegrees, OfManyPoints) {
+    for (const Index m : {60, 200, 500, 1000, 2000}) {
+        double before = 0.0;
+        for (const double f : {0.8, 0.95, 1.05, 1.2}) {
+            MethodDifferences differences = independent_points(m, 0.5 * std::sqrt(f));
+            differences.degrees_of_freedom = VectorXd::Constant(m, 30.0);
+            const Agreement of = agreement(differences, k_p);
+            EXPECT_NEAR(of.p_low + of.p_high, 1.0, 1e-9) << m << " " << f;
+            EXPECT_GE(of.p_low, before) << m << " " << f;
+            before = of.p_low;
+            EXPECT_GT(of.power_to_confirm, k_least_power_to_confirm) << m;
+            EXPECT_LE(of.power_to_confirm, 0.951) << m;
+            EXPECT_LT(of.p_if_too_small, 1e-3) << m;
+            EXPECT_LT(of.p_if_too_large, 1e-3) << m;
+            EXPECT_LT(of.rms_en_low, of.rms_en_high);
+            EXPECT_NEAR(of.rms_en_low, 0.5 * std::sqrt(30.0 / 28.0),
+                        2.5 * 0.5 * std::sqrt(1.2 / static_cast<double>(m)));
+        }
+    }
+    MethodDifferences differences = independent_points(500, 0.5 * std::sqrt(0.85));
+    differences.degrees_of_freedom = VectorXd::Constant(500, 30.0);
+    const Agreement of = agreement(differences, k_p);
+    EXPECT_NEAR(of.p_low, 4.2e-4, 0.1e-4) << "trials: 3e-4 of 10 000";
+    EXPECT_EQ(agreement_verdict(of, std::nullopt), AgreementVerdict::uncertainty_too_large);
+}
+
+// One estimate behind correlated points: lower limits of rms E_n for 300 points are near those of F(300, 30).
+TEST(FiniteDegrees, OfManyCorrelatedPoints) {
+    MethodDifferences differences = differences_of(VectorXd::Constant(300, 0.9), equicorrelated(300, 1e-6));
+    differences.degrees_of_freedom = VectorXd::Constant(300, 30.0);
+    const Agreement of = agreement(differences, k_p);
+    EXPECT_TRUE(of.is_bounded);
+    EXPECT_NEAR(of.rms_en_low, 0.39, 0.01);
+    EXPECT_GE(of.p_low + of.p_high, 1.0);
+    EXPECT_LE(of.p_low_least + of.p_high_least, 1.0);
+    EXPECT_GE(of.power_to_confirm, 0.0);
+}
+
 TEST(FiniteDegrees, LargestByChanceIsThatOfT) {
     MethodDifferences differences = independent_points(20, 0.3);
     differences.degrees_of_freedom = VectorXd::Constant(20, 4.0);

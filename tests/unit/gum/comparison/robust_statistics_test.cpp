@@ -348,6 +348,32 @@ TEST(RobustStatistics, HampelTakesTheRootNearestTheMedian) {
     EXPECT_DOUBLE_EQ(q_hampel(two).location, 5000.0);
 }
 
+// The law: where the location is taken as a value, at least half of the results lie within reach of ψ. Two groups of six
+// gave the middle between them with a u of 0.06, and every result a signal.
+TEST(RobustStatistics, HampelIsSupportedByHalfOfTheResults) {
+    const Results apart{9.9, 9.95, 10.0, 10.05, 10.1, 10.02, 13.9, 13.95, 14.0, 14.05, 14.1, 14.02};
+    EXPECT_EQ(test::code_of<NoResultError>([&] { (void)supported_q_hampel(apart); }), "GC-GUM-0144");
+    Results seven = apart;
+    seven.push_back(10.01);
+    EXPECT_NEAR(supported_q_hampel(seven).location, 10.0, 0.1);
+    RandomResults random(11);
+    for (int set = 0; set < 200; ++set) {
+        Results results = random.draw(random.whole(4, 40), 0.0);
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            results[i] += i % 2 == 0 ? 0.1 * set : 0.0;
+        }
+        try {
+            const RobustEstimate estimate = supported_q_hampel(results);
+            const auto within = std::count_if(results.begin(), results.end(), [&](double result) {
+                return std::abs(result - estimate.location) <= 4.5 * estimate.scale * (1.0 + 1e-12);
+            });
+            EXPECT_GE(2 * static_cast<std::size_t>(within), results.size()) << set;
+        } catch (const NoResultError&) {
+            EXPECT_GT(set, 20) << "one group has a value";
+        }
+    }
+}
+
 TEST(RobustStatistics, KernelModeIsTheHighestPlaceOfTheDensity) {
     RandomResults random(7);
     for (int set = 0; set < 40; ++set) {

@@ -67,6 +67,24 @@ TEST(ScoreSummary, ProbabilityOfTheScoresOfOneItem) {
     EXPECT_LT(summary.agreement->effective_points, 6.0);
 }
 
+// What results share with each other makes their joint distribution unknown, whatever it does to the scores one by one.
+TEST(ScoreSummary, NoJointProbabilityWhereAGroupIsUnknown) {
+    for (const AssignedValueMethod method : {AssignedValueMethod::weighted_mean, AssignedValueMethod::given,
+                                             AssignedValueMethod::reference, AssignedValueMethod::arithmetic_mean}) {
+        test::StatedComparison stated = test::comparison_of({10.0, 10.1, 10.2, 9.9}, {0.1, 0.1, 0.1, 0.1});
+        AssignedValueRequest& request = stated.scheme.items[0].assigned_value;
+        request.method = method;
+        request.participant = "L1";
+        request.value = 10.0;
+        request.uncertainty = test::u_with_k_2(0.05);
+        EXPECT_TRUE(summary_of_scores(stated.scheme, evaluated_items(stated))->agreement);
+        stated.scheme.participants[0].group = stated.scheme.participants[1].group = "G";
+        EXPECT_FALSE(summary_of_scores(stated.scheme, evaluated_items(stated))->agreement) << static_cast<int>(method);
+        stated.scheme.correlations = {{0, 1, 0.0}};
+        EXPECT_TRUE(summary_of_scores(stated.scheme, evaluated_items(stated))->agreement) << "stated, as none";
+    }
+}
+
 TEST(ScoreSummary, NothingWithoutEn) {
     test::StatedComparison stated = test::results_of_iso_13528_e1();
     stated.scheme.items[0].assigned_value.method = AssignedValueMethod::algorithm_a;

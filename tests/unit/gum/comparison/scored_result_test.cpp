@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
 #include "tests/unit/gum/printed.h"
@@ -254,6 +256,139 @@ TEST(ScoredResults, AGroupOfUnknownCorrelationLeavesAResultOpen) {
     EXPECT_EQ(scores[1].verdict, Verdict::inconclusive);
     EXPECT_THAT(scores[1].verdict_by, ElementsAre(Score::en_worst));
     EXPECT_EQ(scores[2].verdict, Verdict::none);
+}
+
+// (e − w)ᵀ V (e − w) with cov = u² within the group: u_D of the third of four equal results is 0.1 √(1/8).
+TEST(ScoredResults, WhatAGroupSharesChangesTheUncertaintyOfAWeightedMeanToo) {
+    test::StatedComparison stated = test::comparison_of({10.0, 10.02, 10.16, 9.9}, {0.1, 0.1, 0.1, 0.1});
+    for (const std::size_t i : {0U, 1U, 2U}) {
+        stated.scheme.participants[i].group = "G";
+    }
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::weighted_mean;
+    const std::vector<ScoredResult> scores = scores_of(stated);
+    EXPECT_TRUE(prints_as(*scores[2].en, "0.81"));
+    EXPECT_NEAR(*scores[2].en_worst, 0.14 / (2.0 * 0.1 * std::sqrt(0.125)), 1e-9);
+    EXPECT_EQ(scores[2].verdict, Verdict::inconclusive);
+    EXPECT_THAT(scores[2].verdict_by, ElementsAre(Score::en_worst));
+    EXPECT_FALSE(scores[3].en_worst);
+}
+
+// The law: whatever makes the assigned value out of the results, a member of a group of which nobody knows what it shares
+// has a worst E_n, and that is not smaller than its E_n.
+TEST(ScoredResults, EveryConsensusKnowsItsWorstCorrelation) {
+    using Method = AssignedValueMethod;
+    for (const Method method : {Method::arithmetic_mean, Method::weighted_mean, Method::median, Method::algorithm_a,
+                                Method::q_hampel, Method::dersimonian_laird, Method::mandel_paule,
+                                Method::power_moderated_mean, Method::largest_consistent_subset}) {
+        for (const double u : {0.1, 0.2, 0.4}) {
+            test::StatedComparison stated =
+                test::comparison_of({10.0, 10.05, 10.13, 9.87, 9.95, 10.21, 9.9}, {u, 0.1, 0.12, 0.1, 0.15, 0.1, 0.11});
+            for (const std::size_t i : {0U, 1U, 2U, 3U, 4U}) {
+                stated.scheme.participants[i].group = "G";
+            }
+            stated.scheme.items[0].assigned_value.method = method;
+            const std::vector<ScoredResult> scores = scores_of(stated);
+            for (std::size_t i = 0; i < scores.size(); ++i) {
+                const std::string what = std::to_string(static_cast<int>(method)) + " " + std::to_string(i);
+                EXPECT_EQ(scores[i].in_unknown_group, i < 5) << what;
+                ASSERT_EQ(scores[i].en_worst.has_value(), i < 5) << what;
+                if (i < 5) {
+                    EXPECT_GE(std::abs(*scores[i].en_worst), std::abs(*scores[i].en) * (1.0 - 1e-12)) << what;
+                    EXPECT_FALSE(scores[i].verdict == Verdict::none && std::abs(*scores[i].en_worst) > 1.0) << what;
+                }
+            }
+        }
+    }
+}
+
+// The nearer both uncertainties are to each other, the larger the worst E_n. At equality it has no limit, and does not
+// vanish.
+TEST(ScoredResults, EqualUncertaintiesHaveNoWorstEn) {
+    const auto worst = [](double u, double value) {
+        test::StatedComparison stated = test::comparison_of({10.0, value, 10.0}, {0.1, u, 0.2});
+        stated.scheme.items[0].assigned_value.method = AssignedValueMethod::reference;
+        stated.scheme.items[0].assigned_value.participant = "L1";
+        stated.scheme.participants[0].group = stated.scheme.participants[1].group = "G";
+        return scores_of(stated)[1];
+    };
+    EXPECT_TRUE(std::isinf(*worst(0.1, 10.1).en_worst));
+    EXPECT_EQ(worst(0.1, 10.1).verdict, Verdict::inconclusive);
+    EXPECT_LT(*worst(0.1, 9.9).en_worst, -1e300);
+    EXPECT_EQ(*worst(0.1, 10.0).en_worst, 0.0);
+    EXPECT_EQ(worst(0.1, 10.0).verdict, Verdict::none);
+    double before = 0.0;
+    for (const double apart : {0.01, 1e-3, 1e-4, 1e-6, 0.0}) {
+        const double en = *worst(0.1 + apart, 10.1).en_worst;
+        EXPECT_GT(en, before) << apart;
+        before = en;
+    }
+}
+
+// The law: where zero is does not matter. A mean that rounds to the nearest double is off by 1/32 Hz at 4.7e14 Hz, which
+// made a failure of the most precise result an E_n of 0, and a false one of another.
+TEST(ScoredResults, AConstantChangesNoScore) {
+    using Method = AssignedValueMethod;
+    const std::vector<double> offsets{0.0, 13.5, -20.125, 31.0, 7.25, -3.5};
+    for (const Method method : {Method::weighted_mean, Method::arithmetic_mean, Method::median, Method::algorithm_a,
+                                Method::q_hampel, Method::dersimonian_laird, Method::mandel_paule,
+                                Method::power_moderated_mean, Method::largest_consistent_subset}) {
+        const auto scores = [&](double constant) {
+            std::vector<double> x;
+            for (const double offset : offsets) {
+                x.push_back(offset + constant);
+            }
+            test::StatedComparison stated = test::comparison_of(x, {0.3, 30.0, 30.0, 30.0, 30.0, 30.0});
+            stated.scheme.items[0].assigned_value.method = method;
+            return scores_of(stated);
+        };
+        const std::vector<ScoredResult> about_zero = scores(0.0);
+        for (const double constant : {1e6, 1e12, 473612353604000.0, -473612353604000.0}) {
+            const std::vector<ScoredResult> moved = scores(constant);
+            for (std::size_t i = 0; i < moved.size(); ++i) {
+                const std::string what = std::to_string(static_cast<int>(method)) + " " + std::to_string(i);
+                EXPECT_NEAR(*moved[i].en, *about_zero[i].en, 1e-4) << what;
+                EXPECT_NEAR(*moved[i].zeta, *about_zero[i].zeta, 1e-4) << what;
+                EXPECT_EQ(moved[i].verdict, about_zero[i].verdict) << what;
+            }
+        }
+    }
+}
+
+// ζ of a u with 2 degrees of freedom is a t: 3.5 has a probability of 7 %, and calls for nothing.
+TEST(ScoredResults, ZetaOfFewDegreesOfFreedomIsJudgedAsT) {
+    const auto scored = [](double nu, double value) {
+        test::StatedComparison stated;
+        ComparisonItem& item = stated.scheme.items.emplace_back();
+        item.id = "block";
+        item.unit = Unit::parse("mm");
+        item.assigned_value.method = AssignedValueMethod::given;
+        item.assigned_value.value = 10.0;
+        item.assigned_value.uncertainty = test::u_with_k_2(0.01);
+        stated.add("A", value,
+                   ResultUncertainty{.u = 0.1,
+                                     .U = coverage_factor(0.9545, nu) * 0.1,
+                                     .k = coverage_factor(0.9545, nu),
+                                     .degrees_of_freedom = nu});
+        return scores_of(stated)[0];
+    };
+    const ScoredResult two = scored(2.0, 10.35);
+    EXPECT_NEAR(*two.zeta, 3.4827, 1e-3);
+    EXPECT_LT(*two.en, 1.0);
+    EXPECT_EQ(two.verdict, Verdict::none);
+    EXPECT_EQ(scored(std::numeric_limits<double>::infinity(), 10.35).verdict, Verdict::action);
+    // The law: with the same D, fewer degrees of freedom never call for more; and ζ speaks where E_n nearly does.
+    for (double value = 10.0; value < 12.0; value += 0.05) {
+        int before = 0;
+        for (const double nu : {1.0, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, std::numeric_limits<double>::infinity()}) {
+            const ScoredResult result = scored(nu, value);
+            const double judged = result.zeta_as_normal.value_or(*result.zeta);
+            const int signal = static_cast<int>(signal_of_z(judged));
+            EXPECT_GE(signal, before) << nu << " " << value;
+            before = signal;
+            EXPECT_NEAR(std::abs(judged) > 2.0, std::abs(*result.en) > 1.0, std::abs(judged - 2.0) < 0.03 ? 1.0 : 0.0)
+                << nu << " " << value;
+        }
+    }
 }
 
 TEST(ScoredResults, NoSignalRestsOnTheChoiceOfASubset) {

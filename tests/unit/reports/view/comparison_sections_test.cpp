@@ -465,6 +465,45 @@ TEST(ComparisonReport, TheGravestObjectionIsTheVerdict) {
     EXPECT_THAT(first(scatter), HasSubstr("p_high = 0.004"));
 }
 
+TEST(ComparisonReport, AWorstEnWithoutALimitIsSaid) {
+    for (const std::string& language : k_languages) {
+        const json words = comparison_wording(language);
+        EvaluationRecord record = with_verdicts({"correlation_unknown"});
+        for (ComparisonSummary& s : record.comparison->summary) {
+            s.max_abs_En_worst = {std::nullopt, "∞"};
+        }
+        const std::string without_limit =
+            words["comparison_verdict"]["correlation_unknown_without_limit"].get<std::string>();
+        const std::string said = without_limit.substr(without_limit.find("{largest}") + 9);
+        EXPECT_THAT(text_of(record, language), HasSubstr(squeezed(said))) << language;
+        EXPECT_THAT(text_of(record, language), HasSubstr("∞")) << language << ": the table";
+        for (ComparisonSummary& s : record.comparison->summary) {
+            s.max_abs_En_worst = {3.04, "3.04"};
+        }
+        EXPECT_THAT(text_of(record, language), Not(HasSubstr(squeezed(said)))) << language;
+    }
+}
+
+// A corrected comparison that shows no disagreement does not refute the agreement, but the proof of it.
+TEST(ComparisonReport, WhatFallsWithAFindingIsNamed) {
+    const auto first = [](const std::string& corrected) {
+        EvaluationRecord record = with_verdicts({"falls_with_finding"});
+        for (ComparisonSummary& s : record.comparison->summary) {
+            s.verdict_audited = corrected;
+        }
+        return view_of(record)["sections"][0]["blocks"][0]["paragraph"][0]["text"].get<std::string>();
+    };
+    for (const std::string& verdict : k_verdicts) {
+        if (verdict.empty() || verdict == "validated" || verdict == "side_refuted" || verdict == "falls_with_finding") {
+            continue;
+        }
+        const bool objects = verdict == "disagreement" || verdict == "points_above_1" || verdict == "joint_test_open";
+        EXPECT_THAT(first(verdict), HasSubstr(objects ? "The agreement does not stand" : "The confirmation does not"))
+            << verdict;
+        EXPECT_EQ(first(verdict).find("find the cause of the differences") != std::string::npos, objects) << verdict;
+    }
+}
+
 TEST(ComparisonReport, TestsAreSaidInBothDirections) {
     EvaluationRecord record = one_item(6);
     EXPECT_THAT(text_of(record), HasSubstr("The results that went into the test are consistent"));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <random>
 #include <string>
@@ -50,6 +51,24 @@ TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
         EXPECT_EQ(gum::signal_of_en(std::stod(printed_en(score))), gum::signal_of_en(score)) << printed_en(score);
         EXPECT_EQ(std::stod(printed_share_of_allowed(100.0 * score)) > 100.0, 100.0 * score > 100.0);
     }
+}
+
+TEST(ComparisonPrint, AValueBetweenTwoDoubles) {
+    EXPECT_EQ(printed_value(473612353604000.0, 0.0225, 0.13), "473612353604000.02");
+    EXPECT_EQ(printed_value(-473612353604000.0, -0.0225, 0.13), "-473612353604000.02");
+    EXPECT_EQ(printed_value(473612353604000.0, -0.0225, 0.13), "473612353603999.98");
+    EXPECT_EQ(printed_value(99999999999999.984375, 0.0125, 0.13), "100000000000000.00");
+    EXPECT_EQ(printed_value(473612353604000.0, 0.0225, 13.0), "473612353604000");
+    EXPECT_EQ(printed_value(10.25, 1e-17, 0.13), printed_value(10.25, 0.13));
+}
+
+TEST(ComparisonPrint, AWorstEnWithoutALimitHasAText) {
+    constexpr double k_infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(shown_worst_en(k_infinite).text, "∞");
+    EXPECT_EQ(shown_worst_en(-k_infinite).text, "-∞");
+    EXPECT_FALSE(shown_worst_en(k_infinite).number);
+    EXPECT_EQ(shown_worst_en(1.5).text, "1.50");
+    EXPECT_EQ(shown_worst_en(std::nullopt).text, "");
 }
 
 TEST(ComparisonPrint, AProbabilityIsNeverPrintedAsZero) {

@@ -221,7 +221,7 @@ TEST(MethodRecord, EqualUncertaintiesOfUnknownCorrelationHaveNoBound) {
     comparison.correlation_unknown = true;
     const reports::Comparison record = compared(comparison);
     EXPECT_FALSE(record.points[0].En_worst.number);
-    EXPECT_EQ(record.points[0].En_worst.text, "");
+    EXPECT_EQ(record.points[0].En_worst.text, "∞");
     EXPECT_FALSE(record.summary.front().max_abs_En_worst.number);
     EXPECT_EQ(*record.summary.front().count_above_1_worst, 1);
     EXPECT_EQ(record.summary.front().verdict, "correlation_unknown");
