@@ -95,6 +95,7 @@ std::vector<Limit> limits() {
         {k_certificate, "attributes of a tag", reports::k_most_attributes},
         {k_certificate, "numbers", reports::k_most_numbers},
         {k_signed, "signatures, and attachments of a PDF", signing::k_most_signatures},
+        {k_signed, "certificates that come with a signature", signing::k_most_certificates},
         {k_signed, "all attachments of a PDF, unpacked", signing::k_largest_attachments, k_byte},
         {k_signed, "XML: attributes of a tag", signing::k_most_in_tag},
         {k_signed, "XML: tags and attributes", signing::k_most_parts},

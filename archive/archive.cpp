@@ -319,8 +319,8 @@ Written Archive::write(const LogEntry& wanted, const Request& request, const Ask
                              asked.is_in(*known, body);
         if (!is_same) {
             refuse_request("GC-ARCHIVE-0027", wanted.request_key,
-                           "was the key of another request: \"" + known->kind + "\" " + known->certificate + " by " +
-                               known->actor + ", entry " + std::to_string(known->seq),
+                           "was the key of another request, or of one that was undone since: \"" + known->kind + "\" " +
+                               known->certificate + " by " + known->actor + ", entry " + std::to_string(known->seq),
                            "a key belongs to one request", "take a new key for a new request");
         }
         written = {std::move(*known), true};
@@ -407,8 +407,9 @@ void Archive::require_known(const std::string& certificate, const std::vector<Lo
 
 Written Archive::take_number(const Request& request) {
     LogEntry entry = entry_for(request, "numbered");
-    const Asked asked{
-        .what = {}, .is_in = [](const LogEntry&, const json& body) { return text_in(body, "new", "amends").empty(); }};
+    const Asked asked{.what = {}, .is_in = [&](const LogEntry& known, const json& body) {
+                          return still_holds(known) && text_in(body, "new", "amends").empty();
+                      }};
     return write(entry, request, asked, [&](json body) {
         const std::string numbering = rules_for({}, "").settings().numbering;
         if (numbering.empty()) {
@@ -440,8 +441,8 @@ Written Archive::take_number(const Request& request) {
 
 Written Archive::take_amendment_number(const std::string& original, const Request& request) {
     const LogEntry wanted = entry_for(request, "numbered");
-    const Asked asked{.what = {{"amends", original}}, .is_in = [&](const LogEntry&, const json& body) {
-                          return text_in(body, "new", "amends") == original;
+    const Asked asked{.what = {{"amends", original}}, .is_in = [&](const LogEntry& known, const json& body) {
+                          return still_holds(known) && text_in(body, "new", "amends") == original;
                       }};
     return write(wanted, request, asked, [&](json body) {
         require_known(original, store_.entries_of(original));
@@ -499,6 +500,18 @@ void Archive::require_heads(const Draft& draft, const std::string& record) {
     }
 }
 
+/// Whether what an entry has brought about still holds: steps that go on from it leave it alone, and a new draft, a withdrawal or
+/// a replacement undoes it. A draft is its entry, not its record: the same record may be drafted again with other documents, or by
+/// another person.
+bool Archive::still_holds(const LogEntry& known) {
+    const std::vector<LogEntry> entries = store_.entries_of(known.certificate);
+    return std::none_of(entries.begin(), entries.end(), [&](const LogEntry& entry) {
+        const bool is_undone = entry.kind == "withdrawn" || entry.kind == "superseded" ||
+                               (entry.kind == "drafted" && known.kind != "numbered");
+        return is_undone && entry.seq > known.seq;
+    });
+}
+
 Written Archive::draft(const Draft& draft, const Request& request) {
     LogEntry entry = entry_for(request, "drafted", draft.number);
     entry.record = encoding::sha256(draft.record);
@@ -521,9 +534,9 @@ Written Archive::draft(const Draft& draft, const Request& request) {
         amends = {{"number", draft.amends->number}, {"kind", draft.amends->kind}, {"changes", std::move(changes)}};
     }
     const Asked asked{.what = {{"amends", amends}, {"documents", documents}, {"item", draft.item}},
-                      .is_in = [&](const LogEntry&, const json& body) {
+                      .is_in = [&](const LogEntry& known, const json& body) {
                           const json now = body.value("new", json::object());
-                          return now.value("documents", json()) == documents &&
+                          return still_holds(known) && now.value("documents", json()) == documents &&
                                  now.value("item", json()) == draft.item && body.value("amends", json()) == amends;
                       }};
     return write(entry, request, asked, [&](json body) {
@@ -560,11 +573,9 @@ Written Archive::draft(const Draft& draft, const Request& request) {
 Written Archive::advance(const std::string& certificate, const std::string& kind, const Request& request,
                          const Judge& judge) {
     LogEntry entry = entry_for(request, kind, certificate);
-    // Asked again after a new draft it is another request: another record is to be judged.
-    const Asked asked{.what = {}, .is_in = [&](const LogEntry& known, const json&) {
-                          const LogRules rules = rules_for({certificate}, "");
-                          return rules.life(certificate)->record == known.record;
-                      }};
+    // Asked again after a new draft it is another request: something else is to be judged, if only another document. After a
+    // withdrawal the answer "issued" would be wrong.
+    const Asked asked{.what = {}, .is_in = [&](const LogEntry& known, const json&) { return still_holds(known); }};
     return write(entry, request, asked, [&](json body) {
         const std::vector<LogEntry> entries = store_.entries_of(certificate);
         require_known(certificate, entries);
@@ -600,8 +611,14 @@ Written Archive::change_settings(const Settings& settings, const Request& reques
     require_numbering(settings);
     require_persons(settings);
     LogEntry entry = entry_for(request, "settings");
-    const Asked asked{.what = to_json(settings), .is_in = [&](const LogEntry&, const json& body) {
-                          return body.value("new", json()) == to_json(settings);
+    // Where the settings were changed since, the answer that these are the settings would be wrong.
+    const Asked asked{.what = to_json(settings), .is_in = [&](const LogEntry& known, const json& body) {
+                          std::int64_t newest = 0;
+                          store_.entries_of_kind("settings", [&](const LogEntry& one) {
+                              newest = one.seq;
+                              return false;
+                          });
+                          return newest == known.seq && body.value("new", json()) == to_json(settings);
                       }};
     return write(entry, request, asked, [&](json body) {
         LogRules rules = rules_for({}, "");

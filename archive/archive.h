@@ -142,6 +142,7 @@ private:
                   const std::function<LogEntry(nlohmann::json)>& work);
     void require_contents(const CertificateLife& life, const Judge& judge);
     void require_distinct(const LogEntry& entry, const LogRules& rules);
+    [[nodiscard]] bool still_holds(const LogEntry& known);
     void require_heads(const Draft& draft, const std::string& record);
     void require_known(const std::string& certificate, const std::vector<LogEntry>& entries);
 };

@@ -207,7 +207,8 @@ set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
                             gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
-                            signing/openssl_handles.h signing/qpdf_objects.h signing/signing_files.h signing/time_texts.h
+                            signing/openssl_handles.h signing/qpdf_objects.h signing/signer_chain.h signing/signing_files.h
+                            signing/cms_parts.h signing/time_texts.h signing/xml_algorithms.h signing/xml_own_parts.h
                             signing/xml_tree.h workbook/letters.h workbook/operand.h workbook/package_parts.h
                             workbook/sheet_part.h workbook/workbook_parts.h workbook/xml_events.h)
 

@@ -8,6 +8,8 @@ namespace gumcert::signing {
 
 /// More signatures or attachments than this are not looked at one by one: each costs a pass over the whole file.
 inline constexpr std::size_t k_most_signatures = 16;
+/// Certificates that come with a signature: each is held against all others.
+inline constexpr std::size_t k_most_certificates = 16;
 inline constexpr std::size_t k_largest_attachments = std::size_t{64} << 20U;  ///< [byte], of all attachments of a PDF
 /// A tree takes some hundred bytes for each tag and attribute, and the time to compare those of a tag grows as the square of
 /// their number.

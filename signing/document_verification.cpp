@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "signing/certificates.h"
+#include "signing/signer_chain.h"
 #include "signing/time_texts.h"
 #include "text/visible_text.h"
 
 namespace gumcert::signing {
-
-namespace {}  // namespace
 
 std::string shown_text(std::string_view text) {
     constexpr std::size_t k_longest = 300;
@@ -28,6 +27,11 @@ void show_safely(SignatureReport& report) {
     }
     for (std::string& name : report.signer_names) {
         name = shown_text(name);
+    }
+    for (std::vector<std::string>* texts : {&report.covers, &report.not_covered}) {
+        for (std::string& text : *texts) {
+            text = shown_text(text);
+        }
     }
     show_safely(report.findings);
 }
@@ -71,6 +75,16 @@ void check_signer(SignatureReport& report, const std::string& where, const std::
     // their signers last.
     for (gum::Diagnostic& finding : check_chain(where, chain, trusted.certificates, time)) {
         report.findings.push_back(std::move(finding));
+    }
+    const SignerChain issuers(chain, trusted.certificates);
+    for (X509* const foreign : issuers.foreign()) {
+        add_error(report, "GC-SIGN-0124", where,
+                  "a certificate of " + subject_of(foreign) + " came along, which has not issued that of the signer",
+                  k_chain_alone, k_ask_again);
+    }
+    for (X509* const unproven : issuers.unproven()) {
+        report.not_covered.push_back("the certificate of " + subject_of(unproven) +
+                                     " that came along: nothing that is trusted vouches for it");
     }
     const std::optional<std::int64_t> end = end_of_validity(signer);
     if (end && *end < now && time <= *end) {

@@ -25,12 +25,16 @@ inline constexpr const char* k_ask_again = "ask the laboratory for the original 
 [[nodiscard]] Verification verify_pdf(const Bytes& pdf, const std::string& name, const TrustedMaterial& trusted,
                                       std::int64_t now);
 
+/// The rule for certificates that come with a signature, which nothing covers.
+inline constexpr const char* k_chain_alone =
+    "a signature brings the certificate of the signer and those of its issuers, 16 at most, and none besides";
+
 /// Adds a finding that makes the signature invalid.
 void add_error(SignatureReport& report, const char* code, const std::string& where, const std::string& what,
                const char* rule, const char* action);
 
 /// Checks chain and times for a signature whose value fits its certificate, and fills in signer, issuer and findings.
-/// \param chain         the signer's certificate first
+/// \param chain         the signer's certificate first; GC-SIGN-0124 where another one is none of its issuers
 /// \param claimed_time  "" where the signature claims none
 void check_signer(SignatureReport& report, const std::string& where, const std::vector<CertificateHandle>& chain,
                   const TrustedMaterial& trusted, const std::string& claimed_time, std::int64_t now);

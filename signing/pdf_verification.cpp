@@ -17,6 +17,7 @@
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "signing/certificates.h"
+#include "signing/cms_parts.h"
 #include "signing/document_limits.h"
 #include "signing/document_verification.h"
 #include "signing/qpdf_objects.h"
@@ -196,13 +197,6 @@ private:
         }
         // The value is verified with this certificate and no other: two may have the same issuer and serial number.
         CMS_SignerInfo_set1_signer_cert(info, signer);
-        check_algorithms(info);
-        check_attributes(info, pades, signer, certificates.get());
-        // Where the shape is not right, a value that fits would say nothing. Bytes added later are the one exception:
-        // it helps to know that the earlier state of the file was signed.
-        if (report_.findings.empty() || only_later_bytes()) {
-            check_value(cms.get(), range);
-        }
         std::vector<CertificateHandle> chain;
         X509_up_ref(signer);
         chain.emplace_back(signer);
@@ -213,8 +207,32 @@ private:
                 chain.emplace_back(one);
             }
         }
+        if (chain.size() > k_most_certificates) {
+            error("GC-SIGN-0124", std::to_string(chain.size()) + " certificates", k_chain_alone);
+            chain.resize(1);
+        }
+        check_parts(cms.get(), {chain, trusted.certificates});
+        check_algorithms(info);
+        check_attributes(info, pades, signer, certificates.get());
+        // Where the shape is not right, a value that fits would say nothing. Bytes added later are the one exception:
+        // it helps to know that the earlier state of the file was signed.
+        if (report_.findings.empty() || only_later_bytes()) {
+            check_value(cms.get(), range);
+        }
         check_times(info, pades);
         check_signer(report_, where_, chain, trusted, claimed_time(info), now);
+    }
+
+    /// The gap is not signed, and the CMS in it covers its signed attributes alone.
+    void check_parts(CMS_ContentInfo* cms, const SignerChain& chain) {
+        const CmsParts parts = cms_parts(cms, chain);
+        if (!parts.foreign.empty()) {
+            error("GC-SIGN-0148", parts.foreign + " within the signature is not covered by it",
+                  "a signature holds nothing but its own parts, time stamps and revocation values");
+        }
+        for (const std::string& part : parts.brought) {
+            report_.not_covered.push_back("unsigned within the signature: " + part);
+        }
     }
 
     /// Two times of one signature: that of the signed attributes, and /M of the signature dictionary.

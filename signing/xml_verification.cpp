@@ -14,6 +14,7 @@
 #include <array>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -22,39 +23,16 @@
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "signing/certificates.h"
+#include "signing/document_limits.h"
 #include "signing/document_verification.h"
 #include "signing/time_texts.h"
+#include "signing/xml_algorithms.h"
+#include "signing/xml_own_parts.h"
 #include "signing/xml_tree.h"
 
 namespace gumcert::signing {
 
 namespace {
-
-/// An algorithm of the allow-list: its identifier in XML, and its name for people and for OpenSSL.
-struct Algorithm {
-    std::string_view identifier;
-    const char* name;
-};
-constexpr std::array<Algorithm, 3> k_canonicalisations = {{{"http://www.w3.org/2001/10/xml-exc-c14n#", "exclusive"},
-                                                           {"http://www.w3.org/2006/12/xml-c14n11", "1.1"},
-                                                           {"http://www.w3.org/TR/2001/REC-xml-c14n-20010315", "1.0"}}};
-constexpr std::array<Algorithm, 3> k_digests = {{{"http://www.w3.org/2001/04/xmlenc#sha256", "SHA2-256"},
-                                                 {"http://www.w3.org/2001/04/xmldsig-more#sha384", "SHA2-384"},
-                                                 {"http://www.w3.org/2001/04/xmlenc#sha512", "SHA2-512"}}};
-constexpr std::array<Algorithm, 6> k_methods = {
-    {{"http://www.w3.org/2001/04/xmldsig-more#rsa-sha256", "RSA with SHA-256"},
-     {"http://www.w3.org/2001/04/xmldsig-more#rsa-sha384", "RSA with SHA-384"},
-     {"http://www.w3.org/2001/04/xmldsig-more#rsa-sha512", "RSA with SHA-512"},
-     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha256", "ECDSA with SHA-256"},
-     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha384", "ECDSA with SHA-384"},
-     {"http://www.w3.org/2001/04/xmldsig-more#ecdsa-sha512", "ECDSA with SHA-512"}}};
-
-template <std::size_t Count>
-const char* allowed(const std::array<Algorithm, Count>& list, const std::string& identifier) {
-    const auto found =
-        std::find_if(list.begin(), list.end(), [&](const Algorithm& a) { return a.identifier == identifier; });
-    return found == list.end() ? nullptr : found->name;
-}
 
 void start_xmlsec() {
     static std::once_flag started;
@@ -80,13 +58,6 @@ std::vector<xmlNode*> all_elements(xmlNode* root) {
         all.insert(all.end(), children.begin(), children.end());
     }
     return all;
-}
-
-bool is_inside(const xmlNode* node, const xmlNode* of) {
-    while (node != nullptr && node != of) {
-        node = node->parent;
-    }
-    return node != nullptr;
 }
 
 bool has_comments(const xmlNode* node) {
@@ -145,145 +116,6 @@ bool has_foreign_attribute(const xmlNode* element) {
     return std::any_of(children.begin(), children.end(), has_foreign_attribute);
 }
 
-/// What the text of an element within a signature may be, beside blanks.
-enum class TextOf {
-    nothing,
-    base64,
-    certificate,  ///< a name or a number of a certificate of the signature, which says nothing that it does not say
-};
-
-/// An element that may stand within a signature, beside what the signature covers.
-struct OwnPart {
-    const char* name_space;
-    std::string_view name;
-    std::string_view attributes = "Id";  ///< names, with blanks between
-    TextOf text = TextOf::nothing;
-};
-constexpr std::array<OwnPart, 38> k_own_parts = {{
-    {k_dsig_namespace, "Signature"},
-    {k_dsig_namespace, "SignatureValue", "Id", TextOf::base64},
-    {k_dsig_namespace, "KeyInfo"},
-    {k_dsig_namespace, "KeyName", "Id", TextOf::certificate},
-    {k_dsig_namespace, "X509Data"},
-    {k_dsig_namespace, "X509SubjectName", "", TextOf::certificate},
-    {k_dsig_namespace, "X509IssuerSerial"},
-    {k_dsig_namespace, "X509IssuerName", "", TextOf::certificate},
-    {k_dsig_namespace, "X509SerialNumber", "", TextOf::certificate},
-    {k_dsig_namespace, "X509Certificate", "", TextOf::base64},
-    {k_dsig_namespace, "X509SKI", "", TextOf::base64},
-    {k_dsig_namespace, "X509CRL", "", TextOf::base64},
-    {k_dsig_11_namespace, "X509Digest", "Algorithm", TextOf::base64},
-    {k_dsig_namespace, "KeyValue"},
-    {k_dsig_namespace, "RSAKeyValue"},
-    {k_dsig_namespace, "Modulus", "", TextOf::base64},
-    {k_dsig_namespace, "Exponent", "", TextOf::base64},
-    {k_dsig_11_namespace, "ECKeyValue"},
-    {k_dsig_11_namespace, "NamedCurve", "URI"},
-    {k_dsig_11_namespace, "PublicKey", "", TextOf::base64},
-    {k_dsig_namespace, "Object"},
-    {k_xades_namespace, "QualifyingProperties", "Id Target"},
-    {k_xades_namespace, "UnsignedProperties"},
-    {k_xades_namespace, "UnsignedSignatureProperties"},
-    {k_xades_namespace, "SignatureTimeStamp"},
-    {k_xades_namespace, "SigAndRefsTimeStamp"},
-    {k_xades_namespace, "RefsOnlyTimeStamp"},
-    {k_xades_namespace, "ArchiveTimeStamp"},
-    {k_xades_141_namespace, "ArchiveTimeStamp"},
-    {k_dsig_namespace, "CanonicalizationMethod", "Algorithm"},
-    {k_xades_namespace, "EncapsulatedTimeStamp", "Id Encoding", TextOf::base64},
-    {k_xades_namespace, "CertificateValues"},
-    {k_xades_namespace, "EncapsulatedX509Certificate", "Id Encoding", TextOf::base64},
-    {k_xades_namespace, "RevocationValues"},
-    {k_xades_namespace, "CRLValues"},
-    {k_xades_namespace, "EncapsulatedCRLValue", "Id Encoding", TextOf::base64},
-    {k_xades_namespace, "OCSPValues"},
-    {k_xades_namespace, "EncapsulatedOCSPValue", "Id Encoding", TextOf::base64},
-}};
-
-/// Whether two names are one, "CN=A, O=B" and "O=B,CN=A": programs write the parts in either order, with or without blanks.
-bool is_same_distinguished_name(std::string_view a, std::string_view b) {
-    const auto parts_of = [](std::string_view name) {
-        std::vector<std::string> parts(1);
-        bool is_escaped = false;
-        for (const char c : name) {
-            if (c == ',' && !is_escaped) {
-                parts.emplace_back();
-            } else if (!(c == ' ' && parts.back().empty())) {
-                parts.back() += c;
-            }
-            is_escaped = c == '\\' && !is_escaped;
-        }
-        std::sort(parts.begin(), parts.end());
-        return parts;
-    };
-    return parts_of(a) == parts_of(b);
-}
-
-bool is_base64_or_blank(std::string_view text) {
-    constexpr std::string_view k_characters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/= \t\r\n";
-    return text.find_first_not_of(k_characters) == std::string_view::npos;
-}
-
-/// Whether a value is an identifier or an address, and not a sentence.
-bool is_plain_value(std::string_view value) {
-    constexpr std::string_view k_characters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._:/#-";
-    constexpr std::size_t k_longest = 200;
-    return value.size() <= k_longest && value.find_first_not_of(k_characters) == std::string_view::npos;
-}
-
-bool is_among(std::string_view list, std::string_view word) {
-    return (' ' + std::string(list) + ' ').find(' ' + std::string(word) + ' ') != std::string::npos;
-}
-
-/// The first part of a signature that is none of a signature's, in words. The signature leaves itself out of what it covers,
-/// so anything could have been put there later: elements and attributes are those of the list, texts are Base64 or name a
-/// certificate (check_names), and there is
-/// no comment and no processing instruction, which canonical XML may leave out of what is covered, too.
-/// \param covered  parts that it covers nevertheless
-/// \return "" if there is none
-std::string foreign_part(const xmlNode* element, const std::array<const xmlNode*, 2>& covered) {
-    const bool is_covered = std::find(covered.begin(), covered.end(), element) != covered.end() ||
-                            std::any_of(covered.begin(), covered.end(),
-                                        [&](const xmlNode* one) { return one != nullptr && is_inside(element, one); });
-    const auto* const own = std::find_if(k_own_parts.begin(), k_own_parts.end(), [&](const OwnPart& part) {
-        return is_element(element, part.name_space, std::string(part.name).c_str());
-    });
-    if (!is_covered && own == k_own_parts.end()) {
-        return "the element " + name_of(element);
-    }
-    for (const xmlAttr* a = is_covered ? nullptr : element->properties; a != nullptr; a = a->next) {
-        const std::string name = reinterpret_cast<const char*>(a->name);
-        if (a->ns != nullptr || !is_among(own->attributes, name) || !is_plain_value(attribute(element, name.c_str()))) {
-            return "the attribute " + name + " of " + name_of(element);
-        }
-    }
-    for (const xmlNode* child = element->children; child != nullptr; child = child->next) {
-        switch (child->type) {
-            case XML_ELEMENT_NODE:
-                if (std::string found = foreign_part(child, covered); !found.empty()) {
-                    return found;
-                }
-                break;
-            case XML_TEXT_NODE: {
-                const std::string_view text =
-                    child->content == nullptr ? "" : reinterpret_cast<const char*>(child->content);
-                if (!is_covered && own->text != TextOf::certificate &&
-                    !(own->text == TextOf::base64 ? is_base64_or_blank(text) : is_blank(text))) {
-                    return "text in " + name_of(element);
-                }
-                break;
-            }
-            default:
-                return std::string(child->type == XML_COMMENT_NODE ? "a comment"
-                                   : child->type == XML_PI_NODE    ? "a processing instruction"
-                                                                   : "text of another form") +
-                       " in " + name_of(element);
-        }
-    }
-    return {};
-}
-
 /// How many elements bear this value as identifier, whatever the spelling of the attribute.
 int count_of_id(const std::vector<xmlNode*>& elements, const std::string& value) {
     int count = 0;
@@ -299,6 +131,10 @@ int count_of_id(const std::vector<xmlNode*>& elements, const std::string& value)
     return count;
 }
 
+constexpr const char* k_own_parts_alone =
+    "a signature holds nothing but its own parts, so that nothing in it can be taken for what was signed";
+constexpr std::size_t k_most_named = 20;  // namespaces or identifiers, in a report
+
 /// Checks one signature: first its shape, by our own rules, so that nothing of what XML signatures can do besides is
 /// left; then its values, by xmlsec; then its signer.
 class XmlSignatureCheck {
@@ -310,7 +146,7 @@ public:
         report_.format = "XMLDSig";
         check_shape();
         find_certificate();
-        check_names();
+        check_values_of_own_parts(trusted);
         if (report_.findings.empty()) {
             check_values();
         }
@@ -371,10 +207,8 @@ private:
             error("GC-SIGN-0112", std::to_string(document_references) + " references to the whole document",
                   "exactly one reference has URI=\"\", so that nothing else can be taken for what was signed");
         }
-        if (const std::string foreign = foreign_part(signature_, {info, properties_}); !foreign.empty()) {
-            error(
-                "GC-SIGN-0120", foreign + " within the signature is not covered by it",
-                "a signature holds nothing but its own parts, so that nothing in it can be taken for what was signed");
+        if (const std::string foreign = foreign_part(signature_, covered(), used_); !foreign.empty()) {
+            error("GC-SIGN-0120", foreign + " within the signature is not covered by it", k_own_parts_alone);
         }
     }
 
@@ -420,6 +254,7 @@ private:
             error("GC-SIGN-0113", "transforms of the document other than leaving out the signature and canonical XML",
                   "every other transform could leave out a part of the document");
         }
+        is_exclusive_ = is_exclusive_ || (transforms.size() == 2 && transforms[1] == k_exclusive_c14n);
         check_digest(reference);
     }
 
@@ -458,6 +293,10 @@ private:
         }
     }
 
+    [[nodiscard]] CoveredParts covered() const {
+        return {only_child(signature_, k_dsig_namespace, "SignedInfo"), properties_};
+    }
+
     [[nodiscard]] const xmlNode* signature_properties() const {
         return only_child(properties_, k_xades_namespace, "SignedSignatureProperties");
     }
@@ -469,20 +308,7 @@ private:
 
     /// The certificates of KeyInfo, the signer's first: with XAdES the one whose digest is among the signed properties.
     void find_certificate() {
-        for (const xmlNode* key_info : children_of(signature_, k_dsig_namespace, "KeyInfo")) {
-            for (const xmlNode* data : children_of(key_info, k_dsig_namespace, "X509Data")) {
-                for (const xmlNode* element : children_of(data, k_dsig_namespace, "X509Certificate")) {
-                    const std::optional<Bytes> der = encoding::bytes_from_base64(text_of(element));
-                    CertificateHandle certificate = der ? certificate_from_der(*der) : CertificateHandle();
-                    if (certificate != nullptr) {
-                        // The digest of the signed properties is of these bytes. A certificate that is encoded again
-                        // could differ from them.
-                        encoded_.push_back(*der);
-                        chain_.push_back(std::move(certificate));
-                    }
-                }
-            }
-        }
+        certificates_in(signature_, covered(), k_dsig_namespace, "X509Certificate", chain_, encoded_);
         if (chain_.empty()) {
             error("GC-SIGN-0115", "no certificate of the signer in it",
                   "the signature brings the certificate of the signer (KeyInfo/X509Data/X509Certificate)");
@@ -491,35 +317,36 @@ private:
         if (properties_ != nullptr) {
             choose_by_digest();
         }
+        // Those of the unsigned properties come behind: none of them is the signer's.
+        certificates_in(signature_, covered(), k_xades_namespace, "EncapsulatedX509Certificate", chain_, encoded_);
+        if (chain_.size() > k_most_certificates) {
+            error("GC-SIGN-0124", std::to_string(chain_.size()) + " certificates", k_chain_alone);
+            chain_.resize(1);
+        }
     }
 
-    /// KeyInfo may name the certificate that it brings, as programs of others do: a text that names none of the
-    /// certificates is none of a signature's.
-    void check_names() {
+    /// What the signature leaves out of what it covers is of the signer: keys, certificates, lists and names.
+    void check_values_of_own_parts(const TrustedMaterial& trusted) {
+        if (chain_.empty()) {
+            return;
+        }
+        if (const std::string foreign = foreign_value(signature_, covered(), {chain_, trusted.certificates});
+            !foreign.empty()) {
+            error("GC-SIGN-0120", foreign + " within the signature is not covered by it", k_own_parts_alone);
+        }
+    }
+
+    /// Declarations that nothing uses are no part of exclusive canonical XML. (Those within the signature foreign_part() refuses.)
+    [[nodiscard]] std::set<std::string> unused_namespaces() const {
+        std::set<std::string> unused;
         for (const xmlNode* element : elements_) {
-            if (!is_inside(element, signature_) || chain_.empty()) {
-                continue;
-            }
-            const auto is = [&](const char* name) { return is_element(element, k_dsig_namespace, name); };
-            const bool is_name = is("KeyName") || is("X509SubjectName") || is("X509IssuerName");
-            if (!is_name && !is("X509SerialNumber")) {
-                continue;
-            }
-            const std::string text = text_of(element);
-            const bool fits = std::any_of(chain_.begin(), chain_.end(), [&](const CertificateHandle& certificate) {
-                const std::vector<std::string> parts = names_of(certificate.get());
-                return is_name ? is_same_distinguished_name(text, subject_of(certificate.get())) ||
-                                     is_same_distinguished_name(text, issuer_of(certificate.get())) ||
-                                     std::find(parts.begin(), parts.end(), text) != parts.end()
-                               : text == serial_of(certificate.get());
-            });
-            if (!fits) {
-                error("GC-SIGN-0120",
-                      "text in " + name_of(element) + " that names none of its certificates is not covered by it",
-                      "a signature holds nothing but its own parts, so that nothing in it can be taken for what was "
-                      "signed");
+            for (const xmlNs* declared = element->nsDef; declared != nullptr; declared = declared->next) {
+                if (!used_.contains(declared) && !is_inside(element, signature_)) {
+                    unused.insert(shown_namespace(declared));
+                }
             }
         }
+        return unused;
     }
 
     void choose_by_digest() {
@@ -619,6 +446,19 @@ private:
         if (has_comments(reinterpret_cast<const xmlNode*>(signature_->doc))) {
             report_.not_covered.emplace_back("comments of the XML");
         }
+        const auto listed = [&](const std::string& what, const auto& names) {
+            std::size_t told = 0;
+            for (const std::string& name : names) {
+                report_.not_covered.push_back(what + (told == k_most_named ? "more of them" : name));
+                if (told++ == k_most_named) {
+                    break;
+                }
+            }
+        };
+        if (is_exclusive_) {
+            listed("a namespace that nothing uses: ", unused_namespaces());
+        }
+        listed("an identifier within the signature: ", identifiers_in(signature_, covered()));
         for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
             const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");
             if (qualifying == nullptr || qualifying != properties_parent()) {
@@ -655,6 +495,8 @@ private:
     SignatureReport report_;
     xmlNode* properties_ = nullptr;
     std::vector<CertificateHandle> chain_;
+    UsedNamespaces used_ = used_namespaces(elements_);
+    bool is_exclusive_ = false;   ///< the canonical form of the document
     std::vector<Bytes> encoded_;  ///< DER of the certificates, as they stand in the document
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 
 #include "archive/store/open_store.h"
@@ -242,6 +243,113 @@ TYPED_TEST(ArchiveLaws, AReviewWithAKeyIsOfOneDraft) {
     EXPECT_TRUE(this->archive_->advance(number, "reviewed", review).repeated);
     (void)this->archive_->draft(sample_draft(number, "2"), this->by("A. Author"));
     EXPECT_EQ(code_of([&] { (void)this->archive_->advance(number, "reviewed", review); }), "GC-ARCHIVE-0027");
+}
+
+/// The same record with other documents, or by another author, is another draft too.
+TYPED_TEST(ArchiveLaws, AJudgementWithAKeyIsOfOneDraftWhateverTheNextOneSharesWithIt) {
+    const std::string number = this->archive_->take_number(this->by("A. Author")).entry.certificate;
+    const Draft draft = sample_draft(number);
+    const Request first = this->by("A. Author", "", "draft");
+    (void)this->archive_->draft(draft, first);
+    const Request review = this->by("R. Reviewer", "", "review");
+    const Request authorisation = this->by("R. Reviewer", "", "authorise");
+    (void)this->archive_->advance(number, "reviewed", review);
+    (void)this->archive_->advance(number, "authorised", authorisation);
+    EXPECT_TRUE(this->archive_->draft(draft, first).repeated) << "steps that go on from it";
+    EXPECT_TRUE(this->archive_->advance(number, "reviewed", review).repeated);
+    Draft other = draft;
+    other.documents = {{"certificate.html", "text/html", "<html>another</html>"}};
+    (void)this->archive_->draft(other, this->by("Z. Other"));
+    const Head before = this->archive_->head();
+    EXPECT_EQ(code_of([&] { (void)this->archive_->advance(number, "reviewed", review); }), "GC-ARCHIVE-0027");
+    EXPECT_EQ(code_of([&] { (void)this->archive_->advance(number, "authorised", authorisation); }), "GC-ARCHIVE-0027");
+    EXPECT_EQ(code_of([&] { (void)this->archive_->draft(draft, first); }), "GC-ARCHIVE-0027");
+    EXPECT_EQ(this->archive_->head(), before);
+    EXPECT_EQ(this->archive_->life(number).state, "drafted");
+}
+
+/// Law: whatever was asked for in between, a request with a key that is asked again gets its entry, or is refused and writes nothing;
+/// and it gets its entry exactly where what the entry says is so still.
+TYPED_TEST(ArchiveLaws, ARequestAskedAgainIsAnsweredWhileItHolds) {
+    struct Asked {
+        std::string kind;
+        std::function<Written(const Request&)> ask;
+        Request request;
+        LogEntry entry;
+    };
+    std::mt19937 random(17);  // NOLINT(cert-msc51-cpp): the same sequences each time
+    const auto chance = [&](std::size_t of) { return static_cast<std::size_t>(random() % of); };
+    int held = 0;
+    int refused = 0;
+    std::vector<Asked> all;
+    std::vector<std::string> numbers;
+    bool four_eyes = true;
+    for (int step = 0; step < 120; ++step) {
+        Asked one;
+        const std::string number = numbers.empty() ? "" : numbers[chance(numbers.size())];
+        const std::size_t what = chance(12);
+        std::string who = "R. Reviewer";
+        if (number.empty() || what == 0) {
+            one.kind = "numbered";
+            one.ask = [&](const Request& r) { return this->archive_->take_number(r); };
+            who = "A. Author";
+        } else if (what == 1) {
+            four_eyes = !four_eyes;
+            one.kind = "settings";
+            one.ask = [&, four_eyes](const Request& r) {
+                return this->archive_->change_settings({.four_eyes = four_eyes, .numbering = "EX-YYYY-###"}, r);
+            };
+        } else if (what < 5) {
+            Draft draft = sample_draft(number, std::to_string(chance(2)));
+            draft.documents.resize(1 + chance(2));
+            one.kind = "drafted";
+            one.ask = [&, draft](const Request& r) { return this->archive_->draft(draft, r); };
+            who = chance(2) == 0 ? "A. Author" : "Z. Other";
+        } else {
+            const std::string state = this->archive_->life(number).state;
+            one.kind = what == 5             ? "withdrawn"
+                       : state == "drafted"  ? "reviewed"
+                       : state == "reviewed" ? "authorised"
+                                             : "issued";
+            one.ask = [&, number, kind = one.kind](const Request& r) {
+                return this->archive_->advance(number, kind, r);
+            };
+        }
+        one.request = this->by(who, "a reason", "key " + std::to_string(step));
+        if (code_of([&] { one.entry = one.ask(one.request).entry; }).empty()) {
+            if (one.kind == "numbered") {
+                numbers.push_back(one.entry.certificate);
+            }
+            all.push_back(one);
+        }
+        for (int again = 0; again < 3 && !all.empty(); ++again) {
+            const Asked& earlier = all[chance(all.size())];
+            bool holds = true;  // in the words of the documentation
+            for (const Asked& later : all) {
+                const bool is_later = later.entry.seq > earlier.entry.seq;
+                const bool is_of_it = later.entry.certificate == earlier.entry.certificate;
+                holds =
+                    holds && !(is_later && is_of_it &&
+                               (later.kind == "withdrawn" || (later.kind == "drafted" && earlier.kind != "numbered") ||
+                                (later.kind == "settings" && earlier.kind == "settings")));
+            }
+            const Head before = this->archive_->head();
+            Request request = earlier.request;
+            request.at = this->clock_.next();
+            Written answer;
+            const std::string code = code_of([&] { answer = earlier.ask(request); });
+            EXPECT_EQ(this->archive_->head(), before);
+            EXPECT_EQ(code, holds ? "" : "GC-ARCHIVE-0027") << earlier.kind << " of entry " << earlier.entry.seq;
+            if (code.empty()) {
+                EXPECT_TRUE(answer.repeated);
+                EXPECT_EQ(answer.entry, earlier.entry);
+            }
+            ++(holds ? held : refused);
+        }
+    }
+    EXPECT_GT(held, 30);
+    EXPECT_GT(refused, 30);
+    EXPECT_TRUE(verify_store(*this->store_).sound());
 }
 
 /// What an earlier version wrote has no digest of its request: what is there is compared.

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "encoding/sha2.h"
 #include "signing/qpdf_objects.h"
 #include "signing/signer.h"
 #include "signing/verify.h"
+#include "tests/unit/signing/brought_material.h"
 #include "tests/unit/signing/plain_pdf.h"
 #include "tests/unit/signing/test_keys.h"
 
@@ -200,6 +202,154 @@ TEST_F(PdfAttack, TheGapHoldsSomethingElse) {
     EXPECT_EQ(error_of(Bytes(good_).replace(n[1], n[2] - n[1], '<' + std::string(n[2] - n[1] - 2, '0') + '>')),
               "GC-SIGN-0143");
     EXPECT_EQ(error_of(Bytes(good_).replace(n[1] + 1, 8, "30820001")), "GC-SIGN-0143");
+}
+
+/// A value of DER.
+Bytes tlv(unsigned tag, const Bytes& content) {
+    Bytes size;
+    for (std::size_t rest = content.size(); rest != 0; rest >>= 8U) {
+        size.insert(size.begin(), static_cast<char>(rest & 255U));
+    }
+    if (content.size() >= 128) {
+        size.insert(size.begin(), static_cast<char>(0x80U | size.size()));
+    }
+    return Bytes(1, static_cast<char>(tag)) + (content.empty() ? Bytes(1, '\0') : size) + content;
+}
+/// The values within a value, each whole.
+std::vector<Bytes> values_in(const Bytes& whole) {
+    const auto read = [](const Bytes& bytes, std::size_t from, std::size_t& header) {
+        const auto* const begin = reinterpret_cast<const unsigned char*>(bytes.data()) + from;
+        const unsigned char* at = begin;
+        long length = 0;
+        int tag = 0;
+        int type = 0;
+        ASN1_get_object(&at, &length, &tag, &type, static_cast<long>(bytes.size() - from));
+        header = static_cast<std::size_t>(at - begin);
+        return header + static_cast<std::size_t>(length);
+    };
+    std::size_t header = 0;
+    const std::size_t end = read(whole, 0, header);
+    std::vector<Bytes> values;
+    for (std::size_t at = header; at < end;) {
+        std::size_t ignored = 0;
+        const std::size_t size = read(whole, at, ignored);
+        values.push_back(whole.substr(at, size));
+        at += size;
+    }
+    return values;
+}
+
+// Law: into no part of the CMS that its value does not cover, anything can be put, but what belongs there.
+TEST_F(PdfAttack, NothingCanBeAddedWithinTheSignature) {
+    const std::string digits = text_between(good_, "/Contents <", ">");
+    const std::vector<Bytes> info = values_in(*encoding::bytes_from_hexadecimal(digits));
+    const std::vector<Bytes> data =
+        values_in(values_in(info.at(1)).at(0));  // version, digests, content, certificates, signers
+    ASSERT_EQ(data.size(), 5U);
+    const std::vector<Bytes> signer =
+        values_in(values_in(data[4]).at(0));  // version … signed attributes, method, value
+    ASSERT_EQ(signer.size(), 6U);
+    const auto joined = [](const std::vector<Bytes>& values) {
+        Bytes all;
+        for (const Bytes& one : values) {
+            all += one;
+        }
+        return all;
+    };
+    /// The file with other parts, in the room of the signature.
+    const auto with = [&](const std::vector<Bytes>& parts, const std::vector<Bytes>& of_signer) {
+        std::vector<Bytes> all = parts;
+        all.push_back(tlv(0x31, tlv(0x30, joined(of_signer))));
+        std::string hex = encoding::hexadecimal(tlv(0x30, info[0] + tlv(0xA0, tlv(0x30, joined(all)))));
+        EXPECT_LE(hex.size(), digits.size());
+        hex.resize(digits.size(), '0');
+        return replaced(good_, digits, hex);
+    };
+    const std::vector<Bytes> parts(data.begin(), data.begin() + 4);
+    EXPECT_EQ(error_of(with(parts, signer)), "valid");
+    const auto with_part = [&](std::size_t at, const Bytes& part) {
+        std::vector<Bytes> changed = parts;
+        changed[at] = part;
+        return with(changed, signer);
+    };
+    const auto with_certificate = [&](const Bytes& certificate) {
+        return with_part(3, tlv(0xA0, joined(values_in(parts[3])) + certificate));
+    };
+    const auto with_lists = [&](const Bytes& lists) {
+        std::vector<Bytes> changed = parts;
+        changed.push_back(tlv(0xA1, lists));
+        return with(changed, signer);
+    };
+    const auto with_attributes = [&](const Bytes& attributes) {
+        std::vector<Bytes> changed = signer;
+        changed.push_back(tlv(0xA1, attributes));
+        return with(parts, changed);
+    };
+    const auto identifier = [](const char* number) {
+        ASN1_OBJECT* const object = OBJ_txt2obj(number, 1);
+        const Bytes bytes = encoded(object, i2d_ASN1_OBJECT);
+        ASN1_OBJECT_free(object);
+        return bytes;
+    };
+    const Bytes text = tlv(0x0C, k_sentence);
+    const auto attribute = [&](const char* number, const Bytes& value) {
+        return tlv(0x30, identifier(number) + tlv(0x31, value));
+    };
+    // Unsigned attributes.
+    const char* const stamped = "1.2.840.113549.1.9.16.2.14";
+    const char* const revocation = "1.2.840.113549.1.9.16.2.24";
+    for (const char* const number : {"1.2.3.4", "1.2.840.113549.1.9.15.1", stamped, revocation,
+                                     "1.2.840.113549.1.9.16.2.23", "1.2.840.113549.1.9.6"}) {
+        EXPECT_EQ(error_of(with_attributes(attribute(number, text))), "GC-SIGN-0148") << number;
+    }
+    const Bytes stamp = time_stamp(authority_named("A time stamping service"));
+    const Bytes with_stamp = with_attributes(attribute(stamped, stamp));
+    EXPECT_EQ(error_of(with_stamp), "valid");
+    EXPECT_THAT(verify(with_stamp).signatures.at(0).not_covered,
+                Contains("unsigned within the signature: signature-time-stamp"));
+    EXPECT_EQ(error_of(with_attributes(attribute(stamped, stamp + text))), "GC-SIGN-0148");
+    EXPECT_EQ(error_of(with_attributes(attribute(stamped, stamp) + attribute("1.2.3.4", text))), "GC-SIGN-0148");
+    const Bytes list = revocation_list(laboratory_.root, {});
+    const Bytes of_stranger = revocation_list(authority_named("Example Root"), {});
+    const Bytes with_values = with_attributes(attribute(revocation, tlv(0x30, tlv(0xA0, tlv(0x30, list)))));
+    EXPECT_EQ(error_of(with_values), "valid");
+    EXPECT_THAT(verify(with_values).signatures.at(0).not_covered,
+                Contains("unsigned within the signature: revocation-values"));
+    EXPECT_EQ(error_of(with_attributes(attribute(revocation, tlv(0x30, tlv(0xA0, tlv(0x30, of_stranger)))))),
+              "GC-SIGN-0148");
+    EXPECT_EQ(error_of(with_attributes(attribute(revocation, tlv(0x30, tlv(0xA2, text))))), "GC-SIGN-0148");
+    // Lists of revoked certificates.
+    EXPECT_EQ(error_of(with_lists(list)), "valid");
+    EXPECT_THAT(verify(with_lists(list)).signatures.at(0).not_covered,
+                Contains("unsigned within the signature: lists of revoked certificates"));
+    const Bytes answer = revocation_answer(laboratory_.own, laboratory_.root, laboratory_.root);
+    EXPECT_EQ(error_of(with_lists(tlv(0xA1, identifier("1.3.6.1.5.5.7.16.2") + answer))), "valid");
+    for (const Bytes& foreign :
+         {of_stranger, tlv(0xA1, identifier("1.2.3.4") + text), tlv(0xA1, identifier("1.3.6.1.5.5.7.16.2") + text)}) {
+        EXPECT_NE(error_of(with_lists(foreign)), "valid");
+    }
+    EXPECT_EQ(error_of(with_lists(of_stranger)), "GC-SIGN-0148");
+    // Certificates.
+    EXPECT_EQ(error_of(with_certificate(der(laboratory_.root))), "valid");
+    for (const Bytes& foreign : foreign_certificates(laboratory_)) {
+        EXPECT_EQ(error_of(with_certificate(foreign)), "GC-SIGN-0124");
+    }
+    EXPECT_NE(error_of(with_certificate(tlv(0xA3, identifier("1.2.3.4") + text))), "valid");
+    // Parameters and names of algorithms, versions, contents.
+    const Bytes sha256 = values_in(values_in(parts[1]).at(0)).at(0);
+    EXPECT_EQ(error_of(with_part(1, tlv(0x31, tlv(0x30, sha256 + text)))), "GC-SIGN-0148");
+    EXPECT_EQ(error_of(with_part(1, tlv(0x31, tlv(0x30, sha256) + tlv(0x30, identifier("1.2.3.4"))))), "GC-SIGN-0148");
+    EXPECT_EQ(error_of(with_part(1, tlv(0x31, tlv(0x30, identifier("1.2.3.4") + text)))), "GC-SIGN-0148");
+    EXPECT_EQ(error_of(with_part(0, tlv(0x02, k_sentence.substr(0, 4)))), "GC-SIGN-0148");
+    EXPECT_NE(error_of(with_part(2, tlv(0x30, identifier("1.2.3.4")))), "valid");
+    for (const std::size_t at : {std::size_t{2}, std::size_t{4}}) {
+        std::vector<Bytes> changed = signer;
+        changed[at] = tlv(0x30, values_in(signer[at]).at(0) + text);
+        EXPECT_NE(error_of(with(parts, changed)), "valid") << at;
+    }
+    std::vector<Bytes> twice = parts;
+    twice.push_back(tlv(0x31, tlv(0x30, joined(signer))));
+    EXPECT_NE(error_of(with(twice, signer)), "valid");
 }
 
 TEST_F(PdfAttack, ASecondSignature) {

@@ -5,8 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "encoding/base64.h"
+#include "encoding/sha2.h"
 #include "signing/signer.h"
 #include "signing/verify.h"
+#include "tests/unit/signing/brought_material.h"
 #include "tests/unit/signing/test_keys.h"
 
 // What somebody without the key can do to a signed digital certificate, so that a person or a program reads another
@@ -60,6 +63,56 @@ protected:
     }
     [[nodiscard]] std::string in_signature(const std::string& text) const {
         return replaced(good_, "</ds:Signature>", text + "</ds:Signature>");
+    }
+
+    [[nodiscard]] std::string in_x509_data(const std::string& text) const {
+        return replaced(good_, "</ds:X509Data>", text + "</ds:X509Data>");
+    }
+    [[nodiscard]] std::string in_key_info(const std::string& text) const {
+        return replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo>" + text);
+    }
+    [[nodiscard]] std::string with_unsigned(const std::string& text) const {
+        return replaced(good_, "</xades:QualifyingProperties>",
+                        "<xades:UnsignedProperties><xades:UnsignedSignatureProperties>" + text +
+                            "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>"
+                            "</xades:QualifyingProperties>");
+    }
+    /// The document with a value at each place within a signature that takes Base64.
+    [[nodiscard]] std::vector<std::string> with_value(const std::string& value) const {
+        const auto element = [](const std::string& name, const std::string& text) {
+            return '<' + name + '>' + text + "</" + name.substr(0, name.find(' ')) + '>';
+        };
+        const std::string sha256 = " Algorithm=\"http://www.w3.org/2001/04/xmlenc#sha256\"";
+        const std::string dsig11 = " xmlns:dsig11=\"http://www.w3.org/2009/xmldsig11#\"";
+        std::vector<std::string> all;
+        for (const char* const name : {"ds:X509SKI", "ds:X509Certificate", "ds:X509CRL"}) {
+            all.push_back(in_x509_data(element(name, value)));
+        }
+        all.push_back(in_x509_data(element("dsig11:X509Digest" + dsig11 + sha256, value)));
+        const auto of_rsa = [&](const std::string& modulus, const std::string& exponent) {
+            return element("ds:KeyValue", element("ds:RSAKeyValue",
+                                                  element("ds:Modulus", modulus) + element("ds:Exponent", exponent)));
+        };
+        all.push_back(in_key_info(of_rsa(value, "AQAB")));
+        all.push_back(in_key_info(of_rsa("AQAB", value)));
+        all.push_back(in_key_info(
+            element("ds:KeyValue", element("dsig11:ECKeyValue" + dsig11, element("dsig11:PublicKey", value)))));
+        for (const auto& [outer, inner] : std::vector<std::pair<std::string, std::string>>{
+                 {"xades:CertificateValues", "xades:EncapsulatedX509Certificate"},
+                 {"xades:CRLValues", "xades:EncapsulatedCRLValue"},
+                 {"xades:OCSPValues", "xades:EncapsulatedOCSPValue"},
+                 {"xades:SignatureTimeStamp", "xades:EncapsulatedTimeStamp"},
+                 {"xades:SigAndRefsTimeStamp", "xades:EncapsulatedTimeStamp"},
+                 {"xades:ArchiveTimeStamp", "xades:EncapsulatedTimeStamp"}}) {
+            const std::string values = element(outer, element(inner, value));
+            all.push_back(
+                with_unsigned(inner.find("CRL") != std::string::npos || inner.find("OCSP") != std::string::npos
+                                  ? element("xades:RevocationValues", values)
+                                  : values));
+        }
+        all.push_back(replaced(good_, "</ds:SignatureValue>", value + "</ds:SignatureValue>"));
+        all.push_back(replaced(good_, "</ds:X509Certificate>", value + "</ds:X509Certificate>"));
+        return all;
     }
 
     Laboratory laboratory_{ec_key()};
@@ -160,14 +213,171 @@ TEST_F(XmlAttack, NothingCanBeAddedWithinTheSignature) {
 TEST_F(XmlAttack, UnsignedPropertiesOfXadesAreSaidNotToBeCovered) {
     const Bytes stamped = replaced(good_, "</xades:QualifyingProperties>",
                                    "<xades:UnsignedProperties><xades:UnsignedSignatureProperties>"
-                                   "<xades:SignatureTimeStamp><xades:EncapsulatedTimeStamp>MIIB"
-                                   "</xades:EncapsulatedTimeStamp></xades:SignatureTimeStamp>"
-                                   "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>"
-                                   "</xades:QualifyingProperties>");
+                                   "<xades:SignatureTimeStamp><xades:EncapsulatedTimeStamp>" +
+                                       encoding::base64(time_stamp(authority_named("A time stamping service"))) +
+                                       "</xades:EncapsulatedTimeStamp></xades:SignatureTimeStamp>"
+                                       "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>"
+                                       "</xades:QualifyingProperties>");
     EXPECT_EQ(error_of(stamped), "valid");
     EXPECT_THAT(verify(stamped).signatures.at(0).not_covered,
                 Contains(HasSubstr("unsigned properties within the signature: xades:SignatureTimeStamp")));
     EXPECT_THAT(verify(good_).signatures.at(0).not_covered, testing::IsEmpty());
+}
+
+// Law: at no place that takes Base64 a sentence can stand, whether by its letters, decoded, or in lines.
+TEST_F(XmlAttack, NoSentenceIsAValue) {
+    std::string letters = k_sentence;
+    std::erase_if(letters, [](char c) { return c == ' ' || c == '='; });
+    letters.resize(letters.size() / 4 * 4);
+    std::string words = k_sentence;
+    std::replace(words.begin(), words.end(), ' ', '\n');
+    const std::string decoded = encoding::base64(k_sentence);
+    for (const std::string& sentence : {k_sentence, letters, words, decoded, ' ' + k_sentence, '\n' + k_sentence + '\n',
+                                        encoding::base64(foreign_certificates(laboratory_)[0])}) {
+        const std::vector<std::string> all = with_value(sentence);
+        EXPECT_EQ(all.size(), 15U);
+        for (const std::string& changed : all) {
+            EXPECT_NE(error_of(changed), "valid") << sentence << " in " << changed.substr(good_.find("<ds:KeyInfo>"));
+        }
+    }
+    EXPECT_EQ(error_of(in_x509_data("<ds:X509SKI>" + k_sentence + "</ds:X509SKI>")), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(in_x509_data("<ds:X509Certificate>" + k_sentence + "</ds:X509Certificate>")), "GC-SIGN-0120");
+}
+
+TEST_F(XmlAttack, WhatIsOfTheSignerMayComeAlong) {
+    const Identity& root = laboratory_.root;
+    const auto element = [](const std::string& name, const Bytes& value) {
+        return '<' + name + '>' + encoding::base64(value) + "</" + name.substr(0, name.find(' ')) + '>';
+    };
+    const auto is_good = [&](const std::string& changed) { EXPECT_EQ(error_of(changed), "valid") << changed; };
+    is_good(in_x509_data(element("ds:X509Certificate", der(root))));
+    is_good(in_x509_data(element("ds:X509CRL", revocation_list(root, {}))));
+    is_good(
+        in_x509_data(element("dsig11:X509Digest xmlns:dsig11=\"http://www.w3.org/2009/xmldsig11#\" "
+                             "Algorithm=\"http://www.w3.org/2001/04/xmlenc#sha256\"",
+                             encoding::sha256_bytes(der(laboratory_.own)))));
+    const auto answered = [&](const Identity& service) {
+        return with_unsigned("<xades:RevocationValues><xades:OCSPValues>" +
+                             element("xades:EncapsulatedOCSPValue", revocation_answer(laboratory_.own, root, service)) +
+                             "</xades:OCSPValues></xades:RevocationValues>");
+    };
+    is_good(answered(root));
+    is_good(answered(make_identity(ec_key(), {.name = "Responder"}, &root)));
+    EXPECT_EQ(error_of(answered(authority_named("Example Root"))), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(answered(make_identity(ec_key(), {.name = "Responder"}))), "GC-SIGN-0120");
+    const auto listed = [&](const Bytes& list) {
+        return with_unsigned("<xades:RevocationValues><xades:CRLValues>" + element("xades:EncapsulatedCRLValue", list) +
+                             "</xades:CRLValues></xades:RevocationValues>");
+    };
+    is_good(listed(revocation_list(root, {})));
+    EXPECT_EQ(error_of(listed(revocation_list(authority_named("Example Root"), {}))), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(listed(revocation_list(root, {}) + "x")), "GC-SIGN-0120");
+    is_good(with_unsigned("<xades:CertificateValues>" + element("xades:EncapsulatedX509Certificate", der(root)) +
+                          "</xades:CertificateValues>"));
+    // Lines of one length, indented, as programs write them.
+    const std::string value = encoding::base64(der(root));
+    for (const std::size_t length : {std::size_t{64}, std::size_t{76}}) {
+        std::string lines;
+        for (std::size_t at = 0; at < value.size(); at += length) {
+            lines += "\n      " + value.substr(at, length) + "&#13;";
+        }
+        is_good(in_x509_data("<ds:X509Certificate>" + lines + "\n   </ds:X509Certificate>"));
+    }
+    // The key of the signer, and no other.
+    const auto key_value = [&](const Identity& identity) {
+        unsigned char* point = nullptr;
+        const std::size_t size = EVP_PKEY_get1_encoded_public_key(identity.key.get(), &point);
+        const Bytes bytes(reinterpret_cast<const char*>(point), size);
+        OPENSSL_free(point);
+        return "<ds:KeyValue><dsig11:ECKeyValue xmlns:dsig11=\"http://www.w3.org/2009/xmldsig11#\"><dsig11:NamedCurve "
+               "URI=\"urn:oid:1.2.840.10045.3.1.7\"/>" +
+               element("dsig11:PublicKey", bytes) + "</dsig11:ECKeyValue></ds:KeyValue>";
+    };
+    is_good(in_key_info(key_value(laboratory_.own)));
+    EXPECT_EQ(error_of(in_key_info(key_value(root))), "GC-SIGN-0120");
+    EXPECT_EQ(error_of(in_key_info(replaced(key_value(laboratory_.own), "3.1.7", "3.1.1"))), "GC-SIGN-0120");
+    const Laboratory rsa(rsa_key());
+    const auto rsa_value = [&](const std::string& exponent, const char* prefix) {
+        BIGNUM* modulus = nullptr;
+        EXPECT_EQ(EVP_PKEY_get_bn_param(rsa.own.key.get(), "n", &modulus), 1);
+        Bytes bytes(static_cast<std::size_t>(BN_num_bytes(modulus)), '\0');
+        BN_bn2bin(modulus, reinterpret_cast<unsigned char*>(bytes.data()));
+        BN_free(modulus);
+        const Bytes xml = replaced(sign_dcc(k_attacked_dcc, *rsa.signer, k_signing_time), "<ds:KeyInfo>",
+                                   "<ds:KeyInfo><ds:KeyValue><ds:RSAKeyValue>" +
+                                       element("ds:Modulus", (*prefix == '0' ? Bytes(1, '\0') : Bytes()) + bytes) +
+                                       "<ds:Exponent>" + exponent + "</ds:Exponent></ds:RSAKeyValue></ds:KeyValue>");
+        return verify_signatures(xml, "certificate.xml", rsa.trusted(), k_now).valid;
+    };
+    EXPECT_TRUE(rsa_value("AQAB", ""));
+    EXPECT_TRUE(rsa_value("AQAB", "0"));
+    EXPECT_FALSE(rsa_value("AQAC", ""));
+}
+
+TEST_F(XmlAttack, CertificatesOfOthersDoNotComeAlong) {
+    const auto beside = [](const Bytes& certificate) {
+        return "<ds:X509Certificate>" + encoding::base64(certificate) + "</ds:X509Certificate>";
+    };
+    for (const Bytes& foreign : foreign_certificates(laboratory_)) {
+        EXPECT_EQ(error_of(in_x509_data(beside(foreign))), "GC-SIGN-0124");
+        const std::string value = "<xades:CertificateValues><xades:EncapsulatedX509Certificate>" +
+                                  encoding::base64(foreign) +
+                                  "</xades:EncapsulatedX509Certificate></xades:CertificateValues>";
+        EXPECT_EQ(error_of(with_unsigned(value)), "GC-SIGN-0124");
+    }
+    const Identity stranger = authority_named(k_sentence.substr(0, 60));
+    const std::string name = "<ds:KeyName>" + k_sentence.substr(0, 60) + "</ds:KeyName>";
+    EXPECT_EQ(error_of(replaced(in_x509_data(beside(der(stranger))), "<ds:KeyInfo>", "<ds:KeyInfo>" + name)),
+              "GC-SIGN-0120");
+    std::string many;
+    for (int i = 0; i < 100; ++i) {
+        many += beside(der(laboratory_.root));
+    }
+    EXPECT_EQ(error_of(in_x509_data(many)), "GC-SIGN-0124");
+    // Where the signer alone is trusted, an issuer may come along whom nobody vouches for; that is said.
+    const Identity authority = authority_named("Authority", &laboratory_.root);
+    const Identity own = make_identity(ec_key(), {}, &authority);
+    const CarelessSigner signer(own.key, {own, authority});
+    const Bytes xml = sign_dcc(k_attacked_dcc, signer, k_signing_time);
+    const auto checked = [&](const Bytes& document, const std::vector<Bytes>& trusted) {
+        return verify_signatures(document, "certificate.xml", trusted, k_now).signatures.at(0);
+    };
+    EXPECT_TRUE(checked(xml, {der(own)}).valid);
+    EXPECT_THAT(checked(xml, {der(own)}).not_covered, Contains(HasSubstr("the certificate of CN=Authority")));
+    EXPECT_TRUE(checked(xml, {der(laboratory_.root)}).valid);
+    EXPECT_TRUE(checked(xml, {der(authority)}).valid);
+    EXPECT_THAT(checked(xml, {der(authority)}).not_covered, testing::IsEmpty());
+    const Identity lookalike = make_identity(
+        authority.key, {.name = "Authority", .key_usage = "critical,keyCertSign", .authority = true}, &stranger);
+    const Bytes with_both = replaced(xml, "</ds:X509Data>", beside(der(lookalike)) + "</ds:X509Data>");
+    EXPECT_FALSE(checked(with_both, {der(laboratory_.root)}).valid);
+    EXPECT_FALSE(checked(with_both, {der(authority)}).valid);
+}
+
+// Exclusive canonical XML leaves out the declarations that nothing uses: they can be put in after signing.
+TEST_F(XmlAttack, NamespacesThatNothingUses) {
+    const auto declared = [&](const std::string& at, const std::string& what) {
+        return replaced(good_, at, at.substr(0, at.size() - 1) + ' ' + what + '>');
+    };
+    const std::string sentence = "xmlns:note=\"" + k_sentence + '"';
+    const std::string address = "xmlns:note=\"urn:true%20length%2051%20mm\"";
+    for (const char* const at : {"<dcc:administrativeData>", "<si:value>"}) {
+        EXPECT_EQ(error_of(declared(at, sentence)), "GC-SIGN-0030") << at << ": no address";
+        EXPECT_EQ(error_of(declared(at, address)), "valid") << at;
+        EXPECT_THAT(verify(declared(at, address)).signatures.at(0).not_covered,
+                    Contains("a namespace that nothing uses: " + replaced(replaced(address, "\"", ""), "\"", "")));
+    }
+    for (const char* const at :
+         {"<ds:KeyInfo>", "<ds:SignedInfo>", "<ds:X509Data>", "<xades:SigningTime>", "<ds:Object>"}) {
+        EXPECT_EQ(error_of(declared(at, sentence)), "GC-SIGN-0030") << at;
+        EXPECT_EQ(error_of(declared(at, address)), "GC-SIGN-0120") << at;
+        EXPECT_EQ(error_of(declared(at, "xmlns:thetruelengthis51mm=\"http://www.w3.org/2000/09/xmldsig#\"")),
+                  "GC-SIGN-0120")
+            << at;
+    }
+    const Bytes named = replaced(good_, "<ds:KeyInfo>", "<ds:KeyInfo Id=\"true-length-51mm\">");
+    EXPECT_THAT(verify(named).signatures.at(0).not_covered,
+                Contains("an identifier within the signature: true-length-51mm"));
 }
 
 TEST_F(XmlAttack, ReferencesToOtherThanTheWholeDocument) {
