@@ -870,6 +870,12 @@ private:
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
+            if (row.open_expansion && !row.origin_value && row.origin == Origin::certificate) {
+                tables_.not_read.push_back(
+                    say("{cell}: the words of {text} state U of a certificate, and its size does not follow from them; "
+                        "what it was divided by is not checked; how large is U?",
+                        row.place, text::in_quotes(row.quantity)));
+            }
             note_row_facts(row);
             if (row.source.empty() && row.origin == Origin::certificate) {
                 row.source = certificate_in(row.comment);
