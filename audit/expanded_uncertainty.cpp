@@ -255,7 +255,7 @@ private:
         }
         const bool is_far = next < pieces_.size() && !pieces_[next].is_number();
         at_ = next;
-        if (is_far) {  // "0.1 % FS, k = 2, FS = 200 bar"
+        if (is_far) {  // the full scale stands elsewhere in the text
             for (std::size_t i = next; i + 1 < pieces_.size() && !ends_sentence(pieces_[i]); ++i) {
                 std::size_t number = i + 1;
                 while (number < pieces_.size() && is_filler(pieces_[number])) {
