@@ -646,6 +646,10 @@ AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const
     return file;
 }
 
+void add_not_read(AuditedFileView& file, const audit::Sentence& sentence) {
+    file.not_read.push_back(printable_sentence(sentence));
+}
+
 AuditView make_audit_view(std::vector<AuditedFileView> files, const AuditContext& context) {
     AuditView view;
     view.program = printable(context.program);
