@@ -345,10 +345,12 @@ void settle_rounded_claims(AuditedBudget& budget) {
             budget.claims.u_c = rounded.claims.u_c;
         }
     }
-    // U of a u_c that was rounded is looked at again with it.
-    if (round(rounded.claims.U, exact.U_outside || check_claims(budget).U_outside) &&
-        !check_claims(rounded).U_outside) {
-        budget.claims.U = rounded.claims.U;
+    // U of a u_c that was rounded is looked at again with it. It is the rounding of the claimed k times u_c, and of no other k.
+    if (round(rounded.claims.U, exact.U_outside || check_claims(budget).U_outside)) {
+        const ClaimCheck check = check_claims(rounded);
+        if (!check.U_outside && !check.k_outside) {
+            budget.claims.U = rounded.claims.U;
+        }
     }
 }
 

@@ -211,6 +211,12 @@ TEST(Claims, RoundedByASheetAreNoOtherNumber) {
     budget.claims.u_c = exact_number(0.009, "");
     note_unexplained(budget);
     EXPECT_TRUE(check_claims(budget).u_c_outside);
+    // No rounding of k u_c, but of another k that the probability would allow.
+    budget.claims.u_c = exact_number(0.010284, "");
+    budget.claims.U = exact_number(0.020, "");
+    budget.claims.coverage_probability = 0.9545;
+    note_unexplained(budget);
+    EXPECT_TRUE(check_claims(budget).U_outside);
     budget.claims.u_c = printed("0.011");
     EXPECT_FALSE(check_claims(budget).u_c_outside) << "JCGM 100:2008, 7.2.6: 10.47 may be rounded up to 11";
 }

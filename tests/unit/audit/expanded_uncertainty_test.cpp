@@ -143,6 +143,7 @@ TEST(ExpandedUncertainty, IsThatOfTheColumnWhereWordsAllowIt) {
     }
     EXPECT_EQ(completed("U = 0.2 % of reading, k = 2", 0.2, 1.0, "bar", 100.0).origin_value, 0.2);
     EXPECT_EQ(completed("U = 0.2 %, k = 2", 0.1, 1.0, "bar", 100.0).origin_value, 0.2) << "u is U/k already";
+    EXPECT_EQ(completed("U = 1.2 %, k = 2", 1.2, 2.0, "cd", 285.4).origin_value, 1.2) << "a row in percent";
 }
 
 TEST(ExpandedUncertainty, StaysOpenWhereNothingGivesIt) {
