@@ -855,10 +855,12 @@ private:
     /// give what is stated; one that the statements need is a row whatever its name.
     [[nodiscard]] bool is_no_row() {
         const AuditedRow& last = budget_.rows.back();
-        const bool is_distinct = std::all_of(budget_.rows.begin(), budget_.rows.end() - 1, [](const AuditedRow& row) {
-            return row.u || row.contribution || row.divisor || !row.shape_text.empty();
-        });
-        if (!is_distinct) {
+        std::size_t lone = 0, distinct = 0;
+        for (const AuditedRow& row : budget_.rows) {
+            lone += is_lone_number(row) ? 1U : 0U;
+            distinct += row.u || row.contribution || row.divisor || !row.shape_text.empty() ? 1U : 0U;
+        }
+        if (distinct < 2 || lone + distinct < budget_.rows.size()) {
             return false;
         }
         const StatedResult number{
