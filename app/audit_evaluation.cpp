@@ -55,7 +55,8 @@ reports::AuditView audit_view(std::vector<reports::AuditedFileView> files,
 }
 
 bool is_refuted_by_audit(const Evaluation& evaluation) {
-    return evaluation.audit && !evaluation.record.comparison &&
+    // The scores of a comparison are its answer. A measurement that is compared with a reference has its own result.
+    return evaluation.audit && evaluation.record.kind != "comparison" &&
            !critical_findings(*evaluation.audit, audit::all_rules()).empty();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -23,6 +24,7 @@
 #include "imports/foreign_certificate.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/printable_text.h"
 #include "reports/record/make/certificate/evaluation_findings.h"
 #include "signing/verify.h"
 #include "text/small_letters.h"
@@ -197,6 +199,30 @@ bool is_audited(const fs::path& file) {
     return !has_certificate_beside(file) && !certificate_in_pdf(read_file(file), file.string()).empty();
 }
 
+/// What documents call a file of a folder that was named.
+std::string name_in_folder(const fs::path& file, const fs::path& folder) {
+    if (folder.is_relative()) {
+        return file.lexically_normal().generic_string();
+    }
+    const fs::path plain = folder.lexically_normal();
+    const fs::path& last = plain.has_filename() ? plain : plain.parent_path();
+    return (last.filename() / file.lexically_normal().lexically_relative(plain)).generic_string();
+}
+
+/// Files that are named have their own names, and their paths where these are not distinct.
+void name_named_files(std::vector<FileToAudit>& files) {
+    std::map<std::string, std::size_t> count;
+    for (const FileToAudit& one : files) {
+        ++count[one.name.empty() ? one.file.filename().string() : one.name];
+    }
+    for (FileToAudit& one : files) {
+        if (one.name.empty()) {
+            const std::string own = one.file.filename().string();
+            one.name = count[own] > 1 ? one.file.lexically_normal().generic_string() : own;
+        }
+    }
+}
+
 }  // namespace
 
 FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& laboratory) {
@@ -214,7 +240,7 @@ FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& 
                 continue;
             }
             if (is_audited(entry.path())) {
-                found.push_back({.file = entry.path()});
+                found.push_back({.file = entry.path(), .name = name_in_folder(entry.path(), name)});
             } else if (!is_hidden(entry.path()) && !has_certificate_beside(entry.path())) {
                 all.of_other_kinds.push_back(entry.path());
             }
@@ -233,6 +259,7 @@ FilesToAudit files_to_audit(const std::vector<fs::path>& named, const fs::path& 
         all.files.insert(all.files.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
     }
     std::sort(all.of_other_kinds.begin(), all.of_other_kinds.end());
+    name_named_files(all.files);
     return all;
 }
 
@@ -263,8 +290,11 @@ std::vector<certificate::Waiver> waivers_from(const fs::path& file) {
     return waivers;
 }
 
-AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
-                       std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
+namespace {
+
+/// The audit of a file before anything in it is accepted by others than itself.
+AuditedFile audited_as_it_is(const fs::path& file, unsigned threads, const fs::path& templates,
+                             const gum::Progress& progress, const fs::path& laboratory) {
     const std::string bytes = read_file(file);
     const std::string name = file.filename().string();
     AuditedFile audited{.file = file, .digest = encoding::sha256(bytes), .report = {}};
@@ -274,7 +304,6 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
             audited.report =
                 *evaluate_job(file, CovarianceFile::none, threads, templates, progress, program_kinds(), laboratory)
                      .audit;
-            audit::accept_findings(audited.report, waivers, audit::all_rules());
             return audited;
         case Contents::record: {
             const reports::EvaluationRecord record = reports::record_from_json(bytes, file.string());
@@ -310,6 +339,14 @@ AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& t
                 .action = "store an old workbook (.xls) as .xlsx, copy the table of a PDF into a CSV file"});
     }
     audited.report = audit::audit(std::move(subject), audit::all_rules());
+    return audited;
+}
+
+}  // namespace
+
+AuditedFile audit_file(const fs::path& file, unsigned threads, const fs::path& templates, const gum::Progress& progress,
+                       std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
+    AuditedFile audited = audited_as_it_is(file, threads, templates, progress, laboratory);
     audit::accept_findings(audited.report, waivers, audit::all_rules());
     return audited;
 }
@@ -318,6 +355,7 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
                                       const fs::path& templates, const gum::Progress& progress,
                                       std::span<const certificate::Waiver> waivers, const fs::path& laboratory) {
     std::vector<AuditAttempt> attempts(files.size());
+    std::vector<std::vector<bool>> taken(files.size());  // waivers, of each file
     std::vector<std::size_t> tables, others;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const std::string ending = text::in_small_letters(files[i].file.extension().string());
@@ -325,9 +363,13 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     }
     const auto attempt = [&](std::size_t file, const gum::Progress& told) {
         try {
-            const AuditedFile audited = audit_file(files[file].file, threads, templates, told, waivers, laboratory);
+            AuditedFile audited = audited_as_it_is(files[file].file, threads, templates, told, laboratory);
+            taken[file] = audit::take_waivers(audited.report, waivers, audit::all_rules());
             attempts[file].has_critical = audited.report.has_critical();
             attempts[file].view = reports::make_file_view(audited.report, audit::all_rules(), audited.digest);
+            if (!files[file].name.empty()) {
+                attempts[file].view->name = reports::printable(files[file].name);
+            }
         } catch (...) {
             attempts[file].failure = std::current_exception();
         }
@@ -335,6 +377,19 @@ std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, uns
     run_in_workers(threads, tables.size(), [&](std::size_t task) { attempt(tables[task], {}); });
     for (const std::size_t file : others) {
         attempt(file, progress);
+    }
+    std::vector<bool> taken_by_any(waivers.size(), false);
+    for (const std::vector<bool>& of_file : taken) {
+        for (std::size_t i = 0; i < of_file.size(); ++i) {
+            taken_by_any[i] = taken_by_any[i] || of_file[i];
+        }
+    }
+    const auto first =
+        std::find_if(attempts.begin(), attempts.end(), [](const AuditAttempt& one) { return one.view.has_value(); });
+    if (first != attempts.end()) {
+        for (const audit::Sentence& sentence : audit::unused_waivers(waivers, taken_by_any)) {
+            reports::add_not_read(*first->view, sentence);
+        }
     }
     return attempts;
 }

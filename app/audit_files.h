@@ -33,6 +33,9 @@ struct FileToAudit {
     /// Of a record: jobs of the same folder that it was made of, byte for byte. The record is held against its own job,
     /// so that they need no audit of their own.
     std::vector<std::filesystem::path> jobs = {};
+    /// What documents call it. Of a folder: with the folders that lead to it, from where the audit was asked for, or from the
+    /// named folder where that is absolute. Of a file that is named: its own name, and its path where another file has that.
+    std::string name = {};
 };
 
 /// What an audit looks at, and what it passes over.
@@ -71,7 +74,7 @@ struct AuditAttempt {
 
 /// audit_file() of each of them, in their order. Tables and workbooks are audited side by side, jobs and records one after
 /// the other, which use all threads themselves; results are the same for any number of threads. Of thousands of files only
-/// what is shown of them is kept.
+/// what is shown of them is kept. A waiver that fits no finding of any file is told with the first one that is audited.
 [[nodiscard]] std::vector<AuditAttempt> audit_files(const std::vector<FileToAudit>& files, unsigned threads,
                                                     const std::filesystem::path& templates,
                                                     const gum::Progress& progress = {},

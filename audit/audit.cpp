@@ -239,19 +239,13 @@ bool is_open_critical(const AuditFinding& finding, std::span<const certificate::
     return finding.severity == FindingSeverity::critical && waiver_of(finding, waivers) == nullptr;
 }
 
-void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers, std::span<const Rule> rules) {
-    bool any = false;
+std::vector<bool> take_waivers(AuditReport& report, std::span<const certificate::Waiver> waivers,
+                               std::span<const Rule> rules) {
+    std::vector<bool> taken;
     for (const certificate::Waiver& waiver : waivers) {
         const bool fits = std::any_of(
             report.findings.begin(), report.findings.end(),
             [&waiver](const AuditFinding& finding) { return waiver_of(finding, std::span(&waiver, 1)) != nullptr; });
-        const Sentence sentence =
-            waiver.where.empty() ? say("the waiver of {rule} fits no finding", waiver.finding)
-                                 : say("the waiver of {rule} at {where} fits no finding", waiver.finding, waiver.where);
-        std::vector<Sentence>& said = report.subject.not_read;
-        if (!fits && std::find(said.begin(), said.end(), sentence) == said.end()) {
-            said.push_back(sentence);
-        }
         // What the gates of a certificate found is accepted there, by the same list.
         const bool fits_gate =
             report.subject.certificate &&
@@ -260,12 +254,37 @@ void accept_findings(AuditReport& report, std::span<const certificate::Waiver> w
         if (fits || fits_gate) {
             report.subject.waivers.push_back(waiver);
         }
-        any = any || fits;
+        taken.push_back(fits);
     }
-    if (any) {
+    if (std::find(taken.begin(), taken.end(), true) != taken.end()) {
         std::erase_if(report.findings, [](const AuditFinding& finding) { return finding.is_conclusion; });
         conclude(report, rules);
         sort_findings(report.findings);
+    }
+    return taken;
+}
+
+std::vector<Sentence> unused_waivers(std::span<const certificate::Waiver> waivers, const std::vector<bool>& taken) {
+    std::vector<Sentence> all;
+    for (std::size_t i = 0; i < waivers.size(); ++i) {
+        const certificate::Waiver& waiver = waivers[i];
+        const Sentence sentence =
+            waiver.where.empty() ? say("the waiver of {rule} fits no finding", waiver.finding)
+                                 : say("the waiver of {rule} at {where} fits no finding", waiver.finding, waiver.where);
+        if (!taken[i] && std::find(all.begin(), all.end(), sentence) == all.end()) {
+            all.push_back(sentence);
+        }
+    }
+    return all;
+}
+
+void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers, std::span<const Rule> rules) {
+    const std::vector<bool> taken = take_waivers(report, waivers, rules);
+    std::vector<Sentence>& said = report.subject.not_read;
+    for (Sentence& sentence : unused_waivers(waivers, taken)) {
+        if (std::find(said.begin(), said.end(), sentence) == said.end()) {
+            said.push_back(std::move(sentence));
+        }
     }
 }
 

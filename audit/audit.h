@@ -63,6 +63,13 @@ struct AuditReport {
 /// follows from other findings is concluded anew: an accepted one is no longer open.
 /// \param rules  those of the audit
 void accept_findings(AuditReport& report, std::span<const certificate::Waiver> waivers, std::span<const Rule> rules);
+/// The same without telling which fit nothing, where one list serves several reports.
+/// \return of each waiver, whether it fits a finding of the report
+std::vector<bool> take_waivers(AuditReport& report, std::span<const certificate::Waiver> waivers,
+                               std::span<const Rule> rules);
+/// That a waiver fits no finding, of those that no report has taken; each sentence once.
+[[nodiscard]] std::vector<Sentence> unused_waivers(std::span<const certificate::Waiver> waivers,
+                                                   const std::vector<bool>& taken);
 
 /// Applies all rules to a subject, and evaluates what each correction does to every result that it touches.
 /// \param rules  audit/rules/registry.h holds them all

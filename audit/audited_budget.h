@@ -56,6 +56,13 @@ struct FactorOfU {
     bool of_rounding = false;  ///< from a printed u to the one that it was rounded from
 };
 
+/// What words leave open of U of a certificate, in the unit of the row.
+struct OpenExpansion {
+    std::vector<double> may_be;      ///< several are stated
+    std::optional<double> part;      ///< a part of a base that has no number, beside `at_least`: "U = 0.1 % FS"
+    std::optional<double> at_least;  ///< the known terms of an expression that has others: 0.12 of "0.12 µm + 0.5E-6 L"
+};
+
 /// One row of an uncertainty budget as somebody states it. Numbers of a row are in its own unit.
 struct AuditedRow {
     std::string quantity, unit, source, comment;
@@ -85,6 +92,7 @@ struct AuditedRow {
     /// U of the certificate, or s of single readings.
     std::optional<double> origin_value;
     std::optional<double> certificate_k, certificate_probability;
+    std::optional<OpenExpansion> open_expansion = {};  ///< words state U, and not as one number
     std::optional<bool> type_a;
     std::vector<double> readings;          ///< of a Type A row, where they are known
     std::optional<std::size_t> n;          ///< readings that the comment names

@@ -28,9 +28,9 @@ Interval wide(const Interval& interval) {
     return {interval.low * (1.0 - k_arithmetic), interval.high * (1.0 + k_arithmetic)};
 }
 
-/// The number that stands for U may have been rounded up (JCGM 100:2008, 7.2.6).
-Interval before_rounding_up(const StatedNumber& U) {
-    const Interval printed = printed_interval(U);
+/// The number that stands for an uncertainty may have been rounded up (JCGM 100:2008, 7.2.6).
+Interval before_rounding_up(const StatedNumber& number) {
+    const Interval printed = printed_interval(number);
     // Rounded up, a number may have been up to a whole unit of its last digit smaller.
     return {printed.low - 0.5 * (printed.high - printed.low), printed.high};
 }
@@ -194,7 +194,7 @@ ClaimCheck check_u_c(const AuditedBudget& budget) {
     check.u_c = wide(check.allowed->u_c);
     check.nu_eff = check.allowed->nu_eff;
     if (budget.claims.u_c) {
-        const Interval claimed = printed_interval(*budget.claims.u_c);
+        const Interval claimed = before_rounding_up(*budget.claims.u_c);
         check.u_c_outside = !claimed.meets(check.u_c);
         // Contributions that were added up instead of their squares are a known slip; told only where the claim is
         // explained by it.
@@ -203,7 +203,10 @@ ClaimCheck check_u_c(const AuditedBudget& budget) {
     return check;
 }
 
-ClaimCheck check_claims(const AuditedBudget& budget) {
+namespace {
+
+/// The claims by the rule of coverage that explains them; of k and ν_eff apart nothing is said.
+ClaimCheck explained_claims(const AuditedBudget& budget) {
     const Claims& claims = budget.claims;
     ClaimCheck check = check_u_c(budget);
     if (!check.allowed) {
@@ -212,7 +215,7 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     const OutcomeIntervals allowed = *check.allowed;
     Interval u_c = check.u_c;
     if (claims.u_c) {
-        const Interval claimed = printed_interval(*claims.u_c);
+        const Interval claimed = before_rounding_up(*claims.u_c);
         // Where both hold, u_c is what both allow; U may have been computed from the printed one as well.
         u_c = check.u_c_outside ? claimed
                                 : hull({std::max(claimed.low, check.u_c.low), std::min(claimed.high, check.u_c.high)},
@@ -287,6 +290,70 @@ ClaimCheck check_claims(const AuditedBudget& budget) {
     return check;
 }
 
+}  // namespace
+
+ClaimCheck check_claims(const AuditedBudget& budget) {
+    ClaimCheck check = explained_claims(budget);
+    if (!check.allowed) {
+        return check;
+    }
+    const Claims& claims = budget.claims;
+    check.nu_eff_apart = check.nu_eff_outside || (claims.nu_eff && std::isfinite(claims.nu_eff->value) &&
+                                                  !before_cutting(*claims.nu_eff).meets(wide(check.allowed->nu_eff)));
+    check.k_outside =
+        check.nu_eff_outside ||
+        (claims.k && !wide(allowed_k(budget, check.coverage, check.allowed->nu_eff)).meets(interval_of_k(claims)));
+    return check;
+}
+
+namespace {
+
+/// Half a unit of the last digit of a number without text; nothing of one that has so many that nobody rounded it.
+std::optional<double> half_step_of_own_digits(const StatedNumber& number) {
+    if (number.half_step != 0.0 || !number.text.empty() || !std::isfinite(number.value) || number.value == 0.0) {
+        return std::nullopt;
+    }
+    constexpr int k_least_digits = 2, k_most_digits = 6;
+    constexpr double k_arithmetic_of_sheets = 1e-9;
+    const double first = std::floor(std::log10(std::abs(number.value)));
+    for (int digits = k_least_digits; digits <= k_most_digits; ++digits) {
+        const double step = std::pow(10.0, first - digits + 1);
+        const double steps = number.value / step;
+        if (std::abs(steps - std::round(steps)) <= k_arithmetic_of_sheets * std::abs(steps)) {
+            return 0.5 * step;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void settle_rounded_claims(AuditedBudget& budget) {
+    const ClaimCheck exact = check_claims(budget);
+    AuditedBudget rounded = budget;
+    const auto round = [](std::optional<StatedNumber>& claim, bool is_outside) {
+        const std::optional<double> half_step = claim && is_outside ? half_step_of_own_digits(*claim) : std::nullopt;
+        if (half_step) {
+            claim->half_step = *half_step;
+        }
+        return half_step.has_value();
+    };
+    if (round(rounded.claims.u_c, exact.u_c_outside)) {
+        if (check_u_c(rounded).u_c_outside) {
+            rounded.claims.u_c = budget.claims.u_c;
+        } else {
+            budget.claims.u_c = rounded.claims.u_c;
+        }
+    }
+    // U of a u_c that was rounded is looked at again with it. It is the rounding of the claimed k times u_c, and of no other k.
+    if (round(rounded.claims.U, exact.U_outside || check_claims(budget).U_outside)) {
+        const ClaimCheck check = check_claims(rounded);
+        if (!check.U_outside && !check.k_outside) {
+            budget.claims.U = rounded.claims.U;
+        }
+    }
+}
+
 namespace {
 
 /// Where the claimed u_c follows from what the rows divide over their divisors, and not from the u that some of them
@@ -317,6 +384,7 @@ void note_unexplained(AuditedBudget& budget) {
 
 void note_claims_beyond_rows(AuditedBudget& budget) {
     budget.u_c_over_rows = budget.k_over_rows = budget.U_over_k_u_c = 1.0;
+    settle_rounded_claims(budget);
     const ClaimCheck check = check_claims(budget);
     budget.coverage = check.coverage;
     if (check.u_c_outside) {

@@ -23,6 +23,9 @@ struct ClaimCheck {
     std::optional<OutcomeIntervals> allowed;  ///< by the rule of coverage of the budget; none where it gives no outcome
     Interval u_c, nu_eff, U;                  ///< what the rows allow of the claims
     bool u_c_outside = false, U_outside = false;
+    bool k_outside =
+        false;  ///< no rule of coverage that explains the claims gives the claimed k with ν_eff of the rows
+    bool nu_eff_apart = false;  ///< the claimed ν_eff, rounded or cut, is not that of the rows, whatever k is
     /// The claimed k is t_p of the claimed ν_eff, and ν_eff of the rows is another one that gives another k.
     bool nu_eff_outside = false;
     bool linear_sum = false;  ///< u_c is Σ |c| u of the rows, not the root of the sum of squares
@@ -35,11 +38,16 @@ struct ClaimCheck {
 /// Holds claims against what the printed digits of the rows allow (outcome_intervals()). U follows from the claimed u_c
 /// where there is one, and by any rule of coverage that the claims leave open: the stated k, or t_p(ν_eff) with p
 /// as stated, ν_eff as it is or cut. A k with decimals that is t_p(ν_eff) within its digits was taken from ν_eff; "2" is
-/// what laboratories take whatever ν_eff. U may be rounded up. Nothing is outside where a budget gives no outcome.
+/// what laboratories take whatever ν_eff. U and u_c may be rounded up (JCGM 100:2008, 7.2.6). Nothing is outside where a budget gives no outcome.
 [[nodiscard]] ClaimCheck check_claims(const AuditedBudget& budget);
 
 /// The part of it that u_c alone decides: `allowed`, `u_c`, `nu_eff`, `u_c_outside` and `linear_sum`.
 [[nodiscard]] ClaimCheck check_u_c(const AuditedBudget& budget);
+
+/// Gives the claimed u_c and U that have no text, of a sheet with formulas, the half step of their own last digit, where they are
+/// what the rows give, rounded to it or up to it (JCGM 100:2008, 7.2.6): of "0.021" that is typed, or the result of ROUND or
+/// ROUNDUP. Two digits are taken to be meant at least, six at most: what has more was not rounded.
+void settle_rounded_claims(AuditedBudget& budget);
 
 /// For readers, after rows, claims and coverage are filled: takes over the rule of coverage that the claims show, and
 /// sets what they have beyond the rows, so that the budget evaluates to what it claims: u_c_over_rows where the

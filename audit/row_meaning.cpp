@@ -13,11 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "audit/comment_pieces.h"
+#include "audit/expanded_uncertainty.h"
 #include "audit/word_line.h"
 #include "certificate/text_words.h"
-#include "gum/quantity/diagnostic.h"
-#include "gum/quantity/unit.h"
-#include "text/utf8.h"
 
 namespace gumcert::audit {
 namespace {
@@ -110,222 +109,6 @@ Contributor device_of(const WordLine& words) {
     return Contributor::other;
 }
 
-/// One word, number or sign of a comment.
-struct Piece {
-    enum class Kind { word, number, sign };
-    Kind kind = Kind::sign;
-    std::string word;  ///< small letters without accents
-    std::string raw;   ///< a word or sign as it stands
-    double value = 0.0;
-    std::string unit;    ///< of a number: what stands behind it, if it may be a unit
-    std::string behind;  ///< of a number: the beginning of what follows, for units of several words
-    bool percent = false, plus_minus = false;
-
-    [[nodiscard]] bool is_sign(std::string_view sign) const { return kind == Kind::sign && raw == sign; }
-    [[nodiscard]] bool begins(std::string_view beginning) const {
-        return kind == Kind::word && word.starts_with(beginning);
-    }
-};
-using Pieces = std::vector<Piece>;
-
-constexpr std::array<std::string_view, 14> k_signs{"±", "−", "×", "·", "√", "∞", "≤",
-                                                   "≥", "–", "—", "„", "“", "”", "\u00A0"};
-
-/// Bytes of a sign of more than one byte at the beginning of a text; 0 where there is none.
-std::size_t sign_bytes(std::string_view text) {
-    for (const std::string_view sign : k_signs) {
-        if (text.starts_with(sign)) {
-            return sign.size();
-        }
-    }
-    return 0;
-}
-bool is_plain_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-bool belongs_to_word(std::string_view text) {
-    const char c = text.front();
-    if (static_cast<unsigned char>(c) < 0x80U) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_plain_digit(c) || c == '_';
-    }
-    return sign_bytes(text) == 0;
-}
-/// Where a number may begin: a digit, or a sign in front of one.
-bool may_begin_number(std::string_view text) {
-    for (const std::string_view sign : {"±", "+/-", "−", "-", "√", "∞", "+"}) {
-        if (text.starts_with(sign)) {
-            text.remove_prefix(sign.size());
-            break;
-        }
-    }
-    while (text.starts_with(' ')) {
-        text.remove_prefix(1);
-    }
-    return !text.empty() && (is_plain_digit(text.front()) || text.starts_with("√"));
-}
-
-/// What stands directly behind a number, up to a space or the punctuation of a sentence: perhaps its unit.
-std::string unit_behind(std::string_view rest) {
-    std::size_t end = 0;
-    while (end < rest.size() && std::string_view(" ,;:()[]=\t\n").find(rest[end]) == std::string_view::npos) {
-        ++end;
-    }
-    std::string unit(rest.substr(0, end));
-    while (unit.ends_with('.')) {
-        unit.pop_back();
-    }
-    return unit;
-}
-
-/// The number at the beginning of a text, and how many bytes it takes; nothing where there is none.
-std::optional<std::pair<Piece, std::size_t>> number_piece(std::string_view text, DecimalSign sign) {
-    const std::optional<LeadingNumber> read = read_leading_number(text, "", Percent::hundredth, sign);
-    if (!read || read->is_open || !std::isfinite(read->number.value)) {
-        return std::nullopt;
-    }
-    // The rest has one character for each of the text, and no spaces at its ends.
-    std::size_t end = text.size();
-    while (end > 0 && (text[end - 1] == ' ' || text[end - 1] == '\t')) {
-        --end;
-    }
-    for (std::size_t left = text::character_count(read->rest); left > 0 && end > 0; --left) {
-        do {
-            --end;
-        } while (end > 0 && text::is_continuation(text[end]));
-    }
-    if (end == 0) {
-        return std::nullopt;
-    }
-    Piece piece;
-    piece.kind = Piece::Kind::number;
-    piece.value = read->number.value;
-    const std::string_view taken = text.substr(0, end);
-    piece.percent = taken.find('%') != std::string_view::npos;
-    piece.plus_minus = taken.find("±") != std::string_view::npos || taken.find("+/-") != std::string_view::npos;
-    piece.unit = unit_behind(text.substr(end));
-    std::string_view behind = text.substr(end);
-    while (behind.starts_with(' ')) {
-        behind.remove_prefix(1);
-    }
-    constexpr std::size_t k_longest_unit = 24;
-    piece.behind = cut(behind, k_longest_unit);
-    return std::pair(std::move(piece), end);
-}
-
-Pieces pieces_of(std::string_view all, DecimalSign sign) {
-    Pieces pieces;
-    std::string_view text = cut(all, k_longest_text);
-    if (!text::is_utf8(text)) {
-        return pieces;
-    }
-    bool after_word = false;
-    while (!text.empty()) {
-        if (!after_word && may_begin_number(text)) {
-            if (std::optional<std::pair<Piece, std::size_t>> number = number_piece(text, sign)) {
-                pieces.push_back(std::move(number->first));
-                text.remove_prefix(number->second);
-                continue;
-            }
-            // "12.3.4" is no number, and none of its parts is.
-            std::size_t end = 1;
-            while (end < text.size() && (is_plain_digit(text[end]) || text[end] == '.' || text[end] == ',')) {
-                ++end;
-            }
-            while (end < text.size() && text::is_continuation(text[end])) {
-                ++end;
-            }
-            text.remove_prefix(end);
-            continue;
-        }
-        std::size_t end = 0;
-        while (end < text.size() && belongs_to_word(text.substr(end))) {
-            ++end;
-            while (end < text.size() && text::is_continuation(text[end])) {
-                ++end;
-            }
-        }
-        after_word = end > 0;
-        if (end > 0) {
-            Piece piece;
-            piece.kind = Piece::Kind::word;
-            piece.raw = text.substr(0, end);
-            for (const char32_t letter : certificate::letters_of(piece.raw)) {
-                piece.word += text::encode_utf8(letter);
-            }
-            pieces.push_back(std::move(piece));
-        } else {
-            end = std::max<std::size_t>(1, sign_bytes(text));
-            if (text.front() != ' ' && text.front() != '\t') {
-                Piece piece;
-                piece.raw = text.substr(0, end);
-                pieces.push_back(std::move(piece));
-            }
-        }
-        text.remove_prefix(end);
-    }
-    return pieces;
-}
-
-std::optional<gum::Unit> unit_of(const std::string& text) {
-    try {
-        return gum::Unit::parse(text);
-    } catch (const gum::InputError&) {
-        return std::nullopt;
-    }
-}
-
-/// A number of a comment in the unit of the row.
-struct NumberOfRow {
-    double value = 0.0;
-    bool has_unit = false;  ///< stated behind it, and of the kind of the row
-};
-
-/// Nothing where the number is of another kind, or not greater than 0.
-std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& row) {
-    const double size = std::abs(piece.value);
-    if (!(size > 0.0)) {
-        return std::nullopt;
-    }
-    if (piece.percent) {
-        const bool of_percent = row.unit.find('%') != std::string::npos;
-        return of_percent ? std::optional(NumberOfRow{100.0 * size, true}) : std::nullopt;
-    }
-    // Words that are units as well, and in a sentence are none.
-    constexpr std::array<std::string_view, 5> k_words{"in", "a", "at", "as", "am"};
-    if (piece.unit.empty() || std::find(k_words.begin(), k_words.end(), piece.unit) != k_words.end()) {
-        return NumberOfRow{size, piece.unit == row.unit && !row.unit.empty()};
-    }
-    const bool several_words = row.unit.find(' ') != std::string::npos && piece.behind.starts_with(row.unit);
-    if (piece.unit == row.unit || several_words) {
-        return NumberOfRow{size, true};
-    }
-    const std::optional<gum::Unit> unit = unit_of(piece.unit);
-    if (!unit) {
-        return NumberOfRow{size, false};
-    }
-    // A number of another dimension belongs to something else: 20 °C in the row of a length is the temperature of the
-    // room.
-    const std::optional<gum::Unit> own = unit_of(row.unit);
-    if (!own || !(own->dimension() == unit->dimension())) {
-        return std::nullopt;
-    }
-    return NumberOfRow{own->difference_from_si(unit->difference_to_si(size)), true};
-}
-
-/// Words and signs that may stand between a keyword and its number.
-bool is_filler(const Piece& piece) {
-    if (piece.kind == Piece::Kind::sign) {
-        return piece.raw == "=" || piece.raw == ":" || piece.raw == "±" || piece.raw == "(" || piece.raw == "≤" ||
-               piece.raw == "<" || piece.raw == "-" || piece.raw == "~" || piece.raw == ">" || piece.raw == "\u00A0";
-    }
-    constexpr std::array<std::string_view, 11> k_words{"of",   "is",   "von", "ist",     "about", "ca",
-                                                       "etwa", "step", "the", "betragt", "d"};
-    return std::find(k_words.begin(), k_words.end(), piece.word) != k_words.end();
-}
-bool ends_sentence(const Piece& piece) {
-    return piece.is_sign(";") || piece.is_sign("\n");
-}
-
 /// The number that belongs to a keyword: directly behind it, directly in front of it, or behind it with a unit of the
 /// row's kind in the same part of the sentence.
 /// \param unit_needed  a number without unit may be that of a document or a class
@@ -348,7 +131,8 @@ std::optional<double> number_of_keyword(const Pieces& pieces, std::size_t keywor
     for (std::size_t back = 1; back <= 3 && back <= keyword; ++back) {
         const Piece& piece = pieces[keyword - back];
         if (piece.kind == Piece::Kind::number) {
-            if (const std::optional<double> value = usable(piece, unit_needed || back > 1)) {
+            const bool is_of_it = !is_argument(pieces, keyword - back);
+            if (const std::optional<double> value = usable(piece, unit_needed || back > 1); value && is_of_it) {
                 return value;
             }
             break;
@@ -358,7 +142,7 @@ std::optional<double> number_of_keyword(const Pieces& pieces, std::size_t keywor
         }
     }
     for (std::size_t i = next; i < pieces.size() && !ends_sentence(pieces[i]); ++i) {
-        if (pieces[i].kind == Piece::Kind::number) {
+        if (pieces[i].kind == Piece::Kind::number && !is_argument(pieces, i)) {
             if (const std::optional<double> value = usable(pieces[i], true)) {
                 return value;
             }
@@ -496,38 +280,6 @@ Found find_keyword(const Pieces& pieces, std::span<const Keyword> keywords, cons
         }
     }
     return found;
-}
-
-/// "U = 0.36 µm", "U95: 0.36", "U(k=2) = 0.36", "expanded uncertainty 0.36 µm".
-std::optional<double> expanded_uncertainty(const Pieces& pieces, const AuditedRow& row) {
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const Piece& piece = pieces[i];
-        if (piece.kind != Piece::Kind::word) {
-            continue;
-        }
-        const bool symbol = piece.raw == "U" || piece.raw == "U95" || piece.raw.starts_with("U_") ||
-                            piece.raw == "Ucal" || piece.raw == "Ucert";
-        const bool words = piece.word == "expanded" || piece.begins("erweitert");
-        if (!symbol && !words) {
-            continue;
-        }
-        // Behind the next '=' or ':' that is not that of k, or the first number with a unit.
-        bool of_k = false;
-        for (std::size_t j = i + 1; j < pieces.size() && !ends_sentence(pieces[j]); ++j) {
-            if (pieces[j].kind == Piece::Kind::word) {
-                of_k = pieces[j].raw == "k" || pieces[j].raw == "p" || pieces[j].word == "factor";
-            } else if (pieces[j].kind == Piece::Kind::number) {
-                const std::optional<NumberOfRow> number = in_unit_of_row(pieces[j], row);
-                const bool assigned =
-                    j > 0 && (pieces[j - 1].is_sign("=") || pieces[j - 1].is_sign(":") || pieces[j - 1].is_sign("±"));
-                if (!of_k && number && (number->has_unit || assigned || words)) {
-                    return number->value;
-                }
-                of_k = false;
-            }
-        }
-    }
-    return std::nullopt;
 }
 
 /// "k = 2", "k: 2", "coverage factor 2", "Erweiterungsfaktor 2".
@@ -689,8 +441,8 @@ struct Reading {
 };
 
 Reading origin_in(const Pieces& pieces, const AuditedRow& row) {
-    if (const std::optional<double> U = expanded_uncertainty(pieces, row)) {
-        return {Origin::certificate, U};
+    if (const std::optional<ExpandedInWords> U = expanded_uncertainty_in(pieces, row)) {
+        return {.origin = Origin::certificate, .value = U->value};
     }
     const std::array<std::pair<Origin, Found>, 5> candidates{{
         {Origin::specification, find_keyword(pieces, k_of_specification, row)},
@@ -725,7 +477,11 @@ std::optional<double> value_in(const Pieces& pieces, Origin origin, const Audite
     };
     switch (origin) {
         case Origin::certificate:
-            return either(expanded_uncertainty(pieces, row), find_keyword(pieces, k_of_certificate, row).value);
+            if (const std::optional<ExpandedInWords> U = expanded_uncertainty_in(pieces, row)) {
+                return U->value;
+            }
+            // Where words state a U that is left open, none of the other numbers is it.
+            return row.open_expansion ? std::nullopt : find_keyword(pieces, k_of_certificate, row).value;
         case Origin::specification:
             return either(find_keyword(pieces, k_of_specification, row).value, plus_minus(pieces, row));
         case Origin::resolution:
@@ -909,6 +665,10 @@ void read_comment(AuditedRow& row) {
             }
         }
     }
+    for (std::size_t i = 0; i < texts.size() && row.origin == Origin::certificate && !row.open_expansion; ++i) {
+        const std::optional<ExpandedInWords> U = expanded_uncertainty_in(texts[i], row);
+        row.open_expansion = U && !U->value ? std::optional(U->open) : std::nullopt;
+    }
     for (std::size_t i = 0; i < texts.size() && !row.origin_value; ++i) {
         row.origin_value = value_in(texts[i], row.origin, row);
     }
@@ -991,6 +751,7 @@ void complete_row(AuditedRow& row) {
     row.sensitivity_half_step = sensitivity.half_step;
     const bool finite = row.nu && std::isfinite(row.nu->value) && row.nu->value > 0.0;
     row.used_nu = finite ? row.nu->value : std::numeric_limits<double>::infinity();
+    settle_expanded_uncertainty(row);
 }
 
 std::optional<StatedNumber> quotient_of_columns(const AuditedRow& row) {

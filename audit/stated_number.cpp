@@ -249,8 +249,13 @@ std::optional<int> take_exponent(Walk& walk) {
             walk.go_to(start);
             return std::nullopt;
         }
-        walk.take_if(U'^');
-        walk.take_if(U'(');
+        const bool is_raised = walk.take_if(U'^');
+        const bool is_bracketed = walk.take_if(U'(');
+        // "× 100" is a hundred, and no power of ten without its sign.
+        if (!is_raised && !is_bracketed && (walk.peek() == U'0' || walk.peek() == U'.' || walk.peek() == U',')) {
+            walk.go_to(start);
+            return std::nullopt;
+        }
     }
     int sign = 1;
     if (walk.take_if(U'-')) {

@@ -791,6 +791,9 @@ private:
     /// or a coefficient (the layout of EA-4/02, chapter 4 and its examples).
     void settle_last_row() {
         constexpr std::size_t k_least = 3;
+        while (budget_.rows.size() >= k_least && is_lone_number(budget_.rows.back()) && is_no_row()) {
+            drop_last_row();
+        }
         if (budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back())) {
             return;
         }
@@ -826,6 +829,11 @@ private:
             take_last_row(result);
             return;
         }
+        if (is_distinct && is_stated && *without && !last.estimate &&
+            contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other) {
+            drop_last_row();  // the value in the column of u
+            return;
+        }
         const bool has_u_c = statements_.numbers.contains(Statement::u_c);
         const bool looks_like_result =
             is_distinct && last.estimate && !has_u_c && !result_line_ && !(is_stated && *without);
@@ -836,6 +844,41 @@ private:
                     "looked at; which one is it?",
                     last.place, text::in_quotes(last.quantity)));
         }
+    }
+    /// A row of which nothing is known but one number in the column of what is divided.
+    [[nodiscard]] static bool is_lone_number(const AuditedRow& row) {
+        return row.stated && !row.divisor && !row.u && !row.contribution && !row.sensitivity && !row.nu &&
+               !row.estimate && row.shape_text.empty() && !row.type_a;
+    }
+    /// Whether the last row, a lone number, is none: in a table without a column of estimates (UKAS M3003) the value stands
+    /// there, and the rows above have what makes them rows. One that is named as an influence is a row, unless the rows above it
+    /// give what is stated; one that the statements need is a row whatever its name.
+    [[nodiscard]] bool is_no_row() {
+        const AuditedRow& last = budget_.rows.back();
+        std::size_t lone = 0, distinct = 0;
+        for (const AuditedRow& row : budget_.rows) {
+            lone += is_lone_number(row) ? 1U : 0U;
+            distinct += row.u || row.contribution || row.divisor || !row.shape_text.empty() ? 1U : 0U;
+        }
+        if (distinct < 2 || lone + distinct < budget_.rows.size()) {
+            return false;
+        }
+        const StatedResult number{
+            .number = *last.stated, .unit = units_.back().stated, .column = heads_->columns.at(Column::stated)};
+        const std::optional<Interval> above = sum_above(number, true), all = sum_above(number);
+        if (all && gives_statements(*all).value_or(false)) {
+            return false;
+        }
+        return (above && gives_statements(*above).value_or(false)) ||
+               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other;
+    }
+    void drop_last_row() {
+        const AuditedRow& last = budget_.rows.back();
+        tables_.not_read.push_back(
+            say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used", last.place,
+                text::in_quotes(last.quantity)));
+        budget_.rows.pop_back();
+        units_.pop_back();
     }
     void take_last_row(const StatedResult& result) {
         const AuditedRow last = budget_.rows.back();
@@ -870,6 +913,12 @@ private:
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
+            if (row.open_expansion && !row.origin_value && row.origin == Origin::certificate) {
+                tables_.not_read.push_back(
+                    say("{cell}: the words of {text} state U of a certificate, and its size does not follow from them; "
+                        "what it was divided by is not checked; how large is U?",
+                        row.place, text::in_quotes(row.quantity)));
+            }
             note_row_facts(row);
             if (row.source.empty() && row.origin == Origin::certificate) {
                 row.source = certificate_in(row.comment);

@@ -153,6 +153,7 @@ void take_shown_claims(AuditedBudget& budget, const AuditedWorkbook& held) {
         const std::optional<CellPlace> cell = *claim ? held.cell_at((*claim)->place) : std::nullopt;
         if (const std::optional<double> shown = cell ? held.stale_number(*cell) : std::nullopt) {
             (*claim)->value = *shown;
+            (*claim)->half_step = 0.0;  // that of what its formula gives
             any = true;
         }
     }

@@ -3,10 +3,12 @@
 #include "audit/correction_effect.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -222,28 +224,33 @@ bool is_about_row(const std::string& where, const std::string& place) {
             where[place.size()] == '/');
 }
 
+/// What every budget has to name, in the order of the page, by the id of its wording and by one kind of row that it is.
 struct ContributorKind {
     const char* id;
-    std::vector<Contributor> rows;
+    Contributor one;
 };
+constexpr std::array<ContributorKind, 6> k_contributor_kinds{{{"reference", Contributor::reference},
+                                                              {"stability", Contributor::reference_drift},
+                                                              {"resolution", Contributor::item_resolution},
+                                                              {"repeatability", Contributor::repeatability},
+                                                              {"reproducibility", Contributor::reproducibility},
+                                                              {"environment", Contributor::environment}}};
 
-const std::vector<ContributorKind>& contributor_kinds() {
-    static const std::vector<ContributorKind> k_kinds = {
-        {"reference", {Contributor::reference}},
-        {"stability", {Contributor::reference_drift}},
-        {"resolution", {Contributor::item_resolution, Contributor::reference_resolution}},
-        {"repeatability", {Contributor::repeatability}},
-        {"reproducibility", {Contributor::reproducibility}},
-        {"environment", {Contributor::temperature, Contributor::expansion, Contributor::refractive_index}}};
-    return k_kinds;
+/// The contributor of audit::minimum_contributors() that a kind is: page and rule B01 look for the same rows.
+const audit::RequiredContributor& required_of(const ContributorKind& kind) {
+    const std::span<const audit::RequiredContributor> all = audit::minimum_contributors();
+    return *std::find_if(all.begin(), all.end(), [&kind](const audit::RequiredContributor& required) {
+        return std::find(required.by.begin(), required.by.end(), kind.one) != required.by.end();
+    });
 }
 
 ContributorView contributor_view(const ContributorKind& kind, const AuditedBudget& budget, double sum_of_squares) {
     ContributorView view;
     view.id = kind.id;
+    const audit::RequiredContributor& required = required_of(kind);
     double squares = 0.0;
     for (const AuditedRow& row : budget.rows) {
-        if (std::find(kind.rows.begin(), kind.rows.end(), row.contributor) == kind.rows.end()) {
+        if (!audit::stands_for(row, required)) {
             continue;
         }
         view.rows.push_back(printable(row.quantity));
@@ -266,8 +273,8 @@ std::string plain_number(const std::optional<double>& number) {
     return number ? typed_or_rounded(*number, 10, 10) : "";
 }
 
-AuditedResultView::Claim claim_of(const std::optional<audit::StatedNumber>& claim, const audit::Interval& allowed) {
-    return {.stated = claim.has_value(), .allowed = !claim || claim->interval().meets(allowed)};
+AuditedResultView::Claim claim_of(const std::optional<audit::StatedNumber>& claim, bool is_outside) {
+    return {.stated = claim.has_value(), .allowed = !claim || !is_outside};
 }
 
 AuditedResultView result_view(const audit::AuditedResult& result, const AuditedBudget& budget) {
@@ -300,10 +307,12 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.nu_eff = printed(result.allowed.nu_eff, printed_nu);
     view.k = printed(result.allowed.k, printed_k);
     view.U = printed(result.allowed.U, three_digits);
-    view.claim_u_c = claim_of(budget.claims.u_c, result.allowed.u_c);
-    view.claim_nu_eff = claim_of(budget.claims.nu_eff, result.allowed.nu_eff);
-    view.claim_k = claim_of(budget.claims.k, result.allowed.k);
-    view.claim_U = claim_of(budget.claims.U, result.allowed.U);
+    // By the same look as rule K01. What was evaluated here needs none: its sum and its k come from the evaluation.
+    const audit::ClaimCheck check = budget.evaluated_here ? audit::ClaimCheck{} : audit::check_claims(budget);
+    view.claim_u_c = claim_of(budget.claims.u_c, check.u_c_outside);
+    view.claim_nu_eff = claim_of(budget.claims.nu_eff, check.nu_eff_apart);
+    view.claim_k = claim_of(budget.claims.k, check.k_outside);
+    view.claim_U = claim_of(budget.claims.U, check.U_outside);
     view.change = change_of(result.claimed, result.audited);
     if (result.unrounded_U > 0.0) {
         // From the same number as the effects of corrections, whose shares then add up to it: rounding of the claim is
@@ -334,7 +343,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     }
     std::stable_sort(view.rows.begin(), view.rows.end(),
                      [](const AuditedRowView& a, const AuditedRowView& b) { return a.contribution > b.contribution; });
-    for (const ContributorKind& kind : contributor_kinds()) {
+    for (const ContributorKind& kind : k_contributor_kinds) {
         view.contributors.push_back(contributor_view(kind, budget, whole));
     }
     return view;
@@ -635,6 +644,10 @@ AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const
         file.not_read.push_back(printable_sentence(sentence));
     }
     return file;
+}
+
+void add_not_read(AuditedFileView& file, const audit::Sentence& sentence) {
+    file.not_read.push_back(printable_sentence(sentence));
 }
 
 AuditView make_audit_view(std::vector<AuditedFileView> files, const AuditContext& context) {

@@ -215,6 +215,9 @@ void run_tasks(const TaskRunner& run, std::size_t n, const std::function<void(st
 [[nodiscard]] AuditedFileView make_file_view(const audit::AuditReport& report, std::span<const audit::Rule> rules,
                                              const std::string& sha256 = "");
 
+/// Tells one thing more that was not looked at in a file.
+void add_not_read(AuditedFileView& file, const audit::Sentence& sentence);
+
 /// The view of the audits of one file or of a folder.
 ///
 /// The worst result of a file is the one that the corrections change most: a verdict or |E_n| > 1 that turns counts

@@ -158,18 +158,18 @@ TEST_F(AuditProgram, OfAJobAndItsRecordInAFolderTheRecordIsAudited) {
         }
         return names;
     };
-    EXPECT_EQ(audited_files(), "job.json ");
+    EXPECT_EQ(audited_files(), "budgets/job.json ");
     ASSERT_EQ(gumcert({"evaluate", job.string(), "-o", (budgets / "out" / "record.json").string(), "--share",
                        GUMCERT_SOURCE_DIR})
                   .code,
               0);
-    EXPECT_EQ(audited_files(), "told: record.json ");
+    EXPECT_EQ(audited_files(), "told: budgets/out/record.json ");
     const json named =
         json::parse(audit({job.string(), (budgets / "out" / "record.json").string(), "--format", "json"}).out);
     EXPECT_EQ(named["files"].size(), 2U) << "both are named";
     // A job that was changed since is another job.
     write_bytes(job, bytes_of(job) + "\n");
-    EXPECT_EQ(audited_files(), "job.json record.json ");
+    EXPECT_EQ(audited_files(), "budgets/job.json budgets/out/record.json ");
 }
 
 TEST_F(AuditProgram, AnErrorIsHeldAgainstTheScopeWhereItWasMeasured) {
@@ -280,7 +280,7 @@ TEST_F(AuditProgram, ReadsACertificateAndTheOneInItsPdf) {
     // In a folder the PDF is the same certificate again.
     fs::remove(out / "record.json");
     const json folder_of_both = json::parse(audit({out.string(), "--format", "json"}).out);
-    EXPECT_EQ(folder_of_both["file"], "certificate.xml");
+    EXPECT_EQ(folder_of_both["file"], "certificate/certificate.xml");
     EXPECT_FALSE(folder_of_both.contains("files")) << "one file";
     std::string planted = bytes_of(out / "certificate.xml");
     const std::string k = "<si:coverageFactor>2.13</si:coverageFactor>";

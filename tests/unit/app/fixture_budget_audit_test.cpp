@@ -8,9 +8,11 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
+#include "app/audit_evaluation.h"
 #include "app/audit_files.h"
 #include "app/evaluate_job.h"
 #include "jobs/file_source.h"
@@ -142,6 +144,21 @@ TEST(FixtureBudgetAudit, IsTheSameOfTheRecord) {
     ASSERT_NE(found, report.findings.end());
     ASSERT_TRUE(found->effect_on_score);
     EXPECT_EQ(found->effect_on_score->alone.en, finding("U10").effect_on_score->alone.en);
+}
+
+TEST(FixtureBudgetAudit, RefutesTheResultWithAReferenceAndWithout) {
+    for (const bool has_reference : {true, false}) {
+        std::map<std::string, std::string> files = files_of_example();
+        nlohmann::json job = nlohmann::json::parse(files.at(k_job), nullptr, true, true);
+        if (!has_reference) {
+            job.erase("reference_method");
+        }
+        files.at(k_job) = job.dump();
+        const Evaluation evaluation = evaluate_job(jobs::MemoryFileSource(std::move(files)), k_job,
+                                                   CovarianceFile::none, 1, fs::path(GUMCERT_SOURCE_DIR) / "templates");
+        EXPECT_EQ(evaluation.record.comparison.has_value(), has_reference);
+        EXPECT_TRUE(is_refuted_by_audit(evaluation)) << "S15 is critical, whatever the result is compared with";
+    }
 }
 
 TEST(FixtureBudgetAudit, ScalesNothingThatIsNoInput) {

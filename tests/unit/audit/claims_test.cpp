@@ -178,6 +178,49 @@ TEST(Claims, BelieveANuThatWasCut) {
     EXPECT_TRUE(check_claims(budget).coverage.truncate);
 }
 
+TEST(Claims, RoundedByASheetAreNoOtherNumber) {
+    // The law: whatever k u_c is, its rounding to two to five digits, nearest or up, is it; two units beside it is not.
+    for (const double u : {0.010284, 0.34567, 3.1416, 47.11, 1234.5}) {
+        for (int digits = 2; digits <= 5; ++digits) {
+            const double U = 2.0 * u;
+            const double step = std::pow(10.0, std::floor(std::log10(U)) - digits + 1);
+            for (const double steps : {std::round(U / step), std::ceil(U / step), std::ceil(U / step) + 2.0}) {
+                AuditedBudget budget = budget_of({row("a", u)});
+                budget.coverage.kind = CoverageRule::Kind::fixed;
+                budget.claims.u_c = exact_number(u, "");
+                budget.claims.k = exact_number(2.0, "");
+                budget.claims.U = exact_number(steps * step, "");
+                note_unexplained(budget);
+                const bool is_other = steps > std::ceil(U / step) + 1.0;
+                EXPECT_EQ(check_claims(budget).U_outside, is_other) << U << " as " << steps * step;
+                EXPECT_EQ(budget.U_over_k_u_c == 1.0, !is_other) << U << " as " << steps * step;
+            }
+        }
+    }
+    AuditedBudget budget = budget_of({row("a", 0.010284)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.claims.k = exact_number(2.0, "");
+    for (const double u_c : {0.0103, 0.010, 0.011}) {  // ROUND to four and three decimals, ROUNDUP to three
+        budget.claims.u_c = exact_number(u_c, "");
+        budget.claims.U = exact_number(2.0 * u_c, "");
+        note_unexplained(budget);
+        EXPECT_FALSE(check_claims(budget).u_c_outside) << u_c;
+        EXPECT_FALSE(check_claims(budget).U_outside) << u_c;
+        EXPECT_EQ(budget.u_c_over_rows, 1.0) << u_c;
+    }
+    budget.claims.u_c = exact_number(0.009, "");
+    note_unexplained(budget);
+    EXPECT_TRUE(check_claims(budget).u_c_outside);
+    // No rounding of k u_c, but of another k that the probability would allow.
+    budget.claims.u_c = exact_number(0.010284, "");
+    budget.claims.U = exact_number(0.020, "");
+    budget.claims.coverage_probability = 0.9545;
+    note_unexplained(budget);
+    EXPECT_TRUE(check_claims(budget).U_outside);
+    budget.claims.u_c = printed("0.011");
+    EXPECT_FALSE(check_claims(budget).u_c_outside) << "JCGM 100:2008, 7.2.6: 10.47 may be rounded up to 11";
+}
+
 TEST(TextOfClaim, KeepsTheDigitsAndHasTheFormOfDocuments) {
     const auto text = [](const std::string& printed, double half_step) {
         return text_of_claim({.value = 0.0, .half_step = half_step, .text = printed, .place = ""});

@@ -55,8 +55,8 @@ TEST(StatedNumber, KnowsInfinity) {
 }
 
 TEST(StatedNumber, IsNothingWhereTextIsNoNumber) {
-    for (const char* text :
-         {"", "rect.", "0.36 \u00B5m", "631.74.2", "k = 2", "1.2.3", "1.234.56", "12.34,5", "--3", "sqrt(", "1e"}) {
+    for (const char* text : {"", "rect.", "0.36 \u00B5m", "631.74.2", "k = 2", "1.2.3", "1.234.56", "12.34,5", "--3",
+                             "sqrt(", "1e", "0.002 \u00D7 100"}) {
         EXPECT_FALSE(read_number(text, "")) << text;
     }
 }

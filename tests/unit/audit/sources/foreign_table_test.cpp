@@ -320,6 +320,43 @@ TEST(BudgetsIn, ReadsDegreesOfFreedomThatAreALeast) {
     EXPECT_TRUE(std::isinf(tables.budgets[0].rows[2].used_nu));
 }
 
+/// A table without a column of estimates (UKAS M3003): the value stands under what is divided.
+ForeignTables table_with_value(const std::string& line) {
+    return tables_of(
+        "Source of uncertainty,Value ±,Unit,Probability distribution,Divisor,c_i,u_i / dB,v_i\n"
+        "Reference attenuator,0.030,dB,normal,2,1,0.0150,∞\n"
+        "Mismatch,0.045,dB,U-shaped,1.414,1,0.0318,∞\n"
+        "Repeatability,0.012,dB,normal,1,1,0.0120,9\n" +
+        line + "\nCombined standard uncertainty,,,normal,,,0.0371,>500\n" +
+        "Expanded uncertainty (k = 2),,,normal,,,0.074,>500\n");
+}
+
+/// The law: whatever the value is called, and under what is divided or under u, it is no row, and it is told.
+TEST(BudgetsIn, TakesALastNumberWithoutAnythingElseForNoRow) {
+    for (const std::string name : {"Attenuation", "Indication", "Calibration result", "Power level", "x"}) {
+        for (const std::string& line : {name + ",40.052,dB", name + ",40.052 dB", name + ",,dB,,,,40.052"}) {
+            const ForeignTables tables = table_with_value(line);
+            ASSERT_EQ(tables.budgets.size(), 1U) << line;
+            const AuditedBudget& budget = tables.budgets.front();
+            EXPECT_EQ(budget.rows.size(), 3U) << line;
+            EXPECT_EQ(budget.u_c_over_rows, 1.0) << line;
+            const bool is_value = budget.claims.value.has_value();
+            EXPECT_EQ(tables.not_read.size(), is_value ? 0U : 1U) << line;
+        }
+    }
+    // Rows that do not give what is stated hide behind no value either, and a row that the sum has stays one.
+    EXPECT_EQ(table_with_value("Attenuation,40.052,dB\nIndication,40.1,dB").budgets.front().rows.size(), 3U);
+    const ForeignTables of_four = tables_of(
+        "Source of uncertainty,Value ±,Unit,Probability distribution,Divisor,c_i,u_i / dB,v_i\n"
+        "Reference attenuator,0.030,dB,normal,2,1,0.0150,∞\n"
+        "Mismatch,0.045,dB,U-shaped,1.414,1,0.0318,∞\n"
+        "Repeatability,0.012,dB,normal,1,1,0.0120,9\n"
+        "Connectors,0.020,dB\n"
+        "Combined standard uncertainty,,,normal,,,0.0422,>500\n");
+    ASSERT_EQ(of_four.budgets.size(), 1U);
+    EXPECT_EQ(of_four.budgets.front().rows.size(), 4U);
+}
+
 TEST(BudgetsIn, TakesACertificateInTheCommentForTheSource) {
     const ForeignTables tables = tables_of(
         "quantity,unit,U or a,divisor,u,sensitivity,comment\n"

@@ -5,7 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "audit/budget_outcome.h"
+#include "audit/checklists.h"
+#include "audit/claims.h"
 #include "reports/printable_text.h"
 #include "tests/support/hostile_strings.h"
 #include "tests/support/sample_audit.h"
@@ -99,6 +104,28 @@ TEST(AuditViewOfABudget, SaysWhichClaimsTheRowsDoNotAllow) {
     EXPECT_FALSE(view_of(report).files[0].results[0].claim_u_c.allowed);
 }
 
+/// The law: the page calls outside what the rule on claims does, in a sheet whose numbers have all of their digits as well.
+TEST(AuditViewOfABudget, CallsNoClaimOutsideThatTheRuleAllows) {
+    const audit::BudgetOutcome outcome = audit::evaluate(test::sample_audited_budget());
+    for (const double arithmetic : {-5e-7, -1e-12, 0.0, 1e-12, 5e-7, 1e-2}) {
+        audit::AuditSubject subject;
+        subject.budgets = {test::sample_audited_budget()};
+        audit::AuditedBudget& budget = subject.budgets[0];
+        for (audit::AuditedRow& row : budget.rows) {
+            row.u_half_step = row.sensitivity_half_step = 0.0;
+        }
+        const double u_c = audit::evaluate(budget).u_c * (1.0 + arithmetic);
+        budget.claims.u_c = audit::exact_number(u_c, "");
+        budget.claims.nu_eff = audit::exact_number(std::floor(outcome.nu_eff), "");
+        const audit::ClaimCheck check = audit::check_claims(budget);
+        const audit::AuditReport report = audit::audit(std::move(subject), test::sample_rules());
+        const AuditedResultView view = view_of(report).files[0].results[0];
+        EXPECT_EQ(view.claim_u_c.allowed, !check.u_c_outside) << arithmetic;
+        EXPECT_EQ(view.claim_u_c.allowed, std::abs(arithmetic) < 1e-3) << arithmetic;
+        EXPECT_TRUE(view.claim_nu_eff.allowed) << "cut to a whole number";
+    }
+}
+
 TEST(AuditViewOfABudget, PrintsTypedNumbersAsTypedAndRoundsComputedOnes) {
     const auto row_with = [](double u, double estimate) {
         audit::AuditReport report = test::sample_audit();
@@ -144,6 +171,26 @@ TEST(AuditViewOfABudget, AsksForSixContributors) {
     EXPECT_TRUE(all[4].rows.empty()) << "no row of reproducibility";
     EXPECT_THAT(all[5].rows, ElementsAre("temperature difference", "expansion coefficient"));
     EXPECT_NEAR(all[5].contribution, std::hypot(0.12, 0.035), 1e-12);
+}
+
+/// The law: a row of any kind that a minimum contributor takes is on the page under it.
+TEST(AuditViewOfABudget, LooksForContributorsAsTheRuleDoes) {
+    const std::span<const audit::RequiredContributor> minimum = audit::minimum_contributors();
+    for (const audit::RequiredContributor& required : minimum) {
+        for (const audit::Contributor kind : required.by) {
+            audit::AuditReport report = test::sample_audit();
+            std::vector<audit::AuditedRow>& rows = report.subject.budgets[0].rows;
+            rows.resize(1);
+            rows[0].contributor = kind;
+            rows[0].origin = audit::Origin::not_stated;
+            rows[0].readings.clear();
+            const std::vector<ContributorView> all = view_of(report).files[0].results[0].contributors;
+            ASSERT_EQ(all.size(), minimum.size());
+            EXPECT_EQ(
+                std::count_if(all.begin(), all.end(), [](const ContributorView& one) { return !one.rows.empty(); }), 1)
+                << required.name.english();
+        }
+    }
 }
 
 TEST(AuditViewOfABudget, SumsTheRestOfTheRows) {
