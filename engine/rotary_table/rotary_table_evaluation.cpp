@@ -813,6 +813,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
+        refuse_no_rigid_table(measurement);
         throw gum::NoResultError(*line);
     }
     JointAdjustment first(measurement, active, start_set_up, start, stochastic);
@@ -823,7 +824,12 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
             refuse_undetermined(measurement, rank, adjustment.present_values().stations);
         }
     };
-    require_rank(first);
+    try {
+        require_rank(first);
+    } catch (const gum::NoResultError&) {
+        refuse_no_rigid_table(measurement);
+        throw;
+    }
     iteration.report("joint adjustment");
     // While an outlier may still be in, the last digits of the solution are not worth their steps.
     SolverOptions rough = options.solver;

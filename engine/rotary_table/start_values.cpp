@@ -1222,6 +1222,14 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
     return search.values();
 }
 
+void refuse_no_rigid_table(const RotaryTableMeasurement& measurement) {
+    StartSearch search(measurement, {});
+    (void)search.fit_each();
+    if (std::optional<gum::Diagnostic> none = search.no_rigid_table()) {
+        throw gum::NoResultError(std::move(*none));
+    }
+}
+
 std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement) {
     // What the start values leave is error motions: even of a bad table far below this.
     constexpr double k_smallest = 0.02;  // [m]

@@ -52,6 +52,11 @@ struct StartValues {
 ///         the layout
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
 
+/// To be asked before a measurement is refused for its layout: what is open where the distances of a station fit no place to
+/// a millimetre is no property of the layout.
+/// \throws gum::NoResultError  GC-ADJUST-0015
+void refuse_no_rigid_table(const RotaryTableMeasurement& measurement);
+
 /// Beams that were interrupted by a tenth of a millimetre or more: with the distances of a station from some visit on
 /// on a dead path of their own, next to nothing of its misfit is left. For measurements that have no result without:
 /// every visit of every station is tried.

@@ -177,14 +177,21 @@ TEST(PlantedBlunders, WrongUnitsAndSignsAreToldAsSuch) {
     }
 }
 
-// What no label explains is no statement on the layout.
-TEST(PlantedBlunders, DistancesOfNoRigidTableAreToldAsSuch) {
-    RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
-    for (LengthObservation& length : m.lengths) {
-        length.length *= -1.37;
+// What no label explains is no statement on the layout: these reflectors form no plane and no cone.
+TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
+    int told = 0;
+    for (const double factor : {-1.37, -0.7, 3.7, 0.3, 60.0}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+        for (LengthObservation& length : m.lengths) {
+            length.length *= factor;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("cone about one line"), std::string::npos) << factor << ": " << message;
+        EXPECT_EQ(message.find("plane across the axis"), std::string::npos) << factor << ": " << message;
+        EXPECT_EQ(message.find("on one line"), std::string::npos) << factor << ": " << message;
+        told += message.find("fit no rigid table that turns by the stated angles") != std::string::npos ? 1 : 0;
     }
-    const std::string message = refusal(m);
-    EXPECT_NE(message.find("fit no rigid table that turns by the stated angles"), std::string::npos) << message;
+    EXPECT_GE(told, 1);
 }
 
 // Axial motions that grow with the angle: from 0.1° over all angles on they are told, from 1° on refused.
