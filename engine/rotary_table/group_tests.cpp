@@ -25,9 +25,10 @@ using Eigen::VectorXd;
 constexpr double k_median_of_absolute_normal = 0.674489750196082;
 constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): standard deviation of its relative error
 constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
-constexpr double k_controlled = 1e-9;            // share of the weight of a group below which nothing else controls it
-constexpr std::size_t k_most_suspects = 40;      // groups that are taken away one after the other
-constexpr int k_most_steps = 18;                 // by which the angles of a station are looked at to be off
+constexpr double k_controlled = 1e-9;        // share of the weight of a group below which nothing else controls it
+constexpr std::size_t k_most_suspects = 40;  // groups that are taken away one after the other
+constexpr int k_most_steps = 18;             // by which the angles of a station are looked at to be off
+constexpr double k_most_amplitude = 3.5;     // of the effect of angles that are off: J/(J - 2) of three stations is 3
 constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its own, one station
 constexpr std::size_t k_most_angle_bounds = 36;  // between which a reflector is looked at to stand elsewhere
@@ -1226,8 +1227,16 @@ private:
             return {};
         }
         // By the larger of both scales, the cautious choice: the effect is neither a common error nor a free pose.
-        const double deviate = visits_.weighted(effect) / std::sqrt(spread.value) / std::max(used_scale_, pose_scale_);
-        return {steps, deviate * deviate, std::move(effect)};
+        const double scale = std::max(used_scale_, pose_scale_);
+        // Angles are off by the steps or they are not: the effect has the amplitude 1, and no other one. What is tested is by
+        // how much chi-square falls when the angles are corrected: 2w - s with w = Cᵀ V⁻¹ v and
+        // s = Cᵀ M C. w²/s, by how much it falls with the best amplitude, is large as well where a small part of an
+        // effect that is large happens to look like another fault, and the correction makes everything worse.
+        // The poses that the effect is made of hold a J-th part of the fault of one of J stations, so that the amplitude lies
+        // between 1 and J/(J - 2), and the larger ones are another fault.
+        const double weighted = visits_.weighted(effect);
+        const double fall = weighted < k_most_amplitude * spread.value ? 2.0 * weighted - spread.value : 0.0;
+        return {steps, std::max(0.0, fall) / (scale * scale), std::move(effect)};
     }
 
     /// Whether the angles divide a full turn evenly.

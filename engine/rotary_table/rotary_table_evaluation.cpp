@@ -301,6 +301,7 @@ public:
             settle(adjustment, stochastic, options.max_component_iterations, options.component_tolerance,
                    options.solver);
         }
+        chi_square_of_estimates = normal->chi_square();
         take_plausible(stochastic);
         adjustment.set_weights(stochastic);
         solve(adjustment, options.solver);
@@ -346,6 +347,7 @@ public:
     int iterations = 0;
     int component_iterations = 0;
     bool components_converged = false;
+    double chi_square_of_estimates = 0.0;  // before what is plausible took their place
     bool fixture_separable = true;
     std::optional<double> held_length_redundancy;  ///< of a length noise that was to be estimated and is held as stated
 
@@ -625,29 +627,81 @@ void note_outliers(RotaryTableSolution& solution, const RotaryTableMeasurement& 
     }
 }
 
+/// How far the table turned against how far the file says: the slope of a line through the axial motions over the angles,
+/// and how much of them it leaves.
+struct TurnedFurther {
+    double slope = 0.0;
+    double over_all = 0.0;    ///< slope times the span of the angles, [rad]
+    double share_left = 1.0;  ///< of the root mean square about their mean
+};
+TurnedFurther turned_further(const std::vector<double>& angles, const std::vector<double>& motions) {
+    const auto n = static_cast<Eigen::Index>(angles.size());
+    if (n < 4) {
+        return {};  // a line through three angles hardly leaves anything
+    }
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(angles.data(), n);
+    Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(motions.data(), n);
+    const double span = x.maxCoeff() - x.minCoeff();
+    x.array() -= x.mean();
+    y.array() -= y.mean();
+    const double squares = y.squaredNorm();
+    if (!(squares > 0.0) || !(x.squaredNorm() > 0.0)) {
+        return {};
+    }
+    const double slope = x.dot(y) / x.squaredNorm();
+    return {slope, slope * span, std::sqrt((y - slope * x).squaredNorm() / squares)};
+}
+
 /// An angle at which the table stands far from where the others let expect it: perhaps the file states another angle
 /// than the one that was measured. All six error motions of an angle are free, so that nothing else tells.
+///
+/// Angles that are all stated in another unit or step are motions that grow with the angle: far from the median are then nearly
+/// all, and the median deviation is as large as they are. Therefore a limit of its own that no table reaches, and a line.
+/// \throws gum::NoResultError  GC-ANGLE-0002 where the angles are off by more than a degree all together
 void note_implausible_angles(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement) {
     constexpr double k_smallest = 180.0 * gum::k_arcsecond;
+    constexpr double k_of_no_table = 360.0 * gum::k_arcsecond;
+    constexpr double k_refused = gum::k_degree;
     constexpr double k_times_median = 20.0;
+    constexpr double k_share_left_by_line = 0.2;
     const int axial = 3 + axial_coordinate(measurement.axis);
     std::vector<double> motions;
     for (std::size_t i = 0; i < measurement.angles.size(); ++i) {
         motions.push_back(solution.values[static_cast<Eigen::Index>(6 * i) + axial]);
+    }
+    const TurnedFurther turned = turned_further(measurement.angles, motions);
+    if (std::abs(turned.over_all) > k_of_no_table && turned.share_left < k_share_left_by_line) {
+        gum::Diagnostic message{
+            "GC-ANGLE-0002",
+            "angles",
+            "the table turned " + text::significant(1.0 + turned.slope, 5) + " times as far as the file states, by " +
+                degrees_text(std::round(std::abs(turned.over_all) / gum::k_degree * 1e4) / 1e4) + " over all angles",
+            "angles that are stated in another unit or with another step are taken for an error motion of the table",
+            "compare the angles with the protocol, and correct the lengths file",
+            gum::Severity::warning};
+        if (std::abs(turned.over_all) > k_refused) {
+            message.severity = gum::Severity::error;
+            throw gum::NoResultError(std::move(message));
+        }
+        solution.notes.push_back(std::move(message));
+        return;
     }
     std::vector<double> sorted = motions;
     const double middle = upper_median(sorted);
     for (double& value : sorted) {
         value = std::abs(value - middle);
     }
-    const double limit = std::max(k_smallest, k_times_median * upper_median(sorted));
+    const double of_others = std::max(k_smallest, k_times_median * upper_median(sorted));
+    const double limit = std::min(of_others, k_of_no_table);
     for (std::size_t i = 0; i < motions.size(); ++i) {
         const double off = motions[i] - middle;
         if (std::abs(off) > limit) {
             solution.notes.push_back(
                 {"GC-ANGLE-0001", degrees_text(measurement.angles_deg[i]),
                  "the table stands " + degrees_text(std::round(off / gum::k_degree * 1e4) / 1e4) +
-                     " from the angle that the file states, far more than at the other angles",
+                     (std::abs(off) > of_others
+                          ? " from the angle that the file states, far more than at the other angles"
+                          : " from the angle that the file states, farther than a table errs"),
                  "an angle that is stated wrongly at all stations is taken for an error motion of the table",
                  "see whether the angle is mistyped, and correct the lengths file", gum::Severity::warning});
         }
@@ -680,6 +734,29 @@ void note_undetermined_components(RotaryTableSolution& solution, const RotaryTab
              "measure "
              "more stations, reflectors or passes; either makes U smaller",
              added > noise ? gum::Severity::warning : gum::Severity::note});
+    }
+}
+
+/// A length noise of nothing, where the residuals are smaller than the resolution alone makes them. Components that enter with what
+/// they leave plausible make chi-square smaller still: it is asked before.
+void note_refuted_resolution(RotaryTableSolution& solution, const RotaryTableMeasurement& measurement,
+                             double chi_square_of_estimates, const EvaluationOptions& options) {
+    constexpr double k_level = 0.001;
+    const VarianceComponent& noise = solution.components[length_noise];
+    const double resolution = measurement.length_uncertainty.resolution;
+    if (!options.chi_square_upper_tail || solution.degrees_of_freedom <= 0 || !noise.estimated || noise.value > 0.0 ||
+        !(resolution > 0.0)) {
+        return;
+    }
+    const auto nu = static_cast<double>(solution.degrees_of_freedom);
+    if (1.0 - options.chi_square_upper_tail(chi_square_of_estimates, nu) < k_level) {
+        solution.notes.push_back(
+            {"GC-VARIANCE-0009", "variance components, length noise",
+             "the residuals are smaller than the resolution of " + micrometres(resolution, 2) +
+                 " alone makes them: nothing is left of the length noise",
+             "by chance alone this happens less than once in a thousand adjustments",
+             "see whether the resolution is stated too large, or the distances were read with more digits",
+             gum::Severity::warning});
     }
 }
 
@@ -736,6 +813,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
     }
     // Before the adjustment, which would not converge, or would name parameters that do not show the cause.
     if (const std::optional<gum::Diagnostic> line = stations_on_one_line(start.stations)) {
+        refuse_no_rigid_table(measurement);
         throw gum::NoResultError(*line);
     }
     JointAdjustment first(measurement, active, start_set_up, start, stochastic);
@@ -746,7 +824,12 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
             refuse_undetermined(measurement, rank, adjustment.present_values().stations);
         }
     };
-    require_rank(first);
+    try {
+        require_rank(first);
+    } catch (const gum::NoResultError&) {
+        refuse_no_rigid_table(measurement);
+        throw;
+    }
     iteration.report("joint adjustment");
     // While an outlier may still be in, the last digits of the solution are not worth their steps.
     SolverOptions rough = options.solver;
@@ -1023,6 +1106,7 @@ Adjusted adjust_and_test(const RotaryTableMeasurement& measurement, const Evalua
              "give the repeatability of the table instead of estimating it", gum::Severity::warning});
     }
     note_undetermined_components(solution, measurement);
+    note_refuted_resolution(solution, measurement, iteration.chi_square_of_estimates, options);
     if (iteration.estimated().length && !iteration.step.length_separable) {
         solution.notes.push_back({"GC-VARIANCE-0002", "variance components",
                                   "one distance a visit of the table: the length noise is kept as stated",

@@ -45,6 +45,10 @@ constexpr double k_hopeless_misfit = 2.0 * gum::k_millimetre;
 constexpr double k_hopeless_factor = 20.0;
 constexpr double k_cone_singular_ratio = 1e-6;  // that of SolverOptions::rank_tolerance, as singular values
 constexpr double k_linear_eigenvalue_ratio = 1e-10;
+// What a rigid body leaves of the distances of a station: error motions and set-up errors. Labels that are wrong leave
+// centimetres; with the right ones next to nothing of that is left.
+constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
+constexpr double k_share_with_right_labels = 0.05;
 
 /// The lengths of one station, free of names.
 struct StationData {
@@ -166,6 +170,27 @@ public:
             misfits.push_back(fits_[j].upright_misfit());
         }
         return misfits;
+    }
+    /// The station that fits its distances worst, each on its own, where it is worse than error motions let any fit.
+    [[nodiscard]] std::optional<gum::Diagnostic> no_rigid_table() const {
+        std::size_t worst = 0;
+        for (std::size_t j = 1; j < fits_.size(); ++j) {
+            worst = fits_[j].misfit > fits_[worst].misfit ? j : worst;
+        }
+        if (fits_.empty() || !(fits_[worst].misfit > k_wrong_labels)) {
+            return std::nullopt;
+        }
+        return gum::Diagnostic{
+            "GC-ADJUST-0015",
+            "station " + measurement_.stations[worst],
+            "its distances fit no rigid table that turns by the stated angles: from the place that fits best they "
+            "differ by " +
+                millimetres(fits_[worst].misfit, 1) + " mm (root mean square without the largest)",
+            "what a place of the station leaves are error motions, far below a millimetre",
+            "compare units and signs of distances, angles and fixture, and the names of reflectors and stations, with "
+            "the "
+            "protocol of the measurement",
+            gum::Severity::error};
     }
     /// One station on its own.
     [[nodiscard]] StationFit fit_of(std::size_t station) const { return fit_alone(station); }
@@ -820,15 +845,13 @@ private:
 
 // ---- wrong labels ---------------------------------------------------------------------------------------------------
 
-// What a rigid body leaves of the distances of a station: error motions and set-up errors. Labels that are wrong leave
-// centimetres; with the right ones next to nothing of that is left.
-constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
-constexpr double k_share_with_right_labels = 0.05;
-
 /// What the file may say wrongly of the distances of one station.
 struct LabelHypothesis {
     bool other_sense = false;           ///< the table turned the other way
     std::size_t first = 0, second = 0;  ///< reflectors that are interchanged; equal: none
+    double lengths = 1.0;               ///< by which the distances are multiplied
+    double fixture = 1.0;               ///< the coordinates of the fixture
+    double angles = 1.0;                ///< the angles, from the home angle on
     friend bool operator==(const LabelHypothesis&, const LabelHypothesis&) = default;
 };
 
@@ -852,16 +875,39 @@ RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_
             angle = 2.0 * home - angle;
         }
     }
+    if (hypothesis.angles != 1.0) {
+        const double home = measurement.angles[measurement.home];
+        for (double& angle : measurement.angles) {
+            angle = home + hypothesis.angles * (angle - home);
+        }
+    }
+    if (hypothesis.lengths != 1.0) {
+        for (LengthObservation& length : measurement.lengths) {
+            length.length *= hypothesis.lengths;
+        }
+    }
+    measurement.fixture *= hypothesis.fixture;
     return measurement;
 }
 
 class LabelSearch {
 public:
     explicit LabelSearch(const RotaryTableMeasurement& measurement) : measurement_(measurement) {
-        hypotheses_.push_back({true, 0, 0});
+        hypotheses_.push_back({.other_sense = true});
+        // A sign, a path that is counted twice or halved; units of length; gon for degrees, ten steps for fifteen. Only a
+        // ratio of lengths and fixture can be told: which of them is wrong the message leaves open.
+        for (const double factor : {-1.0, 2.0, 0.5}) {
+            hypotheses_.push_back({.lengths = factor});
+        }
+        for (const double factor : {25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 0.001}) {
+            hypotheses_.push_back({.fixture = factor});
+        }
+        for (const double factor : {0.9, 1.0 / 0.9, 1.5, 1.0 / 1.5, 2.0, 0.5}) {
+            hypotheses_.push_back({.angles = factor});
+        }
         for (std::size_t a = 0; a < measurement.reflectors.size(); ++a) {
             for (std::size_t b = a + 1; b < measurement.reflectors.size(); ++b) {
-                hypotheses_.push_back({false, a, b});
+                hypotheses_.push_back({.first = a, .second = b});
             }
         }
     }
@@ -899,7 +945,9 @@ private:
         double least = std::min(k_share_with_right_labels * misfit, k_wrong_labels);
         for (const LabelHypothesis& hypothesis : hypotheses_) {
             const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
-            const double reached = StartSearch(other, active).fit_of(station).upright_misfit();
+            // In the distances as they were stated: half of all lengths leaves half of any misfit.
+            const double reached =
+                StartSearch(other, active).fit_of(station).upright_misfit() / std::abs(hypothesis.lengths);
             if (reached < least) {
                 least = reached;
                 best = hypothesis;
@@ -959,6 +1007,39 @@ private:
                     "angles are positive about the axis of the table frame by the right-hand rule",
                     "reverse the sign of the angles, or see whether the coordinates of the fixture are those of a "
                     "right-handed frame",
+                    gum::Severity::error};
+        }
+        if (cause.lengths != 1.0) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    cause.lengths < 0.0
+                        ? std::string("the distances agree when they have the other sign")
+                        : "the distances agree when they are multiplied by " + text::significant(cause.lengths, 2),
+                    "a distance grows as the reflector moves away from the station, by as much as it moves",
+                    cause.lengths < 0.0
+                        ? "reverse the sign of the distances"
+                        : "see whether the path of the beam was counted twice or halved, and correct the "
+                          "distances",
+                    gum::Severity::error};
+        }
+        if (cause.fixture != 1.0) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    "the distances agree with a fixture whose coordinates are multiplied by " +
+                        text::significant(cause.fixture, 3),
+                    "distances and coordinates of the fixture are stated in millimetres",
+                    "see in which unit each of them was measured, and correct the one that is not in millimetres",
+                    gum::Severity::error};
+        }
+        if (cause.angles != 1.0) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    "the distances agree with a table that turned " + text::significant(cause.angles, 3) +
+                        " times as far as the angles say",
+                    "angles are stated in degrees, as far as the table turned",
+                    std::abs(cause.angles - 0.9) < 0.01
+                        ? "the angles seem to be gon: multiply them by 0.9"
+                        : "see in which unit and in which steps the angles were written",
                     gum::Severity::error};
         }
         const std::string a = measurement_.reflectors[cause.first];
@@ -1141,6 +1222,14 @@ StartValues find_start_values(const RotaryTableMeasurement& measurement, const s
     return search.values();
 }
 
+void refuse_no_rigid_table(const RotaryTableMeasurement& measurement) {
+    StartSearch search(measurement, {});
+    (void)search.fit_each();
+    if (std::optional<gum::Diagnostic> none = search.no_rigid_table()) {
+        throw gum::NoResultError(std::move(*none));
+    }
+}
+
 std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement) {
     // What the start values leave is error motions: even of a bad table far below this.
     constexpr double k_smallest = 0.02;  // [m]
@@ -1150,7 +1239,17 @@ std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measure
     if (!misfits.empty() && *std::ranges::max_element(misfits) > k_wrong_labels) {
         LabelSearch(measurement).refuse(misfits);
     }
-    search.finish();
+    const std::optional<gum::Diagnostic> no_table = search.no_rigid_table();
+    try {
+        search.finish();
+    } catch (const gum::NoResultError&) {
+        // Places that fit alike badly, and a place far away where all reflectors lie on a cone, are what a search comes to
+        // that has nothing to find: they say nothing of the layout.
+        if (no_table) {
+            throw gum::NoResultError(*no_table);
+        }
+        throw;
+    }
     std::vector<std::pair<double, std::size_t>> found;  // negative size first, so that the largest comes first
     for (std::size_t j = 0; j < search.stations().size(); ++j) {
         const StationData& data = search.stations()[j];

@@ -43,11 +43,19 @@ struct StartValues {
 /// Nothing is found in a dead path with fewer than three lengths: there is no telling which one is wrong.
 ///
 /// Distances of a station that no position explains are tried with other labels: the table turning the other way, two
-/// reflectors interchanged, passes from two places. If one makes the misfit vanish it is reported as wrong
+/// reflectors interchanged, lengths of the other sign or counted twice, a fixture in another unit, angles that are gon or steps
+/// of another size, passes from two places. If one makes the misfit vanish it is reported as wrong
 /// labels, and no gross error is returned.
 ///
-/// \throws gum::NoResultError  as find_start_values(), and GC-ADJUST-0013 for wrong labels
+/// \throws gum::NoResultError  as find_start_values(); GC-ADJUST-0013 for wrong labels; and GC-ADJUST-0015 in place of
+///         GC-RANK-0001 where the distances of a station fit no place to a millimetre: what is open then is no property of
+///         the layout
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
+
+/// To be asked before a measurement is refused for its layout: what is open where the distances of a station fit no place to
+/// a millimetre is no property of the layout.
+/// \throws gum::NoResultError  GC-ADJUST-0015
+void refuse_no_rigid_table(const RotaryTableMeasurement& measurement);
 
 /// Beams that were interrupted by a tenth of a millimetre or more: with the distances of a station from some visit on
 /// on a dead path of their own, next to nothing of its misfit is left. For measurements that have no result without:

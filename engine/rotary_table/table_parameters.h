@@ -84,7 +84,8 @@ struct TableParameterLayout {
 ///   that angle in one sense. The deviations hold the noise of the measurement besides that of the table.
 ///
 /// A range and every maximum rest on the angles that are extreme in the estimate. Where noise can change them, the law
-/// of propagation and its U are not valid (JCGM 101:2008, 5.8.1); a Monte Carlo evaluation and its validation show it.
+/// of propagation and its U are not valid (JCGM 101:2008, 5.8.1). Monte Carlo about the estimate does not repair it: the estimate holds noise
+/// that makes it larger, and a trial adds as much once more (ADR 0015).
 class TableParameters final : public DerivedQuantities {
 public:
     /// \param datum     the nominal solution in the datum of the result

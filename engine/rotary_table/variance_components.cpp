@@ -482,8 +482,9 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
                                                       "table angular, tilt", "fixture CMM"};
     const TableRepeatability& table = adjustment.measurement().table_repeatability;
     const std::array<double, 3> table_stated{table.u_linear, table.u_axial, table.u_tilt};
-    const double length_scale =
-        lengths.u_constant > 0.0 ? lengths.u_constant * lengths.u_constant : mean_stated;  // of one length, [m²]
+    // One factor multiplies both parts of the stated noise: of two parts the constant one alone would be no noise that any
+    // length has. [m²]
+    const double length_scale = lengths.u_proportional > 0.0 ? mean_stated : lengths.u_constant * lengths.u_constant;
     const std::array<double, k_components> scales{length_scale, k_linear_scale, k_angular_scale, k_angular_scale,
                                                   adjustment.measurement().fixture_covariance.diagonal().mean()};
     for (std::size_t k = 0; k < k_components; ++k) {

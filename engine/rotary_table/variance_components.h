@@ -15,7 +15,7 @@ namespace gumcert::engine {
 struct VarianceComponent {
     std::string name;
     bool angular = false;  ///< `value` in [rad], else [m]
-    /// Standard deviation of one length (constant part, or rms over the lengths where none is stated), of one
+    /// Standard deviation of one length (rms over the lengths where a part is proportional to them), of one
     /// translation or rotation, or of one coordinate of the fixture (rms over the coordinates). An estimate where
     /// `estimated`, else what the weights take as given.
     double value = 0.0;

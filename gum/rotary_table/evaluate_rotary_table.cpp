@@ -72,11 +72,11 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
     // thread.
     options.regions = false;
     options.histogram = false;
-    const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
+    const engine::TableParameters& parameters = *result.parameter_model->parameters();
+    const std::vector<std::string>& names = parameters.short_names();
     const PositioningScope scope = positioning_scope(*result.parameter_model);
     const auto reported = static_cast<std::size_t>(result.reported.budget.value.size());
-    const std::size_t positioning =
-        reported + static_cast<std::size_t>(result.parameter_model->parameters()->layout().positioning);
+    const std::size_t positioning = reported + static_cast<std::size_t>(parameters.layout().positioning);
     RotaryTableMonteCarlo monte_carlo;
     monte_carlo.result = run_monte_carlo(trials, options);
     monte_carlo.most_steps = trials.steps().most;
@@ -84,12 +84,13 @@ RotaryTableMonteCarlo monte_carlo_of(const RotaryTableRequest& request, const Ro
     for (std::size_t i = 0; i < monte_carlo.result.outputs.size(); ++i) {
         const Stated law = stated(result, static_cast<Eigen::Index>(i));
         std::optional<Validation> validation;
-        // Of the parameters of ISO 230-2, those that are stated and that Monte Carlo can check.
-        // R and A rest on the scatter of runs, which holds the noise of the distances: Monte Carlo would add it once
-        // more (ADR 0017).
+        // Of the parameters of the table, those that are stated and that Monte Carlo can check: extremes and standard
+        // deviations hold the noise of the distances already, and trials would add it once more (ADR 0015, 0017).
         const bool compared =
-            i < positioning || (scope.states(names[i - reported]) && !rests_on_scatter(names[i - reported]));
-        monte_carlo.law_stands.push_back(law.u > 0.0 &&
+            i < reported || (!holds_noise_already(parameters, static_cast<Eigen::Index>(i - reported)) &&
+                             (i < positioning || scope.states(names[i - reported])));
+        monte_carlo.compared.push_back(compared);
+        monte_carlo.law_stands.push_back(compared && law.u > 0.0 &&
                                          law_stands_for(joint->inputs(), result, static_cast<Eigen::Index>(i)));
         if (law.u > 0.0 && compared && !monte_carlo.law_stands.back()) {
             const double unit = unit_of(trials.outputs()[i]).si;

@@ -25,7 +25,10 @@ struct RotaryTableMonteCarlo {
     MonteCarloResult result;  ///< outputs: the reported quantities, then the table parameters
     /// One an output, in the unit of documents; none where the law of propagation states no uncertainty.
     std::vector<std::optional<Validation>> validations;
-    /// One an output: the law of propagation stands, because an estimated variance with so few degrees of freedom is in
+    /// One an output: Monte Carlo may say something of it. Not of a parameter whose estimate holds the noise already
+    /// (holds_noise_already), and not of one that is not stated: there the law of propagation stands alone.
+    std::vector<bool> compared;
+    /// One an output that is compared: the law of propagation stands, because an estimated variance with so few degrees of freedom is in
     /// it that the trials did not draw it (RotaryTableTrials). Nothing of Monte Carlo is stated or compared there.
     std::vector<bool> law_stands;
     std::int64_t most_steps = 0;  ///< of one trial until it converged

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -11,6 +12,14 @@ namespace gumcert::gum {
 
 bool rests_on_scatter(const std::string& short_name) {
     return short_name.starts_with('R') || short_name.starts_with('A');
+}
+
+bool holds_noise_already(const engine::TableParameters& parameters, Eigen::Index output) {
+    const engine::TableParameterLayout& layout = parameters.layout();
+    if (output < layout.positioning) {
+        return output < layout.axis_line;  // ranges come first; the axis is a mean over all angles
+    }
+    return parameters.short_names()[static_cast<std::size_t>(output)] != "B_mean";
 }
 
 namespace {

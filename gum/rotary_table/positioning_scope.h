@@ -1,14 +1,22 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <string>
 
 #include "engine/rotary_table/table_parameters.h"
 
 namespace gumcert::gum {
 
-/// True for the parameters of ISO 230-2 that rest on standard deviations of runs: R, R_up, A …. Monte Carlo would add
-/// the noise of the distances a second time to deviations that hold it already, and make them larger than they are.
+/// True for the parameters of ISO 230-2 that rest on standard deviations of runs: R, R_up, A ….
 [[nodiscard]] bool rests_on_scatter(const std::string& short_name);
+
+/// True for the parameters of a table that are an extreme of deviations or rest on their scatter: the six ranges of the error
+/// motions and all parameters of ISO 230-2 but the mean of the reversals. The deviations hold the noise of the measurement once,
+/// and so does the parameter; a trial of Monte Carlo adds noise to these deviations and takes the extreme of noise and noise
+/// (ADR 0015). No Monte Carlo result of such a parameter is stated or compared: the law of propagation stands.
+/// \param output  among the outputs of `parameters`
+[[nodiscard]] bool holds_noise_already(const engine::TableParameters& parameters, Eigen::Index output);
 
 /// Part of the variance of the runs that may come from the measurement where R and A are stated: with 60 % a standard
 /// deviation is 1.6 times that of the table, and R still within its expanded uncertainty; with more it is not.

@@ -83,7 +83,7 @@ TEST_F(Explain, SendsFindingsToTheirDocument) {
     const Ended finding = explained({"G04"});
     EXPECT_EQ(finding.code, 2);
     EXPECT_TRUE(has(finding.err, "docs/findings.md")) << finding.err;
-    EXPECT_TRUE(has(finding.err, "GC-ANGLE-0001, GC-GROUP-0001")) << finding.err;
+    EXPECT_TRUE(has(finding.err, "GC-ANGLE-0001, GC-ANGLE-0002, GC-GROUP-0001")) << finding.err;
 }
 
 TEST_F(Explain, HelpTeaches) {

@@ -130,6 +130,16 @@ struct Campaign {
     }
 };
 
+/// Standard deviation of the noise of a distance, root mean square over all of them, [m].
+inline double rms_length_noise(const CampaignPlan& plan, const Campaign& campaign) {
+    double squares = 0.0;
+    for (const LengthObservation& length : campaign.measurement.lengths) {
+        const double distance = length.length + campaign.truth.dead_paths[static_cast<Eigen::Index>(length.dead_path)];
+        squares += plan.u_constant * plan.u_constant + std::pow(plan.u_proportional * distance, 2);
+    }
+    return std::sqrt(squares / static_cast<double>(campaign.measurement.lengths.size()));
+}
+
 /// Rotation about the coordinate axes by Eigen, not by the engine: the tests need a second opinion.
 inline Eigen::Matrix3d turn(int axis, double angle) {
     return Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)).toRotationMatrix();

@@ -21,9 +21,12 @@ using reports::EvaluationRecord;
 using reports::RotaryTable;
 
 constexpr const char* k_implausible_angle = "GC-ANGLE-0001";
+constexpr const char* k_implausible_angles = "GC-ANGLE-0002";  // of all of them
+constexpr const char* k_refuted_resolution = "GC-VARIANCE-0009";
 constexpr const char* k_fixture_component = "fixture CMM";  // as a record names it
 constexpr const char* k_length_noise = "length noise";
-constexpr double k_most_left_out = 0.05;  // of all distances: a twentieth is no longer single gross errors
+constexpr double k_deviate_of_refuting = 3.09;  // of the normal distribution, for k_refuting_probability on one side
+constexpr double k_most_left_out = 0.05;        // of all distances: a twentieth is no longer single gross errors
 
 std::string chi_square_of(const AdjustmentSummary& a) {
     return "chi-square is " + a.chi_square.text + " with " + std::to_string(a.degrees_of_freedom) +
@@ -107,48 +110,65 @@ std::vector<Remark> refuted_fixture(const RotaryTable& rotary) {
     return remarks;
 }
 
+Remark far_remark(const reports::VarianceComponent& c, bool is_larger_noise, FindingSeverity accredited) {
+    const std::string unit = c.unit == "um" ? " µm" : "″";
+    // A value of 0 is printed to its uncertainty: as many zeros say nothing more.
+    const std::string given = c.value == 0.0 ? "0" : c.printed.value;
+    return {.message = {.code = "GC-VARIANCE-0006",
+                        .where = "variance components, " + c.name,
+                        .what = "the distances give " + given + unit + ", and " + c.stated.text + unit +
+                                " is stated: the result rests on what they give",
+                        .rule = is_larger_noise
+                                    ? "a length noise that is estimated passes a one-sided chi-square test at 0.1 % "
+                                      "against what is stated"
+                                    : "an estimate agrees with what is stated within a factor of two, or passes a "
+                                      "one-sided chi-square test at 0.1 %",
+                        .action = is_larger_noise
+                                      ? "Look for what is no noise: a reflector, a station or a support that moved, a "
+                                        "drift; else correct what the job states."
+                                      : "Correct what the job states, or find out why this measurement was other "
+                                        "than the laboratory's budget says.",
+                        .severity = gum::Severity::warning},
+            .id = "G06",
+            .clause = "ISO/IEC 17025:2017, 7.7.1",
+            .accredited = accredited};
+}
+
 /// Components that the weights take from the distances, where these are far from what the job states: the result is right
 /// then, and the laboratory's own budget is not. A length noise that is larger than stated may be no noise at all, but a
 /// reflector or a station that moved: then the result is not right, and every refutation is told. Where it is more than
 /// twice what is stated, an accredited certificate waits for the cause; below, the first page of the certificate says so.
-std::vector<Remark> far_from_stated(const RotaryTable& rotary) {
+std::vector<Remark> far_from_stated(const RotaryTable& rotary, bool resolution_is_refuted) {
     constexpr double k_far = 2.0;      // a factor of two is what nobody takes for a choice of rounding
     constexpr double k_digits = 1.05;  // what is stated with two digits stands for as much (JCGM 100:2008, 7.2.6)
     std::vector<Remark> remarks;
     for (const reports::VarianceComponent& c : rotary.variance_components) {
-        if (!c.used || !c.estimated || !c.stated.number || !c.degrees_of_freedom || *c.stated.number <= 0.0 ||
-            *c.degrees_of_freedom <= 0.0) {
+        if (!c.used || !c.estimated || !c.stated.number || *c.stated.number <= 0.0) {
+            continue;
+        }
+        const double ratio = c.value / *c.stated.number;
+        const bool is_noise = c.name == k_length_noise;
+        if (c.value == 0.0) {
+            // At its bound an estimate has no degrees of freedom; the square of its u is the standard uncertainty of a
+            // variance of 0.
+            const bool refuted_by_spread = *c.stated.number * *c.stated.number > k_deviate_of_refuting * c.u * c.u;
+            if (refuted_by_spread || (is_noise && resolution_is_refuted)) {
+                remarks.push_back(far_remark(c, false, FindingSeverity::major));
+            }
+            continue;
+        }
+        if (!c.degrees_of_freedom || *c.degrees_of_freedom <= 0.0) {
             continue;
         }
         const double nu = *c.degrees_of_freedom;
-        const double ratio = c.value / *c.stated.number;
         const double above = gum::chi_square_upper_tail(nu * ratio * ratio, nu);
-        const bool is_noise = c.name == k_length_noise;
         const bool is_far = (ratio > (is_noise ? k_digits : k_far) && above < k_refuting_probability) ||
                             (ratio < 1.0 / k_far && 1.0 - above < k_refuting_probability);
         if (!is_far) {
             continue;
         }
-        const std::string unit = c.unit == "um" ? " µm" : "″";
-        remarks.push_back(
-            {.message = {.code = "GC-VARIANCE-0006",
-                         .where = "variance components, " + c.name,
-                         .what = "the distances give " + c.printed.value + unit + ", and " + c.stated.text + unit +
-                                 " is stated: the result rests on what they give",
-                         .rule = is_noise && ratio > 1.0
-                                     ? "a length noise that is estimated passes a one-sided chi-square test at 0.1 % "
-                                       "against what is stated"
-                                     : "an estimate agrees with what is stated within a factor of two, or passes a "
-                                       "one-sided chi-square test at 0.1 %",
-                         .action = is_noise && ratio > 1.0
-                                       ? "Look for what is no noise: a reflector, a station or a support that moved, a "
-                                         "drift; else correct what the job states."
-                                       : "Correct what the job states, or find out why this measurement was other "
-                                         "than the laboratory's budget says.",
-                         .severity = gum::Severity::warning},
-             .id = "G06",
-             .clause = "ISO/IEC 17025:2017, 7.7.1",
-             .accredited = is_noise && ratio > k_far ? FindingSeverity::critical : FindingSeverity::major});
+        remarks.push_back(far_remark(c, is_noise && ratio > 1.0,
+                                     is_noise && ratio > k_far ? FindingSeverity::critical : FindingSeverity::major));
     }
     return remarks;
 }
@@ -178,7 +198,9 @@ std::vector<Remark> remarks_of(const EvaluationRecord& record) {
     if (distances > 0 && static_cast<double>(removed) > k_most_left_out * static_cast<double>(distances)) {
         remarks.push_back(left_out(removed, distances));
     }
-    std::ranges::move(far_from_stated(rotary), std::back_inserter(remarks));
+    const bool resolution_is_refuted = std::ranges::any_of(
+        record.diagnostics, [](const gum::Diagnostic& d) { return d.code == k_refuted_resolution; });
+    std::ranges::move(far_from_stated(rotary, resolution_is_refuted), std::back_inserter(remarks));
     return remarks;
 }
 
@@ -191,7 +213,8 @@ std::vector<gum::Diagnostic> rotary_remarks(const EvaluationRecord& record) {
 std::vector<certificate::Finding> rotary_findings(const EvaluationRecord& record) {
     std::vector<Remark> remarks = remarks_of(record);
     for (const gum::Diagnostic& message : record.diagnostics) {
-        if (record.rotary && (message.code == engine::k_suspicious_group || message.code == k_implausible_angle)) {
+        if (record.rotary && (message.code == engine::k_suspicious_group || message.code == k_implausible_angle ||
+                              message.code == k_implausible_angles)) {
             remarks.push_back({.message = message,
                                .id = "G04",
                                .clause = "ISO/IEC 17025:2017, 7.7.1",

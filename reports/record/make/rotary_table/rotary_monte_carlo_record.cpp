@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/rotary_table/trials/rotary_table_trials.h"
-#include "gum/rotary_table/positioning_scope.h"
 #include "gum/rounding.h"
 #include "reports/record/make/record_parts.h"
 #include "reports/record/make/rotary_table/document_units.h"
@@ -41,9 +40,6 @@ std::optional<Eigen::Index> output_of(const TrialPlace& place, std::size_t posit
         case StatedGroup::positioning:
             break;
     }
-    if (gum::rests_on_scatter(place.name)) {
-        return std::nullopt;
-    }
     const std::vector<std::string>& names = parameters.short_names();
     const auto found = std::find(names.begin() + parameters.layout().positioning, names.end(), place.name);
     return derived + (found - names.begin());
@@ -77,10 +73,15 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
     summary.mean_steps = monte_carlo.mean_steps;
     std::int64_t undecided = 0;
     std::int64_t law_stands = 0;
+    std::int64_t hold_noise = 0;
 
     const auto of = [&](Eigen::Index output, const DocumentUnit& unit,
                         const std::string& name) -> std::optional<MonteCarloSummary> {
         const auto at = static_cast<std::size_t>(output);
+        if (!monte_carlo.compared[at]) {
+            ++hold_noise;
+            return std::nullopt;
+        }
         if (monte_carlo.law_stands[at]) {
             ++law_stands;
             return std::nullopt;
@@ -139,6 +140,13 @@ void fill_monte_carlo(reports::EvaluationRecord& record, const jobs::RotaryTable
         summary.statement += " For " + std::to_string(law_stands) +
                              " quantities, which contain such a component, no Monte Carlo comparison is stated: their "
                              "U is that of the law of propagation.";
+    }
+    if (hold_noise > 0) {
+        summary.statement +=
+            " For " + std::to_string(hold_noise) +
+            " quantities that are an extreme of deviations or rest on their scatter, ranges among them, nothing of "
+            "Monte "
+            "Carlo is stated: the deviations hold the noise already, and trials would add it once more.";
     }
     if (summary.compared > 0) {
         const auto contradicted = static_cast<std::int64_t>(summary.not_validated.size());

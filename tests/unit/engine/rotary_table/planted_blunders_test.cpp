@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -125,6 +126,97 @@ TEST(PlantedBlunders, AMistypedAngleIsToldAndOthersAreNot) {
         }
     }
     EXPECT_EQ(places, std::vector<std::string>{"136°"});
+}
+
+// A resolution that is stated larger than the display has takes all of the length noise, and is told; one that the distances
+// really have is not.
+TEST(PlantedBlunders, AResolutionThatIsStatedTooLargeIsTold) {
+    for (const double stated : {2e-6, 0.2e-6}) {
+        for (const bool is_true : {false, true}) {
+            RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+            m.length_uncertainty.resolution = stated;
+            for (LengthObservation& length : m.lengths) {
+                length.length = is_true ? stated * std::round(length.length / stated) : length.length;
+            }
+            const RotaryTableSolution solution = evaluated(m);
+            const bool told = std::ranges::any_of(
+                solution.notes, [](const gum::Diagnostic& note) { return note.code == "GC-VARIANCE-0009"; });
+            // 2 µm make 0.58 µm, more than the noise of 0.25 µm; 0.2 µm make 0.06 µm.
+            EXPECT_EQ(told, !is_true && stated > 0.5e-6) << stated;
+        }
+    }
+}
+
+/// Units and signs of a whole file, as a file may have them: of lengths, fixture and angles.
+struct WrongUnit {
+    double lengths, fixture, angles;
+    std::string told;
+};
+
+TEST(PlantedBlunders, WrongUnitsAndSignsAreToldAsSuch) {
+    for (const auto& [lengths, fixture, angles, told] :
+         {WrongUnit{-1.0, 1.0, 1.0, "agree when they have the other sign"},
+          WrongUnit{2.0, 1.0, 1.0, "agree when they are multiplied by 0.5"},
+          WrongUnit{0.5, 1.0, 1.0, "agree when they are multiplied by 2"},
+          WrongUnit{1.0, 0.1, 1.0, "coordinates are multiplied by 10"},
+          WrongUnit{1.0, 1.0 / 25.4, 1.0, "coordinates are multiplied by 25.4"},
+          WrongUnit{1.0, 1.0, 1.0 / 0.9, "turned 0.9 times as far as the angles say"},
+          WrongUnit{1.0, 1.0, 1.0 / 1.5, "turned 1.5 times as far as the angles say"}}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+        for (LengthObservation& length : m.lengths) {
+            length.length *= lengths;
+        }
+        m.fixture *= fixture;
+        for (std::size_t i = 0; i < m.angles.size(); ++i) {
+            m.angles[i] *= angles;
+            m.angles_deg[i] *= angles;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("lengths — "), 0U) << told << ": " << message;
+        EXPECT_NE(message.find(told), std::string::npos) << told << ": " << message;
+    }
+}
+
+// What no label explains is no statement on the layout: these reflectors form no plane and no cone.
+TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
+    int told = 0;
+    for (const double factor : {-1.37, -0.7, 3.7, 0.3, 60.0}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(5).measurement;
+        for (LengthObservation& length : m.lengths) {
+            length.length *= factor;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("cone about one line"), std::string::npos) << factor << ": " << message;
+        EXPECT_EQ(message.find("plane across the axis"), std::string::npos) << factor << ": " << message;
+        EXPECT_EQ(message.find("on one line"), std::string::npos) << factor << ": " << message;
+        told += message.find("fit no rigid table that turns by the stated angles") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GE(told, 1);
+}
+
+// Axial motions that grow with the angle: from 0.1° over all angles on they are told, from 1° on refused.
+TEST(PlantedBlunders, AnglesOfAnotherStepAreToldOrRefused) {
+    for (const double slope : {0.0, 0.0001, 0.001, -0.001, 0.01, -0.02}) {
+        RotaryTableMeasurement m = synthetic::sound_campaign(7).measurement;
+        for (std::size_t i = 0; i < m.angles.size(); ++i) {
+            m.angles[i] /= 1.0 + slope;
+            m.angles_deg[i] /= 1.0 + slope;
+        }
+        const double off = std::abs(slope) * 345.0;
+        if (off > 1.0) {
+            EXPECT_NE(refusal(m).find("times as far as the file states"), std::string::npos) << slope;
+            continue;
+        }
+        const RotaryTableSolution solution = evaluated(m);
+        const auto told = std::ranges::find_if(
+            solution.notes, [](const gum::Diagnostic& note) { return note.code.starts_with("GC-ANGLE"); });
+        ASSERT_EQ(told != solution.notes.end(), off > 0.1) << slope;
+        if (off > 0.1) {
+            EXPECT_EQ(told->code, "GC-ANGLE-0002");
+            EXPECT_NE(told->what.find(slope > 0.0 ? "turned 1.001 times" : "turned 0.999 times"), std::string::npos)
+                << told->what;
+        }
+    }
 }
 
 TEST(PlantedBlunders, AnglesThatAreManyStepsOffAreFound) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "engine/rotary_table/sequential_evaluation.h"
@@ -51,10 +52,12 @@ TEST(VarianceComponents, AreRecoveredWithinTheirStatedUncertainty) {
         CampaignPlan plan = table_with_repeatability();
         plan.axis = std::array{RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}[static_cast<std::size_t>(k % 3)];
         plan.seed = 2000 + static_cast<std::uint64_t>(k);
-        const RotaryTableSolution solution = evaluate_jointly(to_estimate(plan).measurement, EvaluationOptions{});
+        const Campaign campaign = to_estimate(plan);
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
         ASSERT_EQ(solution.components.size(), 5U);
         EXPECT_FALSE(has_note(solution, "GC-VARIANCE-0001")) << "not converged";
-        const std::array<double, 4> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt};
+        const std::array<double, 4> truth{rms_length_noise(plan, campaign), plan.table_linear, plan.table_axial,
+                                          plan.table_tilt};
         for (std::size_t c = 0; c < 4; ++c) {
             const VarianceComponent& component = solution.components[c];
             EXPECT_TRUE(component.estimated);
@@ -119,7 +122,9 @@ TEST(VarianceComponents, LengthNoiseStatedWrongIsCorrected) {
     campaign.measurement.estimate_length_noise = true;
     const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
     EXPECT_NEAR(solution.stochastic.length_factor, 1.0 / 9.0, 0.15 / 9.0);
-    EXPECT_LT(std::abs(solution.components[0].value - plan.u_constant), 3.0 * solution.components[0].u);
+    const double truth = rms_length_noise(plan, campaign);
+    EXPECT_LT(std::abs(solution.components[0].value - truth), 3.0 * solution.components[0].u);
+    EXPECT_NEAR(*solution.components[0].stated / (3.0 * truth), 1.0, 1e-5);
     // Components that are given are not touched and rest on what was stated.
     for (std::size_t c = 1; c < 4; ++c) {
         EXPECT_FALSE(solution.components[c].estimated);
@@ -128,13 +133,42 @@ TEST(VarianceComponents, LengthNoiseStatedWrongIsCorrected) {
     }
 }
 
+// One factor multiplies both parts: what is shown is the noise that the distances have, however it is stated.
+TEST(VarianceComponents, LengthNoiseIsTheSameHoweverItIsStated) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.u_constant = 0.1e-6;
+    plan.u_proportional = 0.0;
+    plan.seed = 41;
+    Campaign campaign = simulate(plan);
+    campaign.measurement.estimate_length_noise = true;
+    for (const auto& [constant, proportional] :
+         {std::pair{0.1e-6, 0.0}, std::pair{0.05e-6, 1e-6}, std::pair{0.05e-6, 0.3e-6}, std::pair{1e-12, 0.5e-6},
+          std::pair{0.0, 0.1e-6}, std::pair{2e-6, 0.1e-6}}) {
+        SCOPED_TRACE(std::to_string(1e6 * constant) + " µm, " + std::to_string(1e6 * proportional) + " µm/m");
+        campaign.measurement.length_uncertainty.u_constant = constant;
+        campaign.measurement.length_uncertainty.u_proportional = proportional;
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
+        const VarianceComponent& noise = solution.components[length_noise];
+        // Weights that fall with the distance let short ones say more: the root mean square follows them by some percent.
+        EXPECT_NEAR(noise.value / 0.1e-6, 1.0, 0.2);
+        EXPECT_NEAR(noise.value / *noise.stated, std::sqrt(solution.stochastic.length_factor), 1e-9);
+        CampaignPlan stated = plan;
+        stated.u_constant = constant;
+        stated.u_proportional = proportional;
+        EXPECT_NEAR(*noise.stated / rms_length_noise(stated, campaign), 1.0, 1e-5);
+    }
+}
+
 TEST(VarianceComponents, PerfectTableHasNoRepeatabilityToSpeakOf) {
     for (const std::uint64_t seed : {60U, 61U, 62U, 63U}) {
         CampaignPlan plan;
         plan.seed = seed;
-        const RotaryTableSolution solution = evaluate_jointly(to_estimate(plan).measurement, EvaluationOptions{});
+        const Campaign campaign = to_estimate(plan);
+        const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
         EXPECT_FALSE(has_note(solution, "GC-VARIANCE-0001")) << "not converged";
-        EXPECT_LT(std::abs(solution.components[0].value - plan.u_constant), 3.0 * solution.components[0].u);
+        EXPECT_LT(std::abs(solution.components[0].value - rms_length_noise(plan, campaign)),
+                  3.0 * solution.components[0].u);
         for (std::size_t c = 1; c < 4; ++c) {
             const VarianceComponent& component = solution.components[c];
             EXPECT_GE(component.value, 0.0);
@@ -388,7 +422,7 @@ TEST(VarianceComponents, SingleDistanceAVisitKeepsTheLengthNoiseAsStated) {
     const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
     EXPECT_EQ(solution.stochastic.length_factor, 1.0);
     EXPECT_FALSE(solution.components[0].estimated);
-    EXPECT_EQ(solution.components[0].value, plan.u_constant);
+    EXPECT_NEAR(solution.components[0].value / rms_length_noise(plan, campaign), 1.0, 1e-5);
     EXPECT_TRUE(std::isinf(solution.components[0].degrees_of_freedom));
     EXPECT_TRUE(has_note(solution, "GC-VARIANCE-0002"));
     const std::array<double, 4> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt};
@@ -469,8 +503,11 @@ TEST(VarianceComponents, StatedUncertaintyOfEachAgreesWithTheScatterOverCampaign
         }
     }
     CampaignPlan plan = table_with_repeatability();
-    const double cmm = std::sqrt(simulate(plan).measurement.fixture_covariance.diagonal().mean());
-    const std::array<double, 5> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt, cmm};
+    plan.angles_deg = synthetic::full_turn(24);
+    const Campaign sample = simulate(plan);
+    const double cmm = std::sqrt(sample.measurement.fixture_covariance.diagonal().mean());
+    const std::array<double, 5> truth{rms_length_noise(plan, sample), plan.table_linear, plan.table_axial,
+                                      plan.table_tilt, cmm};
     for (Eigen::Index c = 0; c < 5; ++c) {
         const double mean = value.row(c).mean();
         const double scatter = std::sqrt((value.row(c).array() - mean).square().sum() / (k_campaigns - 1));
@@ -581,9 +618,10 @@ TEST(VarianceComponents, ResolutionStaysOutsideTheLengthNoise) {
         const RotaryTableSolution blind = evaluate_jointly(campaign.measurement, EvaluationOptions{});
         campaign.measurement.length_uncertainty.resolution = k_step;
         const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
-        with += solution.components[length_noise].value / plan.u_constant / k_campaigns;
-        without += blind.components[length_noise].value / plan.u_constant / k_campaigns;
-        EXPECT_EQ(*solution.components[length_noise].stated, plan.u_constant);
+        const double truth = rms_length_noise(plan, campaign);
+        with += solution.components[length_noise].value / truth / k_campaigns;
+        without += blind.components[length_noise].value / truth / k_campaigns;
+        EXPECT_NEAR(*solution.components[length_noise].stated / truth, 1.0, 1e-5);
         // The shares of resolution and noise cannot change what both do together.
         EXPECT_NEAR(solution.covariance(0, 0) / blind.covariance(0, 0), 1.0, 0.03);
         const Eigen::VectorXd normalised =

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
@@ -129,6 +130,36 @@ TEST(EvaluateRotaryTable, RepeatsTheMeasurementByMonteCarlo) {
         EXPECT_NEAR(result.monte_carlo->result.outputs[i].standard_uncertainty / u, 1.0, 0.07) << i;
         EXPECT_TRUE(result.monte_carlo->validations[i]) << i;
     }
+    EXPECT_FALSE(result.validation_failed);
+}
+
+// Deviations that are no larger than their noise: the range of them holds it, and trials about them would add it once more.
+TEST(EvaluateRotaryTable, MonteCarloIsSilentOfExtremes) {
+    CampaignPlan plan = plan_of_twelve();
+    plan.error_factor = 0.02;
+    plan.both_senses = true;
+    RotaryTableRequest request = request_of(engine::synthetic::simulate(plan));
+    request.monte_carlo = {.trials = 2000, .digits = 1, .seed = 1, .validate = false, .where = "a test"};
+    const RotaryTableResult result = evaluate_rotary_table(request, 2);
+    const RotaryTableMonteCarlo& trials = *result.monte_carlo;
+    const auto reported = static_cast<std::size_t>(result.reported.budget.value.size());
+    const std::vector<std::string>& names = result.parameter_model->parameters()->short_names();
+    ASSERT_EQ(trials.compared.size(), reported + names.size());
+    for (std::size_t i = 0; i < reported; ++i) {
+        EXPECT_TRUE(trials.compared[i]) << i;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool is_axis = i >= 6 && i < 10;
+        EXPECT_TRUE(is_axis ? trials.compared[reported + i] : names[i] == "B_mean" || !trials.compared[reported + i])
+            << names[i];
+        EXPECT_EQ(trials.validations[reported + i].has_value(), bool{trials.compared[reported + i]}) << names[i];
+    }
+    // What would have been stated: the trials are centred on a range that is larger than the estimate.
+    int larger = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+        larger += trials.result.outputs[reported + i].mean > result.parameters.value[static_cast<Eigen::Index>(i)];
+    }
+    EXPECT_EQ(larger, 6);
     EXPECT_FALSE(result.validation_failed);
 }
 

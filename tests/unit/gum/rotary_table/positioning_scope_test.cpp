@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,48 @@ TEST(PositioningScope, ParametersThatRestOnScatterAreThoseThatNeedTwoRuns) {
     EXPECT_FALSE(rests_on_scatter("EAA"));
     EXPECT_FALSE(rests_on_scatter("axis_b"));
     EXPECT_FALSE(rests_on_scatter(""));
+}
+
+/// What holds noise already is what is not a mean of deviations: it grows, on average, where noise is added to exact
+/// deviations; a mean does not. Over all parameters of a table.
+TEST(PositioningScope, WhatHoldsNoiseAlreadyGrowsWithNoise) {
+    engine::synthetic::CampaignPlan plan;
+    plan.angles_deg = engine::synthetic::full_turn(6);
+    plan.both_senses = true;
+    plan.start_values = true;
+    plan.runs = 2;
+    plan.noise = 0.0;
+    plan.error_factor = 0.0;
+    RotaryTableRequest request;
+    request.measurement = engine::synthetic::simulate(plan).measurement;
+    const RotaryTableResult result = evaluate_rotary_table(request, 1);
+    const engine::TableParameters& parameters = *result.parameter_model->parameters();
+    const Eigen::VectorXd& nominal = result.reported.budget.value;
+    const Eigen::VectorXd positions = Eigen::VectorXd::Zero(result.parameter_model->nominal_positions().size());
+    const auto count = static_cast<Eigen::Index>(parameters.outputs().size());
+    constexpr int k_trials = 200;
+    Eigen::MatrixXd change(count, k_trials);
+    Eigen::VectorXd exact(count);
+    parameters.values(nominal, positions, exact);
+    std::mt19937_64 generator(7);
+    std::normal_distribution<double> normal(0.0, 1e-6);
+    for (Eigen::Index t = 0; t < k_trials; ++t) {
+        const auto noisy = [&](const Eigen::VectorXd& of) {
+            return Eigen::VectorXd(of + Eigen::VectorXd::NullaryExpr(of.size(), [&] { return normal(generator); }));
+        };
+        Eigen::VectorXd value(count);
+        parameters.values(noisy(nominal), noisy(positions), value);
+        change.col(t) = value - exact;
+    }
+    int holding = 0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const double mean = change.row(i).mean();
+        const double spread = std::sqrt((change.row(i).array() - mean).square().sum() / (k_trials - 1.0));
+        const bool grows = mean > 5.0 * spread / std::sqrt(static_cast<double>(k_trials));
+        EXPECT_EQ(holds_noise_already(parameters, i), grows) << parameters.outputs()[static_cast<std::size_t>(i)].name;
+        holding += holds_noise_already(parameters, i) ? 1 : 0;
+    }
+    EXPECT_EQ(holding, 6 + 11);
 }
 
 TEST(PositioningScope, StatesScatterOnlyWhereItStatesAnything) {

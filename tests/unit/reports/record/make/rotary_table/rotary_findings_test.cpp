@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "engine/rotary_table/group_notes.h"
 #include "tests/support/sample_certificate.h"
 #include "tests/support/sample_record.h"
@@ -83,6 +87,60 @@ TEST(RotaryFindings, ANoiseThatIsFarFromWhatIsStatedIsTold) {
     EXPECT_EQ(with_noise(1.04, 0.1, false), Ids()) << "a check of the fixture has its own finding";
 }
 
+// What is estimated as 0 has no degrees of freedom, and is far from what is stated where its uncertainty says so, or where the
+// residuals are too small for what is known beside it.
+TEST(RotaryFindings, ANoiseThatIsEstimatedAsNothingIsTold) {
+    const auto record_of = [](double u, bool resolution_is_refuted) {
+        EvaluationRecord record = record_with(100.0, 0.48);
+        reports::VarianceComponent noise;
+        noise.name = "length noise";
+        noise.unit = "um";
+        noise.u = u;
+        noise.printed.value = "0.000";
+        noise.estimated = true;
+        noise.stated.number = 0.1;
+        noise.stated.text = "0.10";
+        record.rotary->variance_components = {noise};
+        if (resolution_is_refuted) {
+            record.diagnostics.push_back(
+                {.code = "GC-VARIANCE-0009", .where = "w", .what = "w", .rule = "r", .action = "a"});
+        }
+        return record;
+    };
+    EXPECT_EQ(ids(record_of(0.09, false)), Ids()) << "0.1 may well be estimated as 0";
+    EXPECT_EQ(ids(record_of(0.05, false)), Ids{"G06"});
+    EXPECT_EQ(ids(record_of(0.09, true)), Ids{"G06"});
+    const std::vector<gum::Diagnostic> remarks = rotary_remarks(record_of(0.09, true));
+    ASSERT_EQ(remarks.size(), 1U);
+    EXPECT_NE(remarks[0].what.find("the distances give 0 µm, and 0.10 µm is stated"), std::string::npos)
+        << remarks[0].what;
+}
+
+// Both sides of a test of several stated noises: what is told never depends on whether a value is 0 or nearly so.
+TEST(RotaryFindings, NothingAndNextToNothingAreJudgedAlike) {
+    for (const double stated : {0.02, 0.1, 1.0}) {
+        for (const double u : {0.2, 0.3, 2.0}) {
+            EvaluationRecord record = record_with(100.0, 0.48);
+            reports::VarianceComponent noise;
+            noise.name = "length noise";
+            noise.unit = "um";
+            noise.estimated = true;
+            noise.stated.number = stated;
+            noise.u = u * stated;
+            record.rotary->variance_components = {noise};
+            const Ids of_nothing = ids(record);
+            // The variance of a value v with ν degrees of freedom has the standard uncertainty v² sqrt(2/ν).
+            noise.value = 0.2 * stated;
+            noise.degrees_of_freedom = 2.0 * std::pow(0.2 / u, 4);
+            record.rotary->variance_components = {noise};
+            if (u != 0.3) {  // where a normal and a chi-square distribution are not told apart
+                EXPECT_EQ(of_nothing, u < 0.3 ? Ids{"G06"} : Ids()) << stated << ", " << u;
+                EXPECT_EQ(ids(record), of_nothing) << stated << ", " << u;
+            }
+        }
+    }
+}
+
 TEST(RotaryFindings, ResidualsThatAreFarTooSmallAreTold) {
     EXPECT_EQ(ids(record_with(70.0, 0.99)), Ids());
     EXPECT_EQ(ids(record_with(10.0, 1.0)), Ids{"G02"});
@@ -103,6 +161,11 @@ TEST(RotaryFindings, SuspiciousGroupsBlockAnAccreditedCertificate) {
     EvaluationRecord record = record_with(100.0, 0.48);
     record.diagnostics.push_back(
         {.code = engine::k_suspicious_group, .where = "station P1", .what = "drift", .rule = "r", .action = "a"});
+    for (const char* const code : {"GC-ANGLE-0001", "GC-ANGLE-0002"}) {
+        EvaluationRecord other = record_with(100.0, 0.48);
+        other.diagnostics.push_back({.code = code, .where = "angles", .what = "w", .rule = "r", .action = "a"});
+        EXPECT_EQ(ids(other), Ids{"G04"}) << code;
+    }
     EXPECT_EQ(ids(record), Ids{"G04"});
     EXPECT_EQ(rotary_findings(record).front().severity, FindingSeverity::critical);
     EXPECT_EQ(rotary_findings(record).front().where, "station P1");
