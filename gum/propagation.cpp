@@ -265,6 +265,22 @@ std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& 
     return sources;
 }
 
+/// Sets to 0 what only rounding left of quantities that cancel: 3 a − b with r = 1 and u(b) = 3 u(a). It is no u.
+///
+/// Coefficients, roots and products are rounded: c L is uncertain by some ε Σ|c_i|u_i where L is known. Where it comes
+/// from the covariance, the entries of R are rounded, u² = c R c by some ε (Σ|c_i|u_i)², and u by the root of that.
+/// \param contributions  Σ|c_i|u_i, one an output
+/// \param block          c L, a row an output
+void clear_rounding(const InputGroup& group, const Eigen::VectorXd& contributions, Eigen::Ref<Eigen::MatrixXd> block) {
+    constexpr double k_roundings = 8.0;
+    const double relative = group.factor.size() > 0 ? k_roundings * k_epsilon : std::sqrt(k_roundings * k_epsilon);
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+        if (block.row(i).norm() <= relative * contributions(i)) {
+            block.row(i).setZero();
+        }
+    }
+}
+
 }  // namespace
 
 UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::VectorXd value,
@@ -347,9 +363,11 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
         // First the columns of C times u, then the root of the correlation matrix: quantities of very different size
         // are brought to the unit of y before they are mixed.
         block.array().rowwise() *= factors[g].u.transpose().array();
+        const Eigen::VectorXd contributions = block.cwiseAbs().rowwise().sum();
         if (factors[g].root) {
             const Eigen::MatrixXd product = block * *factors[g].root;
             block = product;
+            clear_rounding(groups[g], contributions, block);
         }
         variances.emplace_back(block.rowwise().squaredNorm());
         first += n;
