@@ -19,7 +19,7 @@ double half_width_of(const std::array<double, 2>& interval) {
 bool is_symmetric_as_printed(double value, const std::array<double, 2>& interval, int digits) {
     const double half_width = half_width_of(interval);
     if (!(half_width > 0.0)) {
-        return true;
+        return value == interval[0];  // there is no digit of a half-width to compare to
     }
     const int decimals = certificate::decimals_of(gum::round_to_uncertainty(value, half_width, digits).U);
     const double half_a_unit = 0.5 * std::pow(10.0, -decimals);
@@ -35,7 +35,10 @@ ReportedResult monte_carlo_result(double value, std::optional<double> u, const s
     result.interval = interval;
     result.coverage_probability = coverage_probability;
     result.because = because;
-    if (u && is_symmetric_as_printed(value, interval, digits)) {
+    // An interval may have no width though the result varies, where more than p of it is one value: U = 0 would say that
+    // nothing is uncertain.
+    const bool has_width = half_width_of(interval) > 0.0;
+    if (u && (has_width ? is_symmetric_as_printed(value, interval, digits) : *u == 0.0)) {
         result.U = half_width_of(interval);
         if (*u > 0.0 && *result.U > 0.0) {
             result.k = *result.U / *u;
@@ -101,6 +104,19 @@ int printed_digits(const ReportedResult& result) {
         if (same) {
             return k_two;
         }
+    }
+    if (!result.U && result.interval) {
+        // Without a width: the ends have the digits of the value, which are those that u leaves it.
+        const std::optional<int> decimals =
+            result.u && *result.u > 0.0
+                ? std::optional<int>(certificate::decimals_of(
+                      gum::round_to_uncertainty(result.value, *result.u, rounding.digits_of_u).U))
+                : std::nullopt;
+        const auto end = [&](double of) {
+            return decimals ? gum::round_to_quantum(of, *decimals) : text::shortest(of);
+        };
+        result.printed_low = end((*result.interval)[0]);
+        result.printed_high = end((*result.interval)[1]);
     }
     return 1;
 }

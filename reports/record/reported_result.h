@@ -19,10 +19,11 @@ struct ReportedRounding {
 };
 
 /// Whether value ± half the width says the same as the interval: its middle differs from the value by half a unit of
-/// the last printed digit at most.
+/// the last printed digit at most. Without a width: the interval is the value.
 [[nodiscard]] bool is_symmetric_as_printed(double value, const std::array<double, 2>& interval, int digits = 2);
 
-/// A result of Monte Carlo with its interval; U and k where the interval is symmetric as printed and u exists.
+/// A result of Monte Carlo with its interval; U and k where the interval is symmetric as printed and u exists. U = 0 only
+/// where u = 0: an interval without a width, where more than p of the trials are equal, is stated as such.
 /// \param u  none: the distribution has no variance
 [[nodiscard]] ReportedResult monte_carlo_result(double value, std::optional<double> u,
                                                 const std::array<double, 2>& interval, double coverage_probability,

@@ -91,5 +91,23 @@ TEST(ReportedResult, IsMadeOfTheNumbersOfARecordThatKnewNone) {
     EXPECT_FALSE(alone.U);
 }
 
+/// More than p of the trials are one value: the interval has no width, and the result is uncertain all the same.
+TEST(ReportedResult, HasNoUOfZeroBesideAnUncertainty) {
+    for (const double value : {0.9994, 1.0, 1.2}) {
+        ReportedResult r = monte_carlo_result(value, 0.003, {1.0, 1.0}, 0.8, "not_linear");
+        print_reported(r, "1");
+        EXPECT_FALSE(r.U || r.k) << value;
+        EXPECT_EQ(r.printed.U, "");
+        EXPECT_EQ(r.printed_u, "0.0030");
+        EXPECT_EQ(r.printed_low, "1.0000");
+        EXPECT_EQ(r.printed_high, "1.0000");
+        EXPECT_EQ(certificate::decimals_of(r.printed.value), 4);
+    }
+    ReportedResult exact = monte_carlo_result(1.0, 0.0, {1.0, 1.0}, 0.8, "asked");
+    print_reported(exact, "1");
+    EXPECT_EQ(exact.U, 0.0);
+    EXPECT_FALSE(is_symmetric_as_printed(0.9994, {1.0, 1.0}));
+}
+
 }  // namespace
 }  // namespace gumcert::reports
