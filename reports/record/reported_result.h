@@ -16,6 +16,7 @@ struct ReportedRounding {
     int digits = 2;  ///< significant digits of U, or of half the width of the interval
     gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U
     int digits_of_u = 2;
+    double value_error = 0.0;  ///< numerical error of the value, where it has one that may exceed the last digit
 };
 
 /// Whether value ± half the width says the same as the interval: its middle differs from the value by half a unit of
@@ -36,8 +37,8 @@ struct ReportedRounding {
 /// Makes every printed text of a result from its numbers.
 ///
 /// With U (greater than 0) value and U end at the same place (JCGM 100:2008, 7.2.6). Where the interval alone holds,
-/// value, low and high end where half its width has `digits` digits. Without either the value has the digits that u
-/// leaves it.
+/// value, low and high end where half its width has `digits` digits, the value before that where its own numerical error
+/// or its 15th digit ends. Without either the value has the digits that u leaves it.
 /// \param unit  of the result, as UDUNITS-2 writes it
 void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding = {});
 

@@ -286,7 +286,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
             row.push_back(of.printed.U);
         }
         if (without_U) {
-            row.push_back(of.u ? rounded(*of.u) : "");
+            row.push_back(of.printed_u);
         }
         if (with_interval) {
             row.push_back(of.printed_low);

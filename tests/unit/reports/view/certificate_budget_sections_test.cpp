@@ -177,6 +177,16 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     EXPECT_THAT(text_of(r), HasSubstr("reported for l although the first derivatives of the model vanish"));
 }
 
+/// The digits of u are those that the record holds.
+TEST(BudgetCertificate, PrintsUWithTheDigitsThatTheTrialsHold) {
+    EvaluationRecord r = test::sample_budget_record();
+    r.results[0].reported = monte_carlo_result(50000203.0, 568.0, {49999020.0, 50000856.0}, 0.99, "second_order");
+    ReportedRounding one;
+    one.digits_of_u = 1;
+    print_reported(r.results[0].reported, r.results[0].unit, one);
+    EXPECT_THAT(cells(table(view_of(r), "results-0"), 0), testing::Contains("6 × 10²"));
+}
+
 TEST(BudgetCertificate, PointsOfDifferentMethodsStandInTheirColumns) {
     EvaluationRecord r = test::sample_points_record(3);
     r.results[1].reported = monte_carlo_result(5.2, 1.4, {4.0, 8.3}, 0.99, "not_linear");
