@@ -479,8 +479,12 @@ void Application::verdict() {
         decision_.acceptance = {};
         decision_.guard_band = 0.0;
     } else if (!some_value_passes()) {
+        // A distribution of several peaks may exceed the risk of the rule wherever it lies, though U is small.
+        const bool U_fits = limits_.two_sided() && 2.0 * y_.expanded_uncertainty < *limits_.upper - *limits_.lower;
         cannot(p_.guard_band ? "no value can pass, because the guard band is larger than half of the tolerance"
-                             : "no value can pass, because U is too large against the tolerance");
+               : by_risk && U_fits
+                   ? "no value can pass, because the probability of nonconformity is above R for each of them"
+                   : "no value can pass, because U is too large against the tolerance");
     }
     if (!applies()) {
         decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;
