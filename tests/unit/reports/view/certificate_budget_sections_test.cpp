@@ -177,6 +177,19 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     EXPECT_THAT(text_of(r), HasSubstr("reported for l although the first derivatives of the model vanish"));
 }
 
+/// A sound record is printed whatever the size of its numbers; the figure alone is left out, and it is said.
+TEST(BudgetCertificate, LeavesOutAFigureThatNoPlotCanShow) {
+    EvaluationRecord r = test::sample_budget_record();
+    ASSERT_THAT(text_of(r), Not(HasSubstr("A figure is left out")));
+    r.results[0].budget[0].share.number = 1e13;
+    EXPECT_THAT(text_of(r),
+                HasSubstr("A figure is left out, because its numbers are of a size that no plot can show: What "
+                          "dominates the uncertainty of l"));
+    ASSERT_FALSE(r.results[0].monte_carlo->histogram.empty());
+    r.results[0].monte_carlo->symmetric.number[1] = 1e300;
+    EXPECT_THAT(text_of(r), HasSubstr("can show: l: histogram of the Monte Carlo trials"));
+}
+
 /// The digits of u are those that the record holds.
 TEST(BudgetCertificate, PrintsUWithTheDigitsThatTheTrialsHold) {
     EvaluationRecord r = test::sample_budget_record();
