@@ -96,6 +96,14 @@ public:
         return covariance_ * values;
     }
 
+    /// Lᵀ M
+    [[nodiscard]] Matrix by_root(const Matrix& matrix) const {
+        if (is_diagonal()) {
+            return variances_.cwiseSqrt().asDiagonal() * matrix;
+        }
+        return factor_.matrixU() * matrix;
+    }
+
     /// V + F X F with F diagonal: the spread of y − f(x) when x has the spread X.
     [[nodiscard]] Spread with_slope(const Vector& slope, const Spread& x) const {
         if (is_diagonal() && x.is_diagonal()) {
@@ -153,15 +161,14 @@ public:
         return {svd.singularValues(), qr_.colsPermutation() * Vector(svd.matrixV().col(p - 1))};
     }
 
-    /// (JᵀJ)⁻¹
+    /// F with F Fᵀ = (JᵀJ)⁻¹
     // From R⁻¹ of the factorisation. JᵀJ would square the condition number, and half the digits would be gone before
     // the inversion.
-    [[nodiscard]] Matrix cofactor() const {
+    [[nodiscard]] Matrix cofactor_root() const {
         const Eigen::Index p = scaled_.cols();
         Matrix inverse = Matrix::Identity(p, p);
         qr_.matrixR().topRows(p).template triangularView<Eigen::Upper>().solveInPlace(inverse);
-        inverse = (scale_.cwiseInverse().asDiagonal() * (qr_.colsPermutation() * inverse)).eval();
-        return inverse * inverse.transpose();
+        return scale_.cwiseInverse().asDiagonal() * (qr_.colsPermutation() * inverse);
     }
 
 private:
@@ -872,20 +879,33 @@ LinearSolution solve_linear(const Problem& problem, const std::vector<std::strin
     return solution;
 }
 
-/// What uncertain x make of the covariance of the parameters: Q Jᵀ V⁻¹ F V_x Fᵀ V⁻¹ J Q with Q = (JᵀV⁻¹J)⁻¹. With V_y
-/// in the middle it is the part of y; the two add up to Q, because V = V_y + F V_x Fᵀ.
-Matrix covariance_by_x(const Linearised& at, const Matrix& cofactor, const Spread& x) {
-    const Eigen::Index p = cofactor.rows();
-    Matrix weighted(at.by_parameter.rows(), p);  // V⁻¹ J Q
+/// L, lower triangular with a diagonal that is not negative, with L Lᵀ = F Fᵀ.
+/// \param factor  F, p×k, k ≥ p
+Matrix lower_factor(const Matrix& factor) {
+    const Eigen::Index p = factor.rows();
+    const Eigen::HouseholderQR<Matrix> qr(factor.transpose());
+    const Matrix upper = qr.matrixQR().topRows(p).template triangularView<Eigen::Upper>();
+    Matrix lower = upper.transpose();
     for (Eigen::Index i = 0; i < p; ++i) {
-        weighted.col(i) = at.spread.weighted(at.by_parameter * cofactor.col(i));
+        if (lower(i, i) < 0.0L) {
+            lower.col(i) = -lower.col(i);  // as a Cholesky factor: that of a covariance is the only one of its kind
+        }
+    }
+    return lower;
+}
+
+/// Factor G of what uncertain x make of the covariance of the parameters, G Gᵀ = Q Jᵀ V⁻¹ D V_x Dᵀ V⁻¹ J Q with
+/// D = diag ∂f/∂x and Q = (JᵀV⁻¹J)⁻¹ = F Fᵀ: G = F (V⁻¹ J F)ᵀ D L_x. With V_y in the middle it is the part of y; the two
+/// add up to Q, because V = V_y + D V_x Dᵀ. Through F, because Q times a vector would lose what F keeps.
+/// \param root  F, p×p
+Matrix root_by_x(const Linearised& at, const Matrix& root, const Spread& x) {
+    const Eigen::Index p = root.rows();
+    Matrix weighted(at.by_parameter.rows(), p);  // V⁻¹ J F
+    for (Eigen::Index i = 0; i < p; ++i) {
+        weighted.col(i) = at.spread.weighted(at.by_parameter * root.col(i));
     }
     weighted = (at.slope.asDiagonal() * weighted).eval();
-    Matrix part(p, p);
-    for (Eigen::Index i = 0; i < p; ++i) {
-        part.col(i) = weighted.transpose() * x.times(weighted.col(i));
-    }
-    return 0.5L * (part + part.transpose());
+    return root * x.by_root(weighted).transpose();
 }
 
 }  // namespace
@@ -954,19 +974,15 @@ CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::Vecto
     fit.residuals = at.residual.cast<double>();
     fit.sum_of_squares = static_cast<double>(at.sum);
     fit.residual_standard_deviation = static_cast<double>(exact.spread_of(at.sum));
-    Matrix covariance = factorisation.cofactor();
-    Matrix by_x;
-    if (data.x_uncertainty.size() != 0) {
-        by_x = covariance_by_x(at, covariance, spread_of(data.x_uncertainty, n));
-    }
+    const Matrix root = factorisation.cofactor_root();
     // The stated uncertainties are weights only, known up to a factor: s² of the residuals is its estimate.
-    if (fit.covariance_scaled) {
-        const Real factor = at.sum / static_cast<Real>(n - p);
-        covariance *= factor;
-        by_x *= factor;
+    const Real factor = fit.covariance_scaled ? std::sqrt(at.sum / static_cast<Real>(n - p)) : 1.0L;
+    fit.covariance = Matrix((factor * factor) * (root * root.transpose())).cast<double>();
+    fit.factor = Matrix(factor * lower_factor(root)).cast<double>();
+    if (data.x_uncertainty.size() != 0) {
+        fit.factor_by_x =
+            Matrix(factor * lower_factor(root_by_x(at, root, spread_of(data.x_uncertainty, n)))).cast<double>();
     }
-    fit.covariance = covariance.cast<double>();
-    fit.covariance_by_x = by_x.cast<double>();
     if (data.x_uncertainty.size() == 0) {
         // TSS about the mean only where the curve has an intercept; else R² would compare with a curve that it does not
         // hold.
@@ -975,7 +991,8 @@ CurveFit fit_curve(const Curve& curve, const CurveData& data, const Eigen::Vecto
             fit.r_squared = static_cast<double>(1.0L - at.sum / total);
         }
     }
-    if (!fit.parameters.allFinite() || !fit.covariance.allFinite() || !std::isfinite(fit.sum_of_squares)) {
+    if (!fit.parameters.allFinite() || !fit.covariance.allFinite() || !fit.factor.allFinite() ||
+        !std::isfinite(fit.sum_of_squares)) {
         throw gum::NoResultError(diagnostic("GC-FIT-0013", "curve fit", "the result is not finite",
                                             "an estimate and its uncertainty are finite numbers",
                                             "State the quantities in units nearer to their size."));

@@ -42,9 +42,12 @@ struct CurveData {
 };
 
 struct CurveFit {
-    Eigen::VectorXd parameters;       ///< p
-    Eigen::MatrixXd covariance;       ///< p×p, of the parameters
-    Eigen::MatrixXd covariance_by_x;  ///< p×p, the part of it that uncertain x make; empty where x is exact
+    Eigen::VectorXd parameters;  ///< p
+    Eigen::MatrixXd covariance;  ///< p×p, of the parameters
+    /// p×p, lower triangular, L with L Lᵀ = covariance. Of a result of the curve, ‖c L‖² keeps the digits that c V cᵀ
+    /// loses where x lies far from 0 beside its range: V, rounded, is singular there (docs/accuracy.md#fits-of-curves).
+    Eigen::MatrixXd factor;
+    Eigen::MatrixXd factor_by_x;      ///< p×p, the same of the part that uncertain x make; empty where x is exact
     double degrees_of_freedom = 0.0;  ///< n − p
     double sum_of_squares = 0.0;      ///< Σ r², weighted where weights were given: χ² then (x and y together)
     double residual_standard_deviation = 0.0;  ///< √(sum_of_squares / (n − p)); 0 when n = p

@@ -29,6 +29,7 @@ struct ProbedGroup {
     Eigen::Index first = 0;
     Eigen::MatrixXd covariance;   // n×n
     Eigen::MatrixXd root;         // n×n, root rootᵀ = covariance
+    bool root_is_known = false;   // better than the covariance
     std::vector<Support> limits;  // one a quantity, or none
 };
 
@@ -46,12 +47,15 @@ std::vector<ProbedGroup> probed_groups(const MeasurementModel& model) {
             probed.root = variance.cwiseSqrt().asDiagonal();
         } else {
             probed.covariance = group.covariance;
+            probed.root_is_known = group.factor.size() > 0;
             const Eigen::VectorXd u = group.covariance.diagonal().cwiseSqrt();
             // Eigenvectors, not Cholesky: a group with r = ±1 is singular and still has to be probed. Scaled to
             // correlations first, so that quantities of very different size keep their digits.
             const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_matrix(group.covariance));
-            probed.root =
-                u.asDiagonal() * eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+            probed.root = probed.root_is_known
+                              ? group.factor
+                              : Eigen::MatrixXd(u.asDiagonal() * eigen.eigenvectors() *
+                                                eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal());
         }
         for (const Distribution& marginal : group.marginals) {
             probed.limits.push_back(support(marginal));
@@ -187,8 +191,12 @@ std::vector<LinearityCheck> check_linearity(const MeasurementModel& model, const
         const std::array<double, 4> steps{-factor(k), -1.0, 1.0, factor(k)};
         for (const ProbedGroup& group : groups) {
             const Eigen::Index size = group.root.rows();
+            const Eigen::VectorXd c = propagation.jacobian.row(k).segment(group.first, size).transpose();
             const Eigen::RowVectorXd off =
-                (group.covariance * propagation.jacobian.row(k).segment(group.first, size).transpose()).transpose() / u;
+                (group.root_is_known ? Eigen::VectorXd(group.root * (group.root.transpose() * c))
+                                     : Eigen::VectorXd(group.covariance * c))
+                    .transpose() /
+                u;
             for (std::size_t s = 0; s < steps.size(); ++s) {
                 points.row(2 * k_pairs + 4 * k + static_cast<Eigen::Index>(s)).segment(group.first, size) +=
                     steps[s] * off;

@@ -141,6 +141,13 @@ GroupFactor factor_group(const InputGroup& group, std::vector<Diagnostic>& probl
             R(j, i) = R(i, j);
         }
     }
+    if (group.factor.size() > 0) {
+        if (group.factor.rows() != n || group.factor.cols() != n || !group.factor.isLowerTriangular(0.0)) {
+            throw std::logic_error("input group: the factor of a covariance is n×n and lower triangular");
+        }
+        factor.root = known_correlation_root(group);
+        return factor;
+    }
     // Cholesky succeeds on everything positive definite, at a thirtieth of the cost of the eigenvalues; what it cannot
     // factor is singular (r = 1: allowed) or indefinite (refused), and only the eigenvalues tell which.
     const Eigen::LLT<Eigen::MatrixXd> cholesky(R);
@@ -258,6 +265,22 @@ std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& 
     return sources;
 }
 
+/// Sets to 0 what only rounding left of quantities that cancel: 3 a − b with r = 1 and u(b) = 3 u(a). It is no u.
+///
+/// Coefficients, roots and products are rounded: c L is uncertain by some ε Σ|c_i|u_i where L is known. Where it comes
+/// from the covariance, the entries of R are rounded, u² = c R c by some ε (Σ|c_i|u_i)², and u by the root of that.
+/// \param contributions  Σ|c_i|u_i, one an output
+/// \param block          c L, a row an output
+void clear_rounding(const InputGroup& group, const Eigen::VectorXd& contributions, Eigen::Ref<Eigen::MatrixXd> block) {
+    constexpr double k_roundings = 8.0;
+    const double relative = group.factor.size() > 0 ? k_roundings * k_epsilon : std::sqrt(k_roundings * k_epsilon);
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+        if (block.row(i).norm() <= relative * contributions(i)) {
+            block.row(i).setZero();
+        }
+    }
+}
+
 }  // namespace
 
 UncertaintyBudget uncertainty_budget(const MeasurementModel& model, Eigen::VectorXd value,
@@ -340,9 +363,11 @@ Propagation propagate(const MeasurementModel& model, double coverage_probability
         // First the columns of C times u, then the root of the correlation matrix: quantities of very different size
         // are brought to the unit of y before they are mixed.
         block.array().rowwise() *= factors[g].u.transpose().array();
+        const Eigen::VectorXd contributions = block.cwiseAbs().rowwise().sum();
         if (factors[g].root) {
             const Eigen::MatrixXd product = block * *factors[g].root;
             block = product;
+            clear_rounding(groups[g], contributions, block);
         }
         variances.emplace_back(block.rowwise().squaredNorm());
         first += n;
@@ -377,6 +402,27 @@ Eigen::MatrixXd input_covariance(const MeasurementModel& model, Eigen::Index n) 
         first += size;
     }
     return V;
+}
+
+/// F with F Fᵀ = V of all inputs, n×n; empty where no factor is known better than V itself.
+/// \pre the groups are those of a propagation, hence checked
+Eigen::MatrixXd input_factor(const MeasurementModel& model, Eigen::Index n) {
+    const std::vector<InputGroup>& groups = model.inputs();
+    if (std::none_of(groups.begin(), groups.end(), [](const InputGroup& group) { return group.factor.size() > 0; })) {
+        return {};
+    }
+    const std::vector<GroupFactor> factors = factor_groups(groups);
+    Eigen::MatrixXd F = Eigen::MatrixXd::Zero(n, n);
+    Eigen::Index first = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Eigen::Index size = groups[g].size();
+        F.diagonal().segment(first, size) = factors[g].u;
+        if (factors[g].root) {
+            F.block(first, first, size, size) = factors[g].u.asDiagonal() * *factors[g].root;
+        }
+        first += size;
+    }
+    return F;
 }
 
 /// Total variance of the distinct elements of a covariance matrix that is known with one degree of freedom.
@@ -480,7 +526,9 @@ double joint_effective_degrees_of_freedom(const MeasurementModel& model, const P
         if (std::isinf(group.degrees_of_freedom)) {
             continue;
         }
-        const Eigen::MatrixXd V = group.is_diagonal()
+        const Eigen::MatrixXd S = group.factor.size() > 0 ? Eigen::MatrixXd(c * group.factor) : Eigen::MatrixXd();
+        const Eigen::MatrixXd V = S.size() > 0 ? Eigen::MatrixXd(S * S.transpose())
+                                  : group.is_diagonal()
                                       ? Eigen::MatrixXd(c * group.covariance.col(0).asDiagonal() * c.transpose())
                                       : Eigen::MatrixXd(c * group.covariance * c.transpose());
         const double variance = total_variance(V);
@@ -501,6 +549,7 @@ std::optional<SecondOrderPropagation> propagate_to_second_order(const Measuremen
         return std::nullopt;
     }
     const Eigen::MatrixXd V = input_covariance(model, x.size());
+    const Eigen::MatrixXd F = input_factor(model, x.size());
     const Eigen::VectorXd u = V.diagonal().cwiseSqrt();
     const Eigen::Index m = first_order.value.size();
     SecondOrderPropagation result{.standard_uncertainty = Eigen::VectorXd::Zero(m), .shift = Eigen::VectorXd::Zero(m)};
@@ -508,18 +557,21 @@ std::optional<SecondOrderPropagation> propagate_to_second_order(const Measuremen
     for (Eigen::Index k = 0; k < m; ++k) {
         // ½ tr(H V H V) is the variance, ½ tr(H V) the mean of the quadratic term of normal inputs, correlated or not.
         const Eigen::MatrixXd& Hk = H[static_cast<std::size_t>(k)];
-        const Eigen::MatrixXd HV = Hk * V;
+        const Eigen::MatrixXd HV = F.size() > 0 ? Eigen::MatrixXd(F.transpose() * Hk * F) : Eigen::MatrixXd(Hk * V);
         const double u1 = first_order.standard_uncertainty(k);
         double variance = u1 * u1 + 0.5 * (HV * HV).trace();
         result.shift(k) = 0.5 * HV.trace();
         // Derivative of tr(H V) along V cᵀ, whose length is a standard deviation of the inputs times u(y): a step of a
         // fraction of that, not of the inputs themselves, which may be 0.
-        const Eigen::VectorXd direction = V * first_order.jacobian.row(k).transpose();
+        const Eigen::VectorXd c = first_order.jacobian.row(k).transpose();
+        const Eigen::VectorXd direction =
+            F.size() > 0 ? Eigen::VectorXd(F * (F.transpose() * c)) : Eigen::VectorXd(V * c);
         if (u1 > 0.0 && direction.allFinite() && !direction.isZero(0.0)) {
             constexpr double k_step = 1e-3;
             const auto trace_at = [&](double step) {
                 const std::vector<Eigen::MatrixXd> there = model.hessians(x + (step / u1) * direction);
-                return (there[static_cast<std::size_t>(k)].cwiseProduct(V)).sum();
+                const Eigen::MatrixXd& H_there = there[static_cast<std::size_t>(k)];
+                return F.size() > 0 ? (F.transpose() * H_there * F).trace() : H_there.cwiseProduct(V).sum();
             };
             // Error of the fourth order in the step: differences at one and two steps.
             const double one = (trace_at(k_step) - trace_at(-k_step)) / (2.0 * k_step);
@@ -535,6 +587,11 @@ std::optional<SecondOrderPropagation> propagate_to_second_order(const Measuremen
         result.standard_uncertainty(k) = std::sqrt(std::max(0.0, variance));
     }
     return result;
+}
+
+Eigen::MatrixXd known_correlation_root(const InputGroup& group) {
+    const Eigen::VectorXd u = group.covariance.diagonal().cwiseSqrt();
+    return u.unaryExpr([](double of) { return of > 0.0 ? 1.0 / of : 0.0; }).asDiagonal() * group.factor;
 }
 
 Eigen::MatrixXd correlation_matrix(const Eigen::MatrixXd& covariance) {

@@ -96,6 +96,11 @@ struct SecondOrderPropagation {
 [[nodiscard]] std::optional<SecondOrderPropagation> propagate_to_second_order(const MeasurementModel& model,
                                                                               const Propagation& first_order);
 
+/// The root of the correlation matrix of a group whose factor is known: its rows over the standard uncertainties.
+/// \pre group.factor is not empty
+/// \return n×n, lower triangular; a row of zeros for a quantity without uncertainty
+[[nodiscard]] Eigen::MatrixXd known_correlation_root(const InputGroup& group);
+
 /// Correlation matrix of a covariance matrix.
 /// \param covariance  m×m, symmetric, diagonal ≥ 0
 /// \return m×m; 1 on the diagonal, 0 beside a zero variance; clamped to −1 … 1

@@ -27,7 +27,7 @@ using PointFactor = std::vector<std::pair<Deviate, Eigen::VectorXd>>;
 /// D G L of those that are shared. It is what gum/monte_carlo/random_draws.h draws.
 Eigen::MatrixXd shared_root(const InputGroup& group) {
     const Eigen::MatrixXd R = correlation_matrix(group.covariance);
-    Eigen::MatrixXd root = semidefinite_root(R);
+    Eigen::MatrixXd root = group.factor.size() > 0 ? known_correlation_root(group) : semidefinite_root(R);
     if (!group.own_streams.empty()) {
         std::vector<bool> is_given;
         for (const std::uint64_t own : group.own_streams) {
@@ -79,6 +79,9 @@ Eigen::MatrixXd own_covariance(const BudgetPointResult& point, const Eigen::Matr
         column += group.size();
         if (group.is_diagonal()) {
             covariance += J * group.covariance.col(0).asDiagonal() * J.transpose();
+        } else if (group.factor.size() > 0) {
+            const Eigen::MatrixXd S = J * group.factor;
+            covariance += S * S.transpose();
         } else {
             covariance += J * group.covariance * J.transpose();
         }

@@ -63,8 +63,17 @@ void expand_by_propagation(const Budget& budget, const BudgetPointResult& point,
     // that k cannot move by 1 %, and a budget without such inputs costs no more than before (ADR 0025).
     if (!convolution_changes_little(*point.model, point.propagation, output)) {
         const auto convolved = expand_by_convolution(*point.model, point.propagation, output);
-        if (convolved) {
+        if (convolved && !std::isnan(convolved->asymmetry)) {
             result.asymmetry = convolved->asymmetry;
+        }
+        // k = 0 and U = 0 would say that nothing is uncertain (JCGM 100:2008, 6.2.1: the interval is of the values that
+        // could reasonably be attributed to the measurand).
+        if (convolved && !(convolved->expanded_uncertainty > 0.0)) {
+            result.coverage = "none";
+            result.coverage_note =
+                "more than the coverage probability of the result is one value, so that its coverage interval has no "
+                "width and U would be 0 although u is not";
+            return;
         }
         if (convolved && is_noticed_change(convolved->coverage_factor, k)) {
             result.coverage = "convolution";

@@ -696,6 +696,7 @@ BudgetInputs budget_inputs(const Budget& budget, const std::vector<engine::Curve
         group.evaluation = fit.covariance_scaled ? Evaluation::type_a : Evaluation::type_b;
         group.value = fit.parameters;
         group.covariance = fit.covariance;
+        group.factor = fit.factor;
         group.degrees_of_freedom = fit.covariance_scaled ? fit.degrees_of_freedom : k_infinity;
         for (Eigen::Index i = 0; i < fit.parameters.size(); ++i) {
             group.marginals.push_back(

@@ -28,6 +28,7 @@ constexpr double k_suspicious_share = 0.005;   // of one deviation in the sum of
 constexpr double k_suspicious_in_few = 30.0;   // divided by the trials: what a normal distribution shows
 constexpr double k_least_with_variance = 2.0;  // exponent of tails that fall off like a power law
 constexpr double k_least_with_mean = 1.0;
+constexpr double k_unknown_error = 0.25;  // of u: no digit of it is held
 
 bool is_without(const std::vector<bool>& flags, std::size_t output) {
     return output < flags.size() && flags[output];
@@ -249,6 +250,13 @@ ExistingMoments existing_moments(const std::optional<EquationSystem>& system, co
         return exist;
     }
     const BudgetOutputResult& of = point.outputs[static_cast<std::size_t>(output)];
+    // Parts of the trials that disagree on u by a quarter of it know none: exp(x) of a t-distribution has no variance, and
+    // where one trial in a million lies far out their number does not tell which it is.
+    const double u = of.monte_carlo->standard_uncertainty;
+    if (of.monte_carlo->numerical_error.standard_uncertainty > k_unknown_error * u) {
+        return {.mean = tail_of(point, output, point.monte_carlo->seed, of.trials, threads).is_above(k_least_with_mean),
+                .u = false};
+    }
     const double share = of.monte_carlo->largest_share;
     // Of a distribution with a variance no single trial makes a share of Σ d² that does not fall with their number.
     if (!of.monte_carlo->without_variance &&

@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace {
 
 constexpr double k_negligible_tail = 1e-17;  // against the other tail
 constexpr int k_scan = 64;                   // values tried for a distribution that is not known to have one peak
+
+/// The side of a root on which a function is to be, where it jumps over 0.
+enum class Side { not_above, not_below };
 
 /// The distribution of Y − y.
 class Dispersion {
@@ -40,12 +44,14 @@ public:
     }
     /// P(Y − y ≥ d)
     [[nodiscard]] double from(double d) const { return y_.distribution ? 1.0 - under(d) : above(d); }
-    /// The d with P(Y − y > d) = q.
+    /// The d with P(Y − y > d) = q; where that jumps over q, it is smaller than q.
     [[nodiscard]] double upper(double q) const {
-        return y_.distribution ? solve(1.0 - q) : upper_quantile(standard_, q);
+        return y_.distribution ? solve(1.0 - q, Side::not_below) : upper_quantile(standard_, q);
     }
-    /// The d with P(Y − y ≤ d) = q.
-    [[nodiscard]] double lower(double q) const { return y_.distribution ? solve(q) : quantile(standard_, q); }
+    /// The d with P(Y − y ≤ d) = q; where that jumps over q, it is smaller than q.
+    [[nodiscard]] double lower(double q) const {
+        return y_.distribution ? solve(q, Side::not_above) : quantile(standard_, q);
+    }
     /// The probability of nonconformity of a value s.
     /// Added up from the two tails and not 1 − p_c, for the same reason. A value on a limit conforms, so the lower tail
     /// is P(Y < T_L) without the limit itself.
@@ -54,16 +60,16 @@ public:
     }
 
 private:
-    [[nodiscard]] double solve(double p) const;
+    [[nodiscard]] double solve(double p, Side side) const;
 
     const MeasuredValue& y_;
     Distribution standard_;
 };
 
 /// A root between two values of opposite sign; an end itself where its value is zero or the signs are equal,
-/// which only rounding can bring about.
+/// which only rounding can bring about. Where the function jumps there is no root but a side.
 template <class Function>
-double root_between(const Function& f, double a, double b) {
+double root_between(const Function& f, double a, double b, Side side) {
     if (!(a < b)) {
         return a;
     }
@@ -75,23 +81,38 @@ double root_between(const Function& f, double a, double b) {
     std::uintmax_t steps = 200;
     const auto [low, high] =
         boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(52), steps);
-    return 0.5 * (low + high);
+    const double middle = 0.5 * (low + high);
+    const auto fits = [&](double x) { return side == Side::not_above ? f(x) <= 0.0 : f(x) >= 0.0; };
+    return fits(middle) ? middle : fits(low) ? low : high;
 }
 
-double Dispersion::solve(double p) const {
+double Dispersion::solve(double p, Side side) const {
     const auto f = [&](double d) { return below(d) - p; };
     double reach = 4.0 * y_.standard_uncertainty;
     // A given distribution may have tails of any length: ± 4 u need not hold the quantile.
     while ((f(-reach) > 0.0 || f(reach) < 0.0) && std::isfinite(2.0 * reach)) {
         reach *= 2.0;
     }
-    return root_between(f, -reach, reach);
+    return root_between(f, -reach, reach, side);
 }
 
 /// Where the risk crosses a level between two values.
 double crossing(const Dispersion& dispersion, const ToleranceLimits& limits, double level, double from, double to) {
     return root_between([&](double s) { return dispersion.risk(s, limits) - level; }, std::min(from, to),
-                        std::max(from, to));
+                        std::max(from, to), Side::not_above);
+}
+
+/// A limit that was found, on the side where its own risk keeps to the level: T − d and T − (T − d) are rounded, which
+/// is nothing but where the risk jumps.
+double kept_to_level(const std::function<double(double)>& risk, double level, double limit, bool is_lower) {
+    constexpr double k_noise = 1e-12;  // relative, of a risk
+    constexpr int k_most_steps = 24;
+    const double grain = std::numeric_limits<double>::epsilon() * std::abs(limit);
+    double kept = limit;
+    for (int i = 0; i < k_most_steps && risk(kept) > level * (1.0 + k_noise); ++i) {
+        kept = limit + (is_lower ? grain : -grain) * std::ldexp(1.0, i);
+    }
+    return risk(kept) > level * (1.0 + k_noise) ? limit : kept;
 }
 
 /// A value between two others whose risk is as small as any that is tried: y itself where it is accepted.
@@ -127,7 +148,8 @@ double first_crossing(const std::function<double(double)>& risk, double level, d
     double before = accepted;
     for (const double s : tried) {
         if (risk(s) > level) {
-            return root_between([&](double x) { return risk(x) - level; }, std::min(before, s), std::max(before, s));
+            return root_between([&](double x) { return risk(x) - level; }, std::min(before, s), std::max(before, s),
+                                Side::not_above);
         }
         before = s;
     }
@@ -207,18 +229,30 @@ std::optional<ToleranceLimits> acceptance_limits_for_risk(const MeasuredValue& y
     if (limits.upper) {
         accepted.upper = *limits.upper - dispersion.upper(risk);
     }
+    const auto of_value = [&](double s) { return dispersion.risk(s, limits); };
     if (!limits.two_sided()) {
+        if (y.distribution && accepted.lower) {
+            accepted.lower = kept_to_level(of_value, risk, *accepted.lower, true);
+        }
+        if (y.distribution && accepted.upper) {
+            accepted.upper = kept_to_level(of_value, risk, *accepted.upper, false);
+        }
         return accepted;
     }
     // Both tails together are a larger risk than one: the true acceptance limits lie between these two.
-    const double low = *accepted.lower;
-    const double high = *accepted.upper;
+    double low = *accepted.lower;
+    double high = *accepted.upper;
+    // A value that keeps to the risk is accepted, whatever rounding made of the limits of one side: where all values fill
+    // the tolerance just so, they change places.
+    if (of_value(y.value) <= risk) {
+        low = std::min(low, y.value);
+        high = std::max(high, y.value);
+    }
     // Already one tail alone is above the risk everywhere: the tolerance is too narrow for this u.
     if (low > high) {
         return std::nullopt;
     }
     if (y.distribution) {
-        const auto of_value = [&](double s) { return dispersion.risk(s, limits); };
         const double best = good_value(dispersion, limits, risk, low, high, y.value);
         return of_value(best) > risk ? std::nullopt
                                      : std::optional(accepted_around(of_value, risk, best, low, high, y.value));

@@ -482,10 +482,14 @@ void Application::verdict() {
     } else if (!some_value_passes()) {
         decision_.accepts_nothing = true;
         const ToleranceLimits& a = decision_.acceptance;
-        cannot(!p_.guard_band ? "no value can pass, because U is too large against the tolerance"
-               : a.two_sided() && at_most(*a.lower, *a.upper)
-                   ? "no value can pass, because the guard band is half of the tolerance"
-                   : "no value can pass, because the guard band is larger than half of the tolerance");
+        // A distribution of several peaks may exceed the risk of the rule wherever it lies, though U is small.
+        const bool U_fits = limits_.two_sided() && 2.0 * y_.expanded_uncertainty < *limits_.upper - *limits_.lower;
+        cannot(p_.guard_band ? (a.two_sided() && at_most(*a.lower, *a.upper)
+                                    ? "no value can pass, because the guard band is half of the tolerance"
+                                    : "no value can pass, because the guard band is larger than half of the tolerance")
+               : by_risk && U_fits
+                   ? "no value can pass, because the probability of nonconformity is above R for each of them"
+                   : "no value can pass, because U is too large against the tolerance");
     }
     if (!applies()) {
         decision_.verdict = nonconformity_is_proven() ? fail : not_applicable;

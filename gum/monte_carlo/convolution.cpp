@@ -845,6 +845,7 @@ EffectiveGroup taken_from(const InputGroup& group, const Eigen::RowVectorXd& c,
     to.own_streams.clear();
     to.value = group.value(quantities);
     to.covariance = group.covariance(quantities, quantities);
+    to.factor.resize(0, 0);  // none is known of a group that is drawn: normal and t ones are added up without draws
     if (group.normal_correlation.size() > 0) {
         to.normal_correlation = group.normal_correlation(quantities, quantities);
     }

@@ -675,7 +675,7 @@ InputDraws::InputDraws(const std::vector<InputGroup>& groups, std::uint64_t seed
                 from.dependence == Dependence::gaussian_copula && from.normal_correlation.size() > 0
                     ? from.normal_correlation
                     : correlation_matrix(from.covariance);
-            group.root = semidefinite_root(correlation);
+            group.root = from.factor.size() > 0 ? known_correlation_root(from) : semidefinite_root(correlation);
             if (!from.own_streams.empty()) {
                 std::vector<bool> is_given;
                 for (const std::uint64_t own : from.own_streams) {

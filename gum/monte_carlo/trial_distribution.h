@@ -44,7 +44,8 @@ struct TailIndex {
     [[nodiscard]] bool is_below(double value) const { return exponent + 2.0 * standard_error < value; }
 };
 
-/// From the largest deviations of the trials, a thousandth of them but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174).
+/// From the largest deviations of the trials, a thousandth of them but 50 to 4000 (Hill 1975, Ann. Statist. 3, 1163-1174);
+/// from fewer and larger ones where these thin out faster: a clipped distribution has a step there, and no tail.
 [[nodiscard]] TailIndex tail_index(const TrialsOfOutput& of);
 
 }  // namespace gumcert::gum

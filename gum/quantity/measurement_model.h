@@ -41,6 +41,9 @@ struct InputGroup {
     std::string distribution = "normal";
     Eigen::VectorXd value;       ///< n estimates, [unit]
     Eigen::MatrixXd covariance;  ///< n×n, [unit²]; or n×1: the diagonal of a diagonal matrix
+    /// n×n, lower triangular, L with L Lᵀ = covariance, where it is known better than from the covariance: the rounded
+    /// covariance of a fit far from 0 is singular, and u² of what it predicts is lost in it. Empty: from the covariance.
+    Eigen::MatrixXd factor = {};
     /// Of the whole group as one contribution. NaN: none can be stated, because Welch-Satterthwaite does not hold for
     /// correlated quantities with different degrees of freedom (JCGM 100:2008, G.4.1); the reason is beside it.
     double degrees_of_freedom = std::numeric_limits<double>::infinity();

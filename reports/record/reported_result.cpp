@@ -14,12 +14,35 @@ double half_width_of(const std::array<double, 2>& interval) {
     return 0.5 * (interval[1] - interval[0]);
 }
 
+/// A value with the decimals that are asked for, or fewer: half a unit of the last one is no smaller than its numerical
+/// error, and a double holds 15 digits.
+std::string held_value(double value, const gum::RoundedPair& asked, double error) {
+    constexpr int k_digits_of_a_double = 15;
+    std::string text = asked.value;
+    const auto end_at = [&](double unit_of_last) {
+        // One digit of a number of the size of its unit: the place where the value ends.
+        const gum::RoundedPair held = gum::round_to_uncertainty(value, unit_of_last, 1);
+        if (certificate::decimals_of(held.U) < certificate::decimals_of(text)) {
+            text = held.value;
+        }
+    };
+    if (error > 0.0) {
+        // Half a unit of 10^n holds an error of up to that.
+        const double power = std::ceil(std::log10(2.0 * error) - 1e-12);
+        end_at(std::pow(10.0, power));
+    }
+    if (value != 0.0) {
+        end_at(std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - k_digits_of_a_double));
+    }
+    return text;
+}
+
 }  // namespace
 
 bool is_symmetric_as_printed(double value, const std::array<double, 2>& interval, int digits) {
     const double half_width = half_width_of(interval);
     if (!(half_width > 0.0)) {
-        return true;
+        return value == interval[0];  // there is no digit of a half-width to compare to
     }
     const int decimals = certificate::decimals_of(gum::round_to_uncertainty(value, half_width, digits).U);
     const double half_a_unit = 0.5 * std::pow(10.0, -decimals);
@@ -35,7 +58,10 @@ ReportedResult monte_carlo_result(double value, std::optional<double> u, const s
     result.interval = interval;
     result.coverage_probability = coverage_probability;
     result.because = because;
-    if (u && is_symmetric_as_printed(value, interval, digits)) {
+    // An interval may have no width though the result varies, where more than p of it is one value: U = 0 would say that
+    // nothing is uncertain.
+    const bool has_width = half_width_of(interval) > 0.0;
+    if (u && (has_width ? is_symmetric_as_printed(value, interval, digits) : *u == 0.0)) {
         result.U = half_width_of(interval);
         if (*u > 0.0 && *result.U > 0.0) {
             result.k = *result.U / *u;
@@ -74,10 +100,23 @@ void print_reported(ReportedResult& result, const std::string& unit, const Repor
         const gum::RoundedPair pair =
             gum::round_to_uncertainty(result.value, half_width_of(*result.interval), rounding.digits);
         const int decimals = certificate::decimals_of(pair.U);
-        result.printed.value = pair.value;
+        result.printed.value = held_value(result.value, pair, rounding.value_error);
         result.printed_low = gum::round_to_quantum((*result.interval)[0], decimals);
         result.printed_high = gum::round_to_quantum((*result.interval)[1], decimals);
         return;
+    }
+    if (!result.U && result.interval) {
+        // Without a width: the ends have the digits of the value, which are those that u leaves it.
+        const std::optional<int> decimals =
+            result.u && *result.u > 0.0
+                ? std::optional<int>(certificate::decimals_of(
+                      gum::round_to_uncertainty(result.value, *result.u, rounding.digits_of_u).U))
+                : std::nullopt;
+        const auto end = [&](double of) {
+            return decimals ? gum::round_to_quantum(of, *decimals) : text::shortest(of);
+        };
+        result.printed_low = end((*result.interval)[0]);
+        result.printed_high = end((*result.interval)[1]);
     }
     result.printed.value = result.u && *result.u > 0.0
                                ? gum::round_to_uncertainty(result.value, *result.u, rounding.digits_of_u).value

@@ -16,13 +16,15 @@ struct ReportedRounding {
     int digits = 2;  ///< significant digits of U, or of half the width of the interval
     gum::RoundingMode rounding = gum::RoundingMode::half_even;  ///< of U
     int digits_of_u = 2;
+    double value_error = 0.0;  ///< numerical error of the value, where it has one that may exceed the last digit
 };
 
 /// Whether value ± half the width says the same as the interval: its middle differs from the value by half a unit of
-/// the last printed digit at most.
+/// the last printed digit at most. Without a width: the interval is the value.
 [[nodiscard]] bool is_symmetric_as_printed(double value, const std::array<double, 2>& interval, int digits = 2);
 
-/// A result of Monte Carlo with its interval; U and k where the interval is symmetric as printed and u exists.
+/// A result of Monte Carlo with its interval; U and k where the interval is symmetric as printed and u exists. U = 0 only
+/// where u = 0: an interval without a width, where more than p of the trials are equal, is stated as such.
 /// \param u  none: the distribution has no variance
 [[nodiscard]] ReportedResult monte_carlo_result(double value, std::optional<double> u,
                                                 const std::array<double, 2>& interval, double coverage_probability,
@@ -35,8 +37,8 @@ struct ReportedRounding {
 /// Makes every printed text of a result from its numbers.
 ///
 /// With U (greater than 0) value and U end at the same place (JCGM 100:2008, 7.2.6). Where the interval alone holds,
-/// value, low and high end where half its width has `digits` digits. Without either the value has the digits that u
-/// leaves it.
+/// value, low and high end where half its width has `digits` digits, the value before that where its own numerical error
+/// or its 15th digit ends. Without either the value has the digits that u leaves it.
 /// \param unit  of the result, as UDUNITS-2 writes it
 void print_reported(ReportedResult& result, const std::string& unit, const ReportedRounding& rounding = {});
 

@@ -1,6 +1,7 @@
 #include "reports/view/certificate_budget_sections.h"
 
 #include "certificate/statement_of_uncertainty.h"
+#include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
 #include "reports/plots/budget_plots.h"
@@ -95,6 +96,22 @@ struct CoverageGroup {
     double probability = 0.0;
     std::vector<const Result*> results;
 };
+
+/// A figure; where its numbers are of a size that no plot can show, a sentence: a sound record is always printed.
+template <class AnyPlot>
+void draw(CertificateBuilder& builder, const Wording& words, const Text& caption, const AnyPlot& plot) {
+    std::string drawing;
+    try {
+        drawing = svg(plot);
+    } catch (const gum::NoResultError& refused) {
+        if (refused.diagnostics().front().code != "GC-REPORT-0003") {
+            throw;
+        }
+        builder.paragraph(words.fill("figure_left_out", {{"caption", caption}}));
+        return;
+    }
+    builder.figure(plot.id, caption, plot.description, drawing);
+}
 
 /// Of what is reported: "interval" where Monte Carlo gives one that U cannot stand for.
 std::string coverage_kind(const Result& r) {
@@ -286,7 +303,7 @@ void result_table(CertificateBuilder& builder, const Wording& words, const Resul
             row.push_back(of.printed.U);
         }
         if (without_U) {
-            row.push_back(of.u ? rounded(*of.u) : "");
+            row.push_back(of.printed_u);
         }
         if (with_interval) {
             row.push_back(of.printed_low);
@@ -551,9 +568,8 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
     for (std::size_t i = 0; i < with_budget.size(); ++i) {
         budget(builder, words, *with_budget[i], i);
         if (!tables_only && i < k_most_plots && with_budget[i]->budget.size() > 1) {
-            const BarPlot plot = share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i));
-            builder.figure(plot.id, words.fill("figure_shares", {{"name", with_budget[i]->name}}), plot.description,
-                           svg(plot));
+            draw(builder, words, words.fill("figure_shares", {{"name", with_budget[i]->name}}),
+                 share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i)));
         }
     }
     if (!tables_only) {
@@ -624,8 +640,8 @@ void monte_carlo_of(CertificateBuilder& builder, const Wording& words, const Res
                                        {"interval", words("value", "interval", v.interval)}}));
     }
     if (!m.histogram.empty() && number < k_most_plots) {
-        const DensityPlot plot = monte_carlo_plot(result, words, "plot-monte-carlo-" + id);
-        builder.figure(plot.id, words.fill("figure_monte_carlo", {{"name", result.name}}), plot.description, svg(plot));
+        draw(builder, words, words.fill("figure_monte_carlo", {{"name", result.name}}),
+             monte_carlo_plot(result, words, "plot-monte-carlo-" + id));
     }
 }
 
@@ -823,8 +839,8 @@ void fit(CertificateBuilder& builder, const Wording& words, const FitSummary& f,
     }
     fit_data(builder, words, f, id);
     if (!f.residual.number.empty()) {
-        const Plot plot = residual_plot(f, words, "plot-residuals-" + id);
-        builder.figure(plot.id, words.fill("figure_residuals", {{"name", f.name}}), plot.description, svg(plot));
+        draw(builder, words, words.fill("figure_residuals", {{"name", f.name}}),
+             residual_plot(f, words, "plot-residuals-" + id));
     }
 }
 

@@ -188,14 +188,14 @@ BudgetRow fit_row(const gum::BudgetFit& fit, const engine::CurveFit& solved, con
                   const Unit& result_unit, double result_u) {
     const bool scaled = solved.covariance_scaled;
     const double nu = scaled ? solved.degrees_of_freedom : std::numeric_limits<double>::infinity();
-    const double all = sensitivity.dot(solved.covariance * sensitivity);
-    const double by_x =
-        solved.covariance_by_x.size() == 0
-            ? 0.0
-            : std::clamp(sensitivity.dot(solved.covariance_by_x * sensitivity), 0.0, std::max(0.0, all));
+    // Sums of squares, by the factors that the law of propagation takes: the row is what the fit has in u².
+    const double all = (solved.factor.transpose() * sensitivity).squaredNorm();
+    const double by_x = solved.factor_by_x.size() == 0
+                            ? 0.0
+                            : std::min((solved.factor_by_x.transpose() * sensitivity).squaredNorm(), all);
     BudgetRow row = joint_row(fit.name, "fit", all, nu, scaled, result_unit, result_u);
     row.components.push_back(joint_row(fit.ordinate, "fit_data", all - by_x, nu, scaled, result_unit, result_u));
-    if (solved.covariance_by_x.size() != 0) {
+    if (solved.factor_by_x.size() != 0) {
         row.components.push_back(
             joint_row(fit.regressors.front(), "fit_data", by_x, nu, scaled, result_unit, result_u));
     }

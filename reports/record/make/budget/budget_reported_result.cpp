@@ -44,16 +44,21 @@ reports::ReportedResult reported_of(const gum::BudgetOutputResult& output, doubl
         const std::array<double, 2> interval{unit.from_si(trials.symmetric.low), unit.from_si(trials.symmetric.high)};
         const int asked = budget.monte_carlo ? budget.monte_carlo->digits : printed.digits;
         const gum::NumericalError& error = trials.numerical_error;
-        printed.digits =
-            held_digits_of(0.5 * (interval[1] - interval[0]),
-                           unit.difference_from_si(std::max(error.symmetric.low, error.symmetric.high)), asked);
+        const double ends = std::max(error.symmetric.low, error.symmetric.high);
+        const double half_width = 0.5 * (interval[1] - interval[0]);
+        const double mean = output.has_u ? unit.from_si(trials.mean) : y;
+        printed.value_error = output.has_u ? unit.difference_from_si(error.mean) : 0.0;
+        // Beside U the value ends where U does, hence U where the value is held.
+        const bool as_one = half_width > 0.0 && reports::is_symmetric_as_printed(mean, interval);
+        printed.digits = held_digits_of(
+            half_width, std::max(unit.difference_from_si(ends), as_one ? printed.value_error : 0.0), asked);
         if (printed.digits == 1) {
             printed.rounding = gum::RoundingMode::up;  // half a unit is up to a sixth of U: never less than it is
         }
         printed.digits_of_u = held_digits_of(unit.difference_from_si(trials.standard_uncertainty),
                                              unit.difference_from_si(error.standard_uncertainty), asked);
         reported = reports::monte_carlo_result(
-            output.has_u ? unit.from_si(trials.mean) : y,
+            mean,
             output.has_u ? std::optional<double>(unit.difference_from_si(trials.standard_uncertainty)) : std::nullopt,
             interval, output.coverage_probability, output.because);
     } else {

@@ -126,20 +126,28 @@ int decimals_of_width(double w) {
 /// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
 /// with what stands beside them, and that the printed value is inside of them where the verdict says so.
 /// \param shown  the decision from the printed numbers
-void print(Verdict& verdict, const ConformityDecision& shown, int decimals) {
+/// \param is_converted  the limits were agreed in another unit than that of the result
+void print(Verdict& verdict, const ConformityDecision& shown, int decimals, bool is_converted) {
+    // A limit in °F has digits without an end in °C: they are none of the guard band.
+    constexpr int k_digits_of_a_stated_limit = 9;
     // Acceptance limits follow from U: they end where value and limits end, or where w ends, of which two digits say what
     // it is: 0.5·U is 0.55 and not 0.6 for U = 1.1.
     int finest = decimals;
     for (const std::string& text : {verdict.printed.lower, verdict.printed.upper}) {
-        finest = text.empty() ? finest : std::max(finest, certificate::decimals_of(text));
+        const bool is_endless = is_converted && certificate::significant_digits(text) > k_digits_of_a_stated_limit;
+        finest = text.empty() || is_endless ? finest : std::max(finest, certificate::decimals_of(text));
     }
+    // A discrete distribution about the printed value may leave room where that about the value leaves none.
     const gum::ToleranceLimits& accepted = shown.acceptance;
-    if (shown.guard_band != 0.0 && (accepted.lower || accepted.upper)) {
+    const bool has_zone = verdict.acceptance_lower || verdict.acceptance_upper;
+    const bool has_lower = has_zone && accepted.lower.has_value();
+    const bool has_upper = has_zone && accepted.upper.has_value();
+    const bool guarded = has_lower || has_upper;  // else no value is accepted, and there is no band
+    if (shown.guard_band != 0.0 && guarded) {
         finest = std::max(finest, decimals_of_width(shown.guard_band));
     }
-    verdict.printed.acceptance_lower = accepted.lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
-    verdict.printed.acceptance_upper = accepted.upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
-    const bool guarded = accepted.lower || accepted.upper;  // else no value is accepted, and there is no band
+    verdict.printed.acceptance_lower = has_lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
+    verdict.printed.acceptance_upper = has_upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
     verdict.printed.guard_band = guarded ? certificate::printed_at_least(shown.guard_band, finest) : "";
     verdict.printed.test_uncertainty_ratio =
         shown.test_uncertainty_ratio ? printed_ratio(*shown.test_uncertainty_ratio) : "";
@@ -262,7 +270,7 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
                 "from the value.";
         }
     }
-    print(verdict, shown, decimals);
+    print(verdict, shown, decimals, specification.unit != column.unit);
     if (is_open) {
         verdict.printed.conformance_probability.clear();
         verdict.printed.specific_risk.clear();

@@ -220,8 +220,15 @@ private:
             return;
         }
         const gum::RoundedPair pair = gum::round_to_uncertainty(value.value, half_width, rule.digits, rule.rounding);
-        value.printed_value = pair.value;
-        value.printed_u = value.u > 0.0 ? gum::round_significant(value.u, rule.digits) : "";
+        // The evaluation knows the numerical errors of value and u: what it printed with fewer digits stays.
+        if (value.printed_value.empty() ||
+            certificate::decimals_of(value.printed_value) >= certificate::decimals_of(pair.value)) {
+            value.printed_value = pair.value;
+        }
+        const std::string u = value.u > 0.0 ? gum::round_significant(value.u, rule.digits) : "";
+        if (value.printed_u.empty() || certificate::decimals_of(value.printed_u) >= certificate::decimals_of(u)) {
+            value.printed_u = u;
+        }
         print_ends(value, certificate::decimals_of(pair.U));
         if (value.capability && half_width < *value.capability) {
             leave_accreditation(value, "its coverage interval is narrower than the capability of the scope entry \"" +

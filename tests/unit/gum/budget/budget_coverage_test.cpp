@@ -209,5 +209,21 @@ TEST(ConvolutionNote, NamesTheDistributionThatItReplaces) {
     EXPECT_TRUE(is_noticed_change(2.021, 2.0));
 }
 
+// k = 0 and U = 0 say that nothing is uncertain: 96 of 100 readings are 0, the others ±1.
+TEST(ExpandByPropagation, StatesNoUWhereTheIntervalHasNoWidth) {
+    for (const std::vector<double>& others : {std::vector<double>{1, -1, 1, -1}, std::vector<double>{1, 1, 1, 1}}) {
+        std::vector<double> values(96, 0.0);
+        values.insert(values.end(), others.begin(), others.end());
+        Budget of = test::budget({"y = a"}, {input("a", samples(values))});
+        of.coverage_probability = 0.9;
+        of.coverage = CoverageChoice::law_of_propagation;
+        const BudgetOutputResult y = test::first_result(of);
+        EXPECT_GT(y.standard_uncertainty, 0.1);
+        EXPECT_FALSE(y.expanded_uncertainty || y.coverage_factor);
+        EXPECT_EQ(y.coverage, "none");
+        EXPECT_THAT(y.coverage_note, HasSubstr("has no width"));
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,23 @@ TEST(ZeroUncertainty, FollowsTheEquationsToWhatIsBehindThem) {
     const BudgetResult result = evaluate_budget(through, 1);
     EXPECT_FALSE(is_exact_by_definition(through, result.points[0], "y"));
     EXPECT_EQ(said(through), "GC-BUDGET-0029 none");
+}
+
+// m a − b with r = ±1 and u(b) = |m| u(a): what rounding leaves of the difference is no uncertainty.
+TEST(ZeroUncertainty, RoundingOfCorrelatedInputsThatCancelIsNone) {
+    for (const double m : {3.0, 7.0, 1.1, -0.3, 1.0 / 3.0}) {
+        for (const double u : {0.1, 0.7, 1e-9, 123.456}) {
+            const std::string factor = test::digits(m);
+            Budget of =
+                test::budget({"y = (" + factor + ")*a - b"},
+                             {input("a", state_uncertainty(2, u)), input("b", state_uncertainty(1, std::abs(m) * u))});
+            test::correlate(of, "a", "b", m > 0.0 ? 1.0 : -1.0);
+            EXPECT_EQ(said(of), "GC-BUDGET-0029 none") << factor << " " << u;
+            // What does not cancel is stated, however small it is beside the parts.
+            of.inputs[1] = input("b", state_uncertainty(1, std::abs(m) * u * 1.000001));
+            EXPECT_EQ(said(of), "U") << factor << " " << u;
+        }
+    }
 }
 
 }  // namespace

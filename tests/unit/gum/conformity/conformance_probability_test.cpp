@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "gum/coverage.h"
@@ -186,6 +188,61 @@ TEST(AcceptanceLimitsForRisk, RefusesRisksOutOfRange) {
                   }),
                   "GC-GUM-0082")
             << outside;
+    }
+}
+
+/// Few values with probabilities, as samples give them; the value is a multiple of a tenth.
+MeasuredValue of_points(double value, const std::vector<std::pair<double, double>>& deviations) {
+    const auto sum = [value, deviations](double x, bool with) {
+        double p = 0.0;
+        for (const auto& [d, q] : deviations) {
+            const double at = value + d;
+            const double same = 1e-12;
+            p += at < x - same || (with && at <= x + same) ? q : 0.0;
+        }
+        return std::min(p, 1.0);
+    };
+    return {.value = value,
+            .standard_uncertainty = 0.2,
+            .expanded_uncertainty = 0.4,
+            .distribution = [sum](double x) { return sum(x, true); },
+            .distribution_below = [sum](double x) { return sum(x, false); }};
+}
+
+// At a jump of the risk the limit is the side that is accepted.
+TEST(AcceptanceLimitsForRisk, KeepToTheRiskWhereItJumps) {
+    int limits_seen = 0;
+    for (const double value : {0.7, 1.3, 20.1, 1550.3}) {
+        for (const double risk : {0.01, 0.05, 0.15, 0.3}) {
+            const MeasuredValue y = of_points(
+                value, {{-0.4, 0.02}, {-0.3, 0.08}, {-0.1, 0.2}, {0.0, 0.4}, {0.1, 0.2}, {0.3, 0.07}, {0.4, 0.03}});
+            for (const ToleranceLimits& tolerance : {ToleranceLimits{.lower = {}, .upper = value + 0.4},
+                                                     ToleranceLimits{.lower = value - 0.4, .upper = {}},
+                                                     ToleranceLimits{.lower = value - 0.5, .upper = value + 0.4}}) {
+                const auto accepted = acceptance_limits_for_risk(y, tolerance, risk);
+                ASSERT_TRUE(accepted);
+                for (const auto& limit : {accepted->lower, accepted->upper}) {
+                    if (limit) {
+                        EXPECT_LE(nonconformance_probability_at(*limit, y, tolerance), risk * (1.0 + 1e-12));
+                        ++limits_seen;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_EQ(limits_seen, 4 * 4 * 4);
+}
+
+// All values fill the tolerance just so: y keeps to the risk, and rounding makes AL larger than AU.
+TEST(AcceptanceLimitsForRisk, AcceptAValueThatKeepsToTheRisk) {
+    for (const double third : {0.1, 0.15, 0.7, 1.0 / 3.0}) {
+        const MeasuredValue y = of_points(3.0 * third, {{-third, 0.3}, {0.0, 0.4}, {third, 0.3}});
+        const ToleranceLimits tolerance{.lower = 2.0 * third, .upper = 4.0 * third};
+        ASSERT_EQ(nonconformance_probability(y, tolerance), 0.0) << third;
+        const auto accepted = acceptance_limits_for_risk(y, tolerance, 0.05);
+        ASSERT_TRUE(accepted) << third;
+        EXPECT_LE(*accepted->lower, y.value);
+        EXPECT_GE(*accepted->upper, y.value);
     }
 }
 

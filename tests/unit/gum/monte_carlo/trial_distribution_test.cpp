@@ -94,5 +94,19 @@ TEST(TailIndex, IsTheExponentOfTheTails) {
     EXPECT_TRUE(std::isinf(tail_index(trials_of(Distribution::normal(0.0, 1.0), 100)).exponent));
 }
 
+// The step from the limit of a clipped distribution to the trials beyond it is no tail.
+TEST(TailIndex, OfAClippedDistributionIsThatOfWhatIsClipped) {
+    for (const double centre : {-2.0, -2.5, -3.0}) {
+        EXPECT_TRUE(tail_index(trials_of(Distribution::normal(centre, 1.0), 1'000'000,
+                                         [](double x) { return std::max(x, 0.0); }))
+                        .is_above(2.0))
+            << centre;
+    }
+    // A power law behind a limit stays one.
+    EXPECT_TRUE(tail_index(trials_of(Distribution::student_t(0.0, 1.0, 1.0), 1'000'000, [](double x) {
+                    return std::max(x, 3.0);
+                })).is_below(1.5));
+}
+
 }  // namespace
 }  // namespace gumcert::gum

@@ -91,5 +91,42 @@ TEST(ReportedResult, IsMadeOfTheNumbersOfARecordThatKnewNone) {
     EXPECT_FALSE(alone.U);
 }
 
+/// More than p of the trials are one value: the interval has no width, and the result is uncertain all the same.
+TEST(ReportedResult, HasNoUOfZeroBesideAnUncertainty) {
+    for (const double value : {0.9994, 1.0, 1.2}) {
+        ReportedResult r = monte_carlo_result(value, 0.003, {1.0, 1.0}, 0.8, "not_linear");
+        print_reported(r, "1");
+        EXPECT_FALSE(r.U || r.k) << value;
+        EXPECT_EQ(r.printed.U, "");
+        EXPECT_EQ(r.printed_u, "0.0030");
+        EXPECT_EQ(r.printed_low, "1.0000");
+        EXPECT_EQ(r.printed_high, "1.0000");
+        EXPECT_EQ(certificate::decimals_of(r.printed.value), 4);
+    }
+    ReportedResult exact = monte_carlo_result(1.0, 0.0, {1.0, 1.0}, 0.8, "asked");
+    print_reported(exact, "1");
+    EXPECT_EQ(exact.U, 0.0);
+    EXPECT_FALSE(is_symmetric_as_printed(0.9994, {1.0, 1.0}));
+}
+
+/// Over sizes of the interval and of the error: half a unit of the last digit of the value is no smaller than its error,
+/// and no digit is printed that a double does not hold.
+TEST(ReportedResult, ValueBesideAnIntervalEndsWhereItIsHeld) {
+    for (const double width : {1e-22, 1e-9, 1e-3, 1.0, 1e4}) {
+        for (const double error : {0.0, 1e-6, 2.3e-4, 0.04, 0.2, 30.0}) {
+            for (const double value : {0.00050663, 2.38395, 1234.5}) {
+                ReportedResult r = monte_carlo_result(value, {}, {0.0, width}, 0.95, "asked");
+                ReportedRounding rounding;
+                rounding.value_error = error;
+                print_reported(r, "1", rounding);
+                const double last = std::pow(10.0, -certificate::decimals_of(r.printed.value));
+                EXPECT_GE(0.5 * last * (1.0 + 1e-9), error) << r.printed.value;
+                EXPECT_GE(last, 0.9e-15 * value) << r.printed.value;
+                EXPECT_LE(std::abs(*certificate::number_of(r.printed.value) - value), 0.5001 * last);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::reports

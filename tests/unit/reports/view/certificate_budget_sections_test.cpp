@@ -177,6 +177,29 @@ TEST(BudgetCertificate, PrintsTheReportedResult) {
     EXPECT_THAT(text_of(r), HasSubstr("reported for l although the first derivatives of the model vanish"));
 }
 
+/// A sound record is printed whatever the size of its numbers; the figure alone is left out, and it is said.
+TEST(BudgetCertificate, LeavesOutAFigureThatNoPlotCanShow) {
+    EvaluationRecord r = test::sample_budget_record();
+    ASSERT_THAT(text_of(r), Not(HasSubstr("A figure is left out")));
+    r.results[0].budget[0].share.number = 1e13;
+    EXPECT_THAT(text_of(r),
+                HasSubstr("A figure is left out, because its numbers are of a size that no plot can show: What "
+                          "dominates the uncertainty of l"));
+    ASSERT_FALSE(r.results[0].monte_carlo->histogram.empty());
+    r.results[0].monte_carlo->symmetric.number[1] = 1e300;
+    EXPECT_THAT(text_of(r), HasSubstr("can show: l: histogram of the Monte Carlo trials"));
+}
+
+/// The digits of u are those that the record holds.
+TEST(BudgetCertificate, PrintsUWithTheDigitsThatTheTrialsHold) {
+    EvaluationRecord r = test::sample_budget_record();
+    r.results[0].reported = monte_carlo_result(50000203.0, 568.0, {49999020.0, 50000856.0}, 0.99, "second_order");
+    ReportedRounding one;
+    one.digits_of_u = 1;
+    print_reported(r.results[0].reported, r.results[0].unit, one);
+    EXPECT_THAT(cells(table(view_of(r), "results-0"), 0), testing::Contains("6 × 10²"));
+}
+
 TEST(BudgetCertificate, PointsOfDifferentMethodsStandInTheirColumns) {
     EvaluationRecord r = test::sample_points_record(3);
     r.results[1].reported = monte_carlo_result(5.2, 1.4, {4.0, 8.3}, 0.99, "not_linear");

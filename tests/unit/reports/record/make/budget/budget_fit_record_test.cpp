@@ -156,5 +156,43 @@ TEST(BudgetFitRecord, ParametersAreResultsOfTheirData) {
     }
 }
 
+/// Where x lies far from 0 the rows are those of the same fit: no share of 196 %, and no contribution of 0 beside u.
+TEST(BudgetFitRecord, RowsOfFitsFarFromZeroAddUpToTheVariance) {
+    for (const char* more : {"", R"(, "u_y": 0.1)", R"(, "u_y": 0.1, "u_x": 0.001)"}) {
+        for (const double centre : {100.0, 1550.0, 245900.0}) {
+            const bool quadratic = std::string(more).find("u_x") == std::string::npos;
+            if (quadratic && centre > 1e5) {
+                continue;  // refused: its points do not determine three parameters (GC-FIT-0010)
+            }
+            const auto at = [&](int i) { return std::to_string(centre + 0.02 * i); };
+            std::string x = at(0);
+            for (int i = 1; i < 6; ++i) {
+                x += ", " + at(i);
+            }
+            const std::string q = quadratic ? "a + b*q + c*q^2" : "a + b*q";
+            const std::string curve = quadratic ? "a + b*x + c*x^2" : "a + b*x";
+            const EvaluationRecord record = record_of_fit(jobs::test::read_budget(
+                "\"model\": [\"z = " + q + R"("], "inputs": {"q": {"value": )" + at(2) +
+                R"(, "constant": true}}, "fits": {"f": {"equation": "y = )" + curve +
+                R"(", "parameters": {"a": {}, "b": {})" + (quadratic ? R"(, "c": {})" : "") + R"(}, "data": {"x": [)" +
+                x + R"(], "y": [1.2, 1.5, 1.9, 2.1, 2.6, 2.9])" + more + "}}}"));
+            const reports::Result& z = record.results.at(0);
+            double squares = 0.0;
+            double of_data = 0.0;
+            for (const BudgetRow& row : z.budget) {
+                squares += row.contribution.number * row.contribution.number;
+                for (const BudgetRow& part : row.components) {
+                    of_data += part.role == "fit_data" ? part.contribution.number * part.contribution.number : 0.0;
+                }
+            }
+            EXPECT_GT(z.u, 0.01);
+            EXPECT_LT(z.u, 0.2);
+            const double rounding = (1e-15 * record.fits.at(0).condition_number + 1e-12) * z.u;
+            EXPECT_NEAR(std::sqrt(squares), z.u, rounding) << curve << more << centre;
+            EXPECT_NEAR(std::sqrt(of_data), z.u, rounding) << curve << more << centre;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::reports

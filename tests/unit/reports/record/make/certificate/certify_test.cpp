@@ -412,6 +412,19 @@ TEST(Certify, DecidesOnConformityInTheUnitOfTheResult) {
     EXPECT_EQ(v.printed.test_uncertainty_ratio, "2.50");
 }
 
+// 9 m and 10 m have no end in feet: guard band and acceptance limits have the decimals of U, on the safe side.
+TEST(Certify, PrintsNoDigitsOfAConvertedLimitInTheGuardBand) {
+    const Verdict v = *certified(one_result(31.1, 0.66, "ft"), data_with_rule("DR-03", 9.0, 10.0, "m")).verdict;
+    EXPECT_EQ(v.verdict, "pass");
+    EXPECT_EQ(v.printed.guard_band, "0.66");
+    EXPECT_EQ(v.printed.acceptance_lower, "30.19");
+    EXPECT_EQ(v.printed.acceptance_upper, "32.14");
+    for (const double y : {30.188, 30.19, 32.14, 32.148}) {
+        const Verdict near = *certified(one_result(y, 0.66, "ft"), data_with_rule("DR-03", 9.0, 10.0, "m")).verdict;
+        EXPECT_EQ(near.verdict, "pass") << y;
+    }
+}
+
 // Golden vector 4: y = 9.8, u = 0.1, limits 9 and 10: p_c = 0.977250.
 TEST(Certify, DecidesByTheLimitsOfEachPoint) {
     EvaluationRecord record = one_result(0.3, 0.1, "mV");
