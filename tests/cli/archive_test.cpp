@@ -271,6 +271,9 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     };
     EXPECT_TRUE(tells(edited("<main>", "<main><p hidden>x</p>"), "[GC-ARCHIVE-0070]"));
     EXPECT_TRUE(tells(edited("</style>", "h1 { display: none }</style>"), "[GC-ARCHIVE-0070]"));
+    // A page that names no changed templates has the sheet of those of this program, without even a plain rule more.
+    EXPECT_TRUE(tells(edited("</style>", "h1 { margin: 0 }</style>"), "names no changed ones"));
+    EXPECT_TRUE(tells(edited("</head>", "<style>td,dd{color:#fff}</style></head>"), "[GC-ARCHIVE-0070]"));
     EXPECT_TRUE(tells(edited("Example Customer", "Another Customer"), "[GC-ARCHIVE-0038]"));
     EXPECT_TRUE(
         tells(edited("reproduced only in full", "reproduced in part"), "and the page that the record gives says"));
@@ -295,6 +298,9 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
         const Ended taken = archive({"add", path("later.json"), path("later.xml"), page}, "R. Lin");
         EXPECT_EQ(taken.code, 0) << taken.err;
     }
+    const Ended of_others = edited("<main>", "<main><p>gumcert 0.1.0 changed templates 0123abcd</p>");
+    EXPECT_EQ(of_others.code, 0) << of_others.err;
+    EXPECT_TRUE(tells(of_others, "[GC-ARCHIVE-0071]"));
 }
 
 /// Bytes that somebody exchanged in the store are judged by nobody, and neither is an edited table of lists.
