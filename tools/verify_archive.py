@@ -560,10 +560,11 @@ class Head:
         return is_extended(size, root, self.size, self.root, proof)
 
     def proves_extension_of(self, earlier):
-        """Its own proof shows that it extends an earlier head."""
-        in_time = (self.chain, self.at) == (earlier.chain, earlier.at) if self.size == earlier.size else self.at >= earlier.at
+        """Its own proof shows that it extends an earlier head; of one size it is the same head, and nothing to be proved."""
+        if self.size == earlier.size:
+            return (self.archive, self.root, self.chain, self.at) == (earlier.archive, earlier.root, earlier.chain, earlier.at)
         return bool(self.extends and self.archive == earlier.archive and self.extends[:2] == (earlier.size, earlier.root) and
-                    self.begins_with(*self.extends) and in_time)
+                    self.begins_with(*self.extends) and self.at >= earlier.at)
 
 
 def signer_in_words(signature, public_key, with_states):

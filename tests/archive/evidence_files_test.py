@@ -315,6 +315,14 @@ def main():
         number = by_state.get("issued") or next(iter(by_state.values()))
         signed = export(number, "--sign", "key.pem", "--since", "early.json")
         both.judge("extends an earlier head", signed, heads=["early.json"], trust=False, sound=True)
+        copy_of_head = json.loads((folder / "late.json").read_bytes())
+        for what, other in (("itself", copy_of_head), ("itself without a proof", changed(copy_of_head, ("extends",), removed)),
+                            ("itself without a signature", changed(copy_of_head, ("signature",), removed))):
+            (folder / "copy.json").write_text(json.dumps(other))
+            both.judge(f"a head beside {what}", copy_of_head, heads=["copy.json"], sound=True)
+            both.judge(f"{what}, beside a head", other, heads=["late.json"], sound=True)
+        (folder / "copy.json").write_text(json.dumps(changed(copy_of_head, ("at",), set_to("2026-01-01T00:00:00Z"))))
+        both.judge("a head beside one of another time", copy_of_head, heads=["copy.json"], sound=False)
         both.judge("a proof of another head", changed(signed, ("head", "extends", "root"), set_to("0" * 64)), sound=False)
         both.judge("does not prove that it extends", export(number, "--sign", "key.pem"), heads=["early.json"], sound=False)
         both.judge("an earlier head that is not signed", signed, heads=["early.json"], trust=True, sound=False)

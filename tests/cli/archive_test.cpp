@@ -706,6 +706,16 @@ TEST_F(ArchiveOfALaboratory, SeesThatTheEndWasCutOff) {
     EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json")}).code, 1);
 }
 
+TEST_F(ArchiveOfALaboratory, TakesTwoCopiesOfOneHeadForOne) {
+    issue_the_example();
+    for (const char* const name : {"a.json", "b.json"}) {
+        ASSERT_EQ(archive({"head", "-o", path(name)}).code, 0);
+    }
+    const Ended ended = gumcert({"archive", "verify", path("a.json"), "--head", path("b.json")});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(verified_elsewhere({path("a.json"), "--head", path("b.json")}).code, 0);
+}
+
 TEST_F(ArchiveOfALaboratory, SignsItsHead) {
     issue_the_example();
     write_bytes(folder() / "key.pem",
