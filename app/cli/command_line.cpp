@@ -328,10 +328,10 @@ void add_archive(CLI::App& program, Arguments& a) {
         "archive", "Certificates and their evidence: kept so that nothing is lost, and no change goes unseen");
     ArchiveOptions& o = a.archive;
     command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
-    command.add_option(
-        "NAME", o.named,
-        "Numbers of certificates; of add and amend a record and its documents; of verify evidence, "
-        "behind it documents that should be its own; of list words that number, state, time or item contain");
+    command.add_option("NAME", o.named,
+                       "Numbers of certificates; of add and amend a record and its documents; of verify heads "
+                       "and evidence, behind each evidence documents that should be its own; of list words that "
+                       "number, state, time or item contain");
     add_file(command, "--store", o.store,
              "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
              "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");
