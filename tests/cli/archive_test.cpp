@@ -618,6 +618,39 @@ TEST_F(ArchiveOfALaboratory, NeverShowsAPassword) {
     EXPECT_EQ(verified_elsewhere({address}).err.find("S3cret"), std::string::npos);
 }
 
+// Law: whichever option is given an address, no part of the password is said, in letters of whichever size.
+TEST_F(ArchiveOfALaboratory, NeverShowsAPartOfAPassword) {
+    const std::string help = gumcert({"archive", "--help"}).out;
+    std::vector<std::string> options;
+    for (std::size_t at = help.find("--"); at != std::string::npos; at = help.find("--", at + 2)) {
+        const std::size_t end = help.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at);
+        options.push_back(help.substr(at, end - at));
+    }
+    ASSERT_GT(options.size(), 20U);
+    fs::create_directories(folder() / "empty");
+    const auto is_silent = [&](const std::vector<std::string>& words) {
+        const Ended ended = gumcert(words, {.working_folder = folder() / "empty"});
+        std::string said = ended.out + ended.err;
+        std::transform(said.begin(), said.end(), said.begin(), [](unsigned char c) { return std::tolower(c); });
+        for (const char* const part : {"s3c", "3cr", "etpw"}) {
+            EXPECT_EQ(said.find(part), std::string::npos) << words.back() << ": " << said;
+        }
+        return ended;
+    };
+    for (const std::string& option : options) {
+        for (const char* const value :
+             {"host=127.0.0.1 password=S3cRetPw", "7 password='S3cRetPw'", "postgresql://u:S3cRetPw@h/db"}) {
+            is_silent({"archive", "list", "--store", store(), option, value});
+            is_silent({"archive", "list", "--store", store(), option + "=" + value});
+        }
+    }
+    EXPECT_TRUE(
+        tells(is_silent({"archive", "list", "--memory-limit", "host=1 password=S3cRetPw"}), "--memory-limit: "));
+    is_silent({"archive", "list", "--memory-limit", "password=", "S3cRetPw"});
+    is_silent({"archive", "password=S3cRetPw"});
+    is_silent({"password=S3cRetPw", "list"});
+}
+
 TEST_F(ArchiveOfALaboratory, ExportsNothingOfANumberAlone) {
     begin({"--numbering", "N-###"});
     ASSERT_EQ(archive({"number"}, "K. Keeper").code, 0);
