@@ -104,11 +104,16 @@ bool proves_its_extension(const Head& head) {
 }
 
 bool proves_extension(const Head& later, const Head& earlier) {
-    return later.extends && later.archive == earlier.archive && later.extends->size == earlier.size &&
-           later.extends->root == earlier.root && proves_its_extension(later) &&
-           // The proof is of roots; the last entry and its time are told beside it.
-           (later.size == earlier.size ? later.chain == earlier.chain && later.at == earlier.at
-                                       : later.at >= earlier.at);
+    if (later.archive != earlier.archive) {
+        return false;
+    }
+    // The proof is of roots; the last entry and its time are told beside it. Of one size it is the same head, and nothing to
+    // be proved.
+    if (later.size == earlier.size) {
+        return later.root == earlier.root && later.chain == earlier.chain && later.at == earlier.at;
+    }
+    return later.extends && later.extends->size == earlier.size && later.extends->root == earlier.root &&
+           proves_its_extension(later) && later.at >= earlier.at;
 }
 
 std::string signed_bytes(const Head& head) {

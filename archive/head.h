@@ -55,7 +55,8 @@ private:
     MerkleTree tree_;
 };
 
-/// Whether the proof in a head shows that its log begins with that of an earlier one, without the archive.
+/// Whether the proof in a head shows that its log begins with that of an earlier one, without the archive; two of one size
+/// need none, and say the same.
 [[nodiscard]] bool proves_extension(const Head& later, const Head& earlier);
 /// Whether the proof in a head leads from the root that it names to its own.
 [[nodiscard]] bool proves_its_extension(const Head& head);

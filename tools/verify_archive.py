@@ -2,12 +2,12 @@
 """Verifies an archive of gumcert, or the evidence of one certificate, without gumcert.
 
     verify_archive.py ARCHIVE [--head FILE]... [--public-key HEX]
-    verify_archive.py EVIDENCE.json [DOCUMENT]... [--head FILE]... [--public-key HEX]
+    verify_archive.py {HEAD.json | EVIDENCE.json [DOCUMENT]...}... [--head FILE]... [--public-key HEX]
 
 Needs Python 3.11 and nothing else. It shares no code with gumcert and is short enough to be read: it was written after
 docs/adr/0053-the-archive.md, which says what is hashed and which rules the log obeys, and 0062, which says what evidence is. Computes every hash again, the chain,
 the Merkle root (RFC 6962), the life of every certificate, and compares with earlier heads. Documents are compared with those
-that the evidence names.
+that the evidence before them names.
 
 Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the command line is wrong; 5: a file cannot be read.
 """
@@ -560,10 +560,11 @@ class Head:
         return is_extended(size, root, self.size, self.root, proof)
 
     def proves_extension_of(self, earlier):
-        """Its own proof shows that it extends an earlier head."""
-        in_time = (self.chain, self.at) == (earlier.chain, earlier.at) if self.size == earlier.size else self.at >= earlier.at
+        """Its own proof shows that it extends an earlier head; of one size it is the same head, and nothing to be proved."""
+        if self.size == earlier.size:
+            return (self.archive, self.root, self.chain, self.at) == (earlier.archive, earlier.root, earlier.chain, earlier.at)
         return bool(self.extends and self.archive == earlier.archive and self.extends[:2] == (earlier.size, earlier.root) and
-                    self.begins_with(*self.extends) and in_time)
+                    self.begins_with(*self.extends) and self.at >= earlier.at)
 
 
 def signer_in_words(signature, public_key, with_states):
@@ -910,7 +911,7 @@ def compared_document(file, verdict):
     for name, holds in parts:
         if holds:
             return True, f"{file}: is the {name} of {verdict['number']}"
-    return False, f"{file}: " + (f"is of an earlier draft of {verdict['number']}" if parts else f"no evidence here names its SHA-256 {digest}")
+    return False, f"{file}: " + (f"is of an earlier draft of {verdict['number']}" if parts else f"the evidence before it does not name its SHA-256 {digest}")
 
 
 def bytes_of(path, count=-1):
@@ -959,29 +960,61 @@ def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict
         yield f"no evidence and no head: {missing}"
 
 
+def kind_of(path):
+    """What a file says that it is, sound or not: a head, evidence, or something else."""
+    if bytes_of(path, 16) == b"SQLite format 3\0":  # which may be large
+        return ""
+    try:
+        value = json.loads(bytes_of(path).decode("utf-8").removeprefix("\ufeff"))
+    except (ValueError, RecursionError):
+        return ""
+    schema = value.get("schema") if isinstance(value, dict) else None
+    return schema if schema in ("gumcert/archive-head/1", "gumcert/archive-evidence/1") else ""
+
+
+def with_documents(files):
+    """Each file that is verified with the documents that should be those of it: what is neither head nor evidence, and stands
+    behind evidence, belongs to the evidence before it. gumcert archive verify reads its files in the same way."""
+    given, of_evidence = [], None
+    for file in files:
+        kind = kind_of(file)
+        if not kind and of_evidence is not None:
+            of_evidence.append(file)
+        else:
+            given.append((file, []))
+            of_evidence = given[-1][1] if kind == "gumcert/archive-evidence/1" else of_evidence
+    return given
+
+
+def judged(file, documents, heads, key):
+    """Prints what there is to say of a file and of the documents that should be those of it; whether all of it is sound."""
+    told, verdict = [], {}
+    found = list(findings(file, heads, key, told.append, verdict))
+    compared = [compared_document(one, verdict) for one in documents]
+    for line in found + [line for is_own, line in compared if not is_own]:
+        print(shown(line))
+    print(f"{shown(file)}: {'NOT SOUND' if found else 'sound'}")
+    for line in told + [line for is_own, line in compared if is_own]:
+        print("  " + shown(line))
+    return not found and all(is_own for is_own, _ in compared)
+
+
 def main():
     parser = argparse.ArgumentParser(description="Verifies an archive of gumcert, or evidence taken out of one.")
-    parser.add_argument("file")
-    parser.add_argument("document", nargs="*", help="a file that should be a document of the evidence")
+    parser.add_argument("file", nargs="+", help="an archive, heads, or evidence, behind it files that should be documents of it")
     parser.add_argument("--head", action="append", default=[], help="an earlier head (JSON)")
     parser.add_argument("--public-key", default="", help="Ed25519 key that heads must be signed with, 64 hexadecimal digits")
     arguments = parser.parse_intermixed_args()
-    key, told, verdict = arguments.public_key.lower(), [], {}
+    key = arguments.public_key.lower()
     if key and not DIGEST.fullmatch(key):
         parser.error("--public-key has 64 hexadecimal digits")
     try:
-        found = list(findings(arguments.file, arguments.head, key, told.append, verdict))
-        documents = [compared_document(file, verdict) for file in arguments.document]
+        sound = [judged(file, documents, arguments.head, key) for file, documents in with_documents(arguments.file)]
     except OSError as trouble:
         name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename))  # an address in place of a file
         print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
         return 5
-    for line in found + [line for is_own, line in documents if not is_own]:
-        print(shown(line))
-    print(f"{shown(arguments.file)}: {'NOT SOUND' if found else 'sound'}")
-    for line in told + [line for is_own, line in documents if is_own]:
-        print("  " + shown(line))
-    return 1 if found or not all(is_own for is_own, _ in documents) else 0
+    return 0 if all(sound) else 1
 
 
 if __name__ == "__main__":

@@ -128,10 +128,11 @@ public:
             const std::string text = reports::text_of_html(bytes);
             const PrintedDocument page({text});
             require_agreement(file, page);
-            if (reports::has_style_of(bytes, style()) && !page.names_other_templates(words_)) {
-                require_same_page(file, bytes);
-            } else {
+            if (page.names_other_templates(words_)) {
                 findings.take({what_was_compared(file)});
+            } else {
+                require_style_of_templates(file, bytes);
+                require_same_page(file, bytes);
             }
             return document;
         }
@@ -225,14 +226,25 @@ private:
         return *style_;
     }
 
+    [[noreturn]] static void refuse_page(const fs::path& file, const std::string& what) {
+        throw gum::InputError(gum::Diagnostic{
+            .code = "GC-ARCHIVE-0070",
+            .where = file.string(),
+            .what = what + ", and may show another text than it has",
+            .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
+            .action = "make the page with the templates of this program, or add the PDF"});
+    }
+
     void require_nothing_hidden(const fs::path& file, std::string_view html) {
         if (const std::string hidden = reports::hidden_part_of_html(html, style()); !hidden.empty()) {
-            throw gum::InputError(gum::Diagnostic{
-                .code = "GC-ARCHIVE-0070",
-                .where = file.string(),
-                .what = hidden + ", and may show another text than it has",
-                .rule = "what a page says is read from its text, and so it has to show all of its text and no other",
-                .action = "make the page with the templates of this program, or add the PDF"});
+            refuse_page(file, hidden);
+        }
+    }
+
+    /// Pages of changed templates say so: this one is said to be of those of this program.
+    void require_style_of_templates(const fs::path& file, std::string_view html) {
+        if (!reports::has_style_of(html, style())) {
+            refuse_page(file, "has another style sheet than the templates of this program, and names no changed ones");
         }
     }
 

@@ -177,7 +177,7 @@ std::vector<gum::Diagnostic> findings_of(const std::vector<DocumentInHand>& docu
             findings.push_back({.code = "GC-ARCHIVE-0057",
                                 .where = document.file,
                                 .what = document.earlier_of.empty()
-                                            ? "no evidence here names its SHA-256 " + document.sha256
+                                            ? "the evidence before it does not name its SHA-256 " + document.sha256
                                             : "is of an earlier draft of " + text::one_line(document.earlier_of),
                                 .rule = "a document of a certificate is one that its last draft names",
                                 .action = "ask the laboratory for the certificate that it issued"});

@@ -48,14 +48,14 @@ private:
     std::vector<gum::Diagnostic> findings_;
 };
 
-/// A document that somebody has in hand beside evidence.
+/// A document that somebody has in hand beside the evidence that should name it.
 struct DocumentInHand {
     std::string file;
     std::string sha256;
-    bool is_told = false;         ///< an evidence names it
+    bool is_told = false;         ///< its evidence names it
     std::string earlier_of = {};  ///< number of the certificate of which it was a draft; "" without
 };
-/// GC-ARCHIVE-0057 for each one that no evidence names.
+/// GC-ARCHIVE-0057 for each one that its evidence does not name.
 [[nodiscard]] std::vector<gum::Diagnostic> findings_of(const std::vector<DocumentInHand>& documents);
 
 /// What there is to say of a file.

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "app/kinds.h"
 #include "app/output_forms.h"
+#include "archive/store/open_store.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -340,10 +342,10 @@ void add_archive(CLI::App& program, Arguments& a) {
         "archive", "Certificates and their evidence: kept so that nothing is lost, and no change goes unseen");
     ArchiveOptions& o = a.archive;
     command.add_option("ACTION", o.action, "What to do, below")->required()->check(CLI::IsMember(archive_actions()));
-    command.add_option(
-        "NAME", o.named,
-        "Numbers of certificates; of add and amend a record and its documents; of verify evidence, "
-        "behind it documents that should be its own; of list words that number, state, time or item contain");
+    command.add_option("NAME", o.named,
+                       "Numbers of certificates; of add and amend a record and its documents; of verify heads "
+                       "and evidence, behind each evidence documents that should be its own; of list words that "
+                       "number, state, time or item contain");
     add_file(command, "--store", o.store,
              "The archive: one file on a disk of this machine, or a database of PostgreSQL as\n"
              "postgresql://USER@HOST/DATABASE, with the password in ~/.pgpass");
@@ -614,6 +616,31 @@ std::unique_ptr<CLI::App> command_line(Arguments& a, std::string (*version)()) {
     return program;
 }
 
+namespace {
+
+/// What the parser says. It says words of the command line in small letters, and in parts: where one holds a password, which
+/// would not be known again in them, it says no more than the name of the option.
+std::string said_by_parser(const CLI::ParseError& wrong, std::span<char* const> words) {
+    std::string all;
+    for (const char* const word : words) {
+        all += std::string(word) + ' ';
+    }
+    std::string without = all;
+    archive::hide_passwords(without);
+    std::string said = wrong.what();
+    if (without == all) {
+        return said;
+    }
+    const std::string option = said.substr(0, said.find(':'));
+    const bool is_option = option.starts_with("--") && std::any_of(words.begin(), words.end(), [&](const char* word) {
+                               return option == word || std::string_view(word).starts_with(option + '=');
+                           });
+    return (is_option ? option + ": its value" : std::string("a word")) +
+           " has another form than it may have, or is not taken here; words are not shown, because one has a password";
+}
+
+}  // namespace
+
 std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*version)(), Arguments& arguments) {
     const std::unique_ptr<CLI::App> program = command_line(arguments, version);
     try {
@@ -621,7 +648,7 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*v
     } catch (const CLI::Success& asked) {  // --help, --version
         return static_cast<ExitCode>(program->exit(asked));
     } catch (const CLI::ParseError& wrong) {
-        throw std::invalid_argument(wrong.what());
+        throw std::invalid_argument(said_by_parser(wrong, std::span(argv, static_cast<std::size_t>(argc))));
     }
     if (program->get_subcommands().empty()) {
         print_to_stdout("{}", program->help());

@@ -1,5 +1,6 @@
 #include "reports/forms/html_texts.h"
 
+#include "reports/forms/style_sheet.h"
 #include "text/small_letters.h"
 #include "text/utf8.h"
 
@@ -206,62 +207,45 @@ bool is_plain_drawing(std::string_view name) {
     return is_one_of(k_names, name);
 }
 
-/// Whether a declaration of an attribute `style` leaves what it is of to be seen.
-bool is_plain_declaration(std::string_view declaration) {
-    static constexpr std::array<std::string_view, 8> k_properties = {"max-width",   "width",       "text-align",
-                                                                     "font-weight", "font-style",  "vertical-align",
-                                                                     "white-space", "break-inside"};
-    const std::string all = text::in_small_letters(without_any_blanks(declaration));
-    const std::string_view property = std::string_view(all).substr(0, all.find(':'));
-    const bool is_known = is_one_of(k_properties, property) || property == "margin" ||
-                          property.starts_with("margin-") || property == "border" || property.starts_with("border-");
-    return all.empty() || (is_known && all.find('-', property.size()) == std::string::npos &&
-                           all.find('(') == std::string::npos && (property != "width" || !all.ends_with(":0")));
+/// Attributes that neither hide, move or cover what they are of, nor make a text of it; others are refused. Names that begin
+/// with "data-" and "aria-" are plain as well.
+bool is_plain_attribute(std::string_view name) {
+    static constexpr std::array<std::string_view, 37> k_names = {
+        "class", "id",      "lang",  "title",    "alt",     "src",     "href",    "style",   "colspan",  "rowspan",
+        "scope", "headers", "span",  "role",     "name",    "content", "width",   "viewbox", "datetime", "cite",
+        "abbr",  "start",   "value", "type",     "align",   "valign",  "border",  "nowrap",  "rel",      "target",
+        "fill",  "stroke",  "xmlns", "tabindex", "summary", "version", "xml:lang"};
+    return is_one_of(k_names, name) || name.starts_with("data-") || name.starts_with("aria-") ||
+           name == "preserveaspectratio" || name == "shape-rendering";
 }
 
-/// Whether a block of a style sheet could hide what it is of, put texts onto the page or cover others.
-bool may_hide(std::string_view block) {
-    const std::string all = text::in_small_letters(without_any_blanks(block));
-    static constexpr std::array<std::string_view, 16> k_properties = {
-        "display:none", "display:contents",    "visibility:",  "opacity:",
-        "content:",     "content-visibility:", "text-indent:", "clip:",
-        "clip-path:",   "transform:",          "position:",    "filter:",
-        "direction:",   "unicode-bidi:",       "font-size:0",  "line-height:0"};
-    static constexpr std::array<std::string_view, 8> k_words = {"mask",     "mix-blend", "font:0", "transparent",
-                                                                "height:0", "width:0",   ":-",     "@import"};
-    const auto begins_with = [&](std::string_view property) {
-        for (std::size_t at = all.find(property); at != std::string::npos; at = all.find(property, at + 1)) {
-            if (at > 0 && (all[at - 1] == '{' || all[at - 1] == ';')) {
-                return true;
-            }
-        }
-        return false;
-    };
-    return all.find('\\') != std::string::npos || all.find("--") != std::string::npos ||
-           std::any_of(k_properties.begin(), k_properties.end(), begins_with) ||
-           std::any_of(k_words.begin(), k_words.end(),
-                       [&](std::string_view word) { return all.find(word) != std::string::npos; });
+/// Elements that have to be closed in the order in which they were opened: what stands within what is the same for all readers.
+bool is_to_be_closed(std::string_view name) {
+    static constexpr std::array<std::string_view, 25> k_names = {
+        "main", "div",     "header",     "footer", "section", "article", "aside",     "nav", "address",
+        "h1",   "h2",      "h3",         "h4",     "h5",      "h6",      "dl",        "ul",  "ol",
+        "pre",  "caption", "blockquote", "figure", "table",   "center",  "figcaption"};
+    return is_one_of(k_names, name);
 }
 
-/// Blocks of a style sheet, "selectors{declarations}", without comments and blanks.
-std::vector<std::string> style_blocks(std::string_view style) {
-    std::string all;
-    for (std::size_t at = 0; at < style.size();) {
-        const std::size_t comment = std::min(style.find("/*", at), style.size());
-        all += without_any_blanks(style.substr(at, comment - at));
-        const std::size_t end = style.find("*/", std::min(comment + 2, style.size()));
-        at = end == std::string_view::npos ? style.size() : end + 2;
-    }
-    std::vector<std::string> blocks;
-    std::string block;
-    for (const char c : all) {
-        block += c;
-        if (c == '}') {
-            blocks.push_back(std::exchange(block, {}));
+/// Elements that stand as well within a line as beside others, and have no end of their own here.
+bool stands_anywhere(std::string_view name) {
+    static constexpr std::array<std::string_view, 9> k_names = {"img",   "br",    "wbr",  "svg",     "time",
+                                                                "title", "style", "meta", "!doctype"};
+    return is_one_of(k_names, name);
+}
+
+/// Names of the classes of an element, in small letters: pages without a document type ask for no more.
+std::vector<std::string> classes_in(std::string_view value) {
+    std::vector<std::string> names(1);
+    for (const char c : text::in_small_letters(value)) {
+        if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f') {
+            names.emplace_back();
+        } else {
+            names.back() += c;
         }
     }
-    blocks.push_back(std::move(block));
-    return blocks;
+    return names;
 }
 
 /// What the first reference of a text that is none of XML or a number is; browsers know two thousand names.
@@ -320,9 +304,10 @@ private:
     std::vector<std::string> known_;
     std::string found_;
     bool in_head_ = false;
-    std::string line_;              // what was read of it, since the last element that stands not within it
-    bool joins_digits_ = false;     // what comes next is raised, lowered, or behind such a part
-    std::size_t unseen_depth_ = 0;  // of elements within the heads of printed pages, which a screen does not show
+    std::string line_;               // what was read of it, since the last element that stands not within it
+    bool joins_digits_ = false;      // what comes next is raised, lowered, or behind such a part
+    std::vector<std::string> open_;  // elements that have to be closed, the innermost last
+    std::size_t unseen_depth_ = 0;   // of elements within the heads of printed pages, which a screen does not show
 
     void tell(const std::string& what) {
         if (found_.empty()) {
@@ -394,6 +379,7 @@ private:
             return end;
         }
         const bool belongs_to_head = name == "head" || name == "meta" || name == "title" || name == "style";
+        look_at_nesting(name, closes);
         if (in_head_ && !belongs_to_head) {
             tell("has an element \"" + name + "\" in its head");
         }
@@ -421,26 +407,66 @@ private:
         return name == "svg" ? look_at_drawing(end) : end;
     }
 
+    /// Small letters within small letters are not seen in the end, and margins within margins are beside the paper.
+    void look_at_nesting(const std::string& name, bool closes) {
+        constexpr std::size_t k_most_within_a_line = 5;
+        constexpr std::size_t k_most_within_each_other = 16;
+        const bool is_within = is_within_a_line(name);
+        if (stands_anywhere(name)) {
+            return;
+        }
+        if (!is_within && !open_.empty() && is_within_a_line(open_.back())) {
+            tell("has an element \"" + name + "\" within or behind \"" + open_.back() + "\", which is not closed");
+        }
+        if (!is_within && !is_to_be_closed(name)) {
+            return;
+        }
+        if (closes) {
+            if (open_.empty() || open_.back() != name) {
+                tell("closes an element \"" + name + "\" where another one is open");
+            } else {
+                open_.pop_back();
+            }
+            return;
+        }
+        open_.push_back(name);
+        const auto within = static_cast<std::size_t>(
+            std::count_if(open_.begin(), open_.end(), [](const std::string& one) { return is_within_a_line(one); }));
+        const auto alike = static_cast<std::size_t>(std::count(open_.begin(), open_.end(), name));
+        if (within > k_most_within_a_line || open_.size() > k_most_within_each_other + within ||
+            (is_within && alike > (name == "span" ? 2U : 1U))) {
+            tell("has an element \"" + name + "\" within too many others");
+        }
+    }
+
     void look_at_attributes(const std::string& element, std::string_view tag) {
-        static constexpr std::array<std::string_view, 9> k_refused = {
-            "hidden", "popover", "inert", "text", "bgcolor", "color", "background", "height", "usemap"};
         if (const std::string reference = unknown_reference(tag); !reference.empty()) {
             tell("refers to a character as \"" + reference + '"');
         }
         for (const auto& [name, value] : attributes_of(tag)) {
-            const bool is_size = name == "height" && (element == "svg" || element == "img");
-            if ((is_one_of(k_refused, name) && !is_size) || name.starts_with("on") ||
-                (name == "dir" && value == "rtl") ||
-                (name == "http-equiv" && text::in_small_letters(value) == "refresh")) {
+            const bool is_picture = element == "svg" || element == "img";
+            const std::string small = text::in_small_letters(value);
+            // The place of a drawing is one within another drawing, and says nothing on a page.
+            const bool is_of_picture = is_picture && (name == "height" || name == "x" || name == "y");
+            const bool is_known = is_plain_attribute(name) || is_of_picture || (name == "dir" && small == "ltr") ||
+                                  (name == "charset" && small == "utf-8") ||
+                                  (name == "http-equiv" && small == "content-security-policy");
+            constexpr std::size_t k_digits_of_border = 2;
+            if (!is_known || (name == "border" && value.size() > k_digits_of_border)) {
                 tell("has an element \"" + element + "\" with \"" + name + '"');
             }
-            if (name == "class" && (' ' + value + ' ').find(" page-head ") != std::string::npos) {
-                element == "div" ? void(unseen_depth_ += unseen_depth_ == 0 ? 1U : 0U)
-                                 : tell("has an element \"" + element + "\" that a screen does not show");
+            for (const std::string& one : name == "class" ? classes_in(value) : std::vector<std::string>()) {
+                if (one == "page-head") {
+                    element == "div" ? void(unseen_depth_ += unseen_depth_ == 0 ? 1U : 0U)
+                                     : tell("has an element \"" + element + "\" that a screen does not show");
+                }
+                if (one == "symbol" && element != "img") {
+                    tell("has an element \"" + element + "\" with the height of a symbol");
+                }
             }
             for (std::size_t at = 0; name == "style" && at < value.size();) {
                 const std::size_t end = std::min(value.find(';', at), value.size());
-                if (!is_plain_declaration(std::string_view(value).substr(at, end - at))) {
+                if (!is_plain_declaration(std::string_view(value).substr(at, end - at), element == "img")) {
                     tell("has an element \"" + element + "\" with the style \"" + value.substr(at, end - at) + '"');
                 }
                 at = end + 1;
@@ -450,8 +476,9 @@ private:
 
     void look_at_style(std::string_view style) {
         for (const std::string& block : style_blocks(style)) {
-            if (may_hide(block) && !std::binary_search(known_.begin(), known_.end(), block)) {
-                tell("has \"" + block + "\" in its style sheet");
+            if (!std::binary_search(known_.begin(), known_.end(), block) && !is_plain_block(block)) {
+                constexpr std::size_t k_shown = 200;  // bytes
+                tell("has \"" + block.substr(0, k_shown) + "\" in its style sheet");
             }
         }
     }
@@ -523,9 +550,11 @@ std::vector<std::string> languages_of_html(std::string_view html) {
 bool has_style_of(std::string_view html, std::string_view style) {
     const std::size_t open = html.find("<style>");
     const std::size_t close = html.find("</style>");
-    return open != std::string_view::npos && close != std::string_view::npos && open < close &&
-           html.find("<style", open + 1) == std::string_view::npos &&
-           without_any_blanks(html.substr(open + 7, close - open - 7)) == without_any_blanks(style);
+    if (open == std::string_view::npos || close == std::string_view::npos || close < open + 7 ||
+        text::in_small_letters(html).find("<style", open + 1) != std::string::npos) {
+        return false;
+    }
+    return style_blocks(html.substr(open + 7, close - open - 7)) == style_blocks(style);
 }
 
 }  // namespace gumcert::reports

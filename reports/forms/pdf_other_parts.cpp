@@ -4,10 +4,13 @@
 
 #include <qpdf/QPDFNameTreeObjectHelper.hh>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <new>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +32,28 @@ bool is_plain_action(QPDFObjectHandle action) {
     const std::string kind = name_at(action, "/S");
     return action.isNull() || action.isArray() || action.isName() || action.isString() ||
            ((kind == "/GoTo" || kind == "/URI") && !action.hasKey("/Next"));
+}
+
+/// Actions that do more than to go to a place of the document or to open an address, ISO 32000-2:2020, table 201.
+bool is_other_action(const std::string& kind) {
+    static constexpr std::array<std::string_view, 18> k_kinds = {
+        "/GoToR",      "/GoToE",       "/GoToDp",    "/Launch",     "/Thread",     "/Sound",
+        "/Movie",      "/Hide",        "/Named",     "/SubmitForm", "/ResetForm",  "/ImportData",
+        "/JavaScript", "/SetOCGState", "/Rendition", "/Trans",      "/GoTo3DView", "/RichMediaExecute"};
+    return std::find(k_kinds.begin(), k_kinds.end(), kind) != k_kinds.end();
+}
+
+/// The first key of a dictionary that is not listed; "" without one.
+template <std::size_t N>
+std::string other_key(QPDFObjectHandle dictionary, const std::array<std::string_view, N>& keys) {
+    if (dictionary.isDictionary()) {
+        for (const std::string& key : dictionary.getKeys()) {
+            if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+                return key;
+            }
+        }
+    }
+    return {};
 }
 
 /// Whether an annotation has a place on the page.
@@ -70,6 +95,9 @@ public:
 
     PdfOtherParts found() {
         look_at_document(pdf_.getRoot());
+        for (const QPDFObjectHandle& object : pdf_.getAllObjects()) {
+            look_at_object(object);
+        }
         std::size_t number = 0;
         for (const QPDFObjectHandle& page : pdf_.getAllPages()) {
             look_at_page(page, " on page " + std::to_string(++number));
@@ -85,6 +113,7 @@ public:
 private:
     QPDF pdf_;
     PdfOtherParts parts_;
+    std::set<QPDFObjGen> named_files_;  // streams, of which the contents are known to whoever asks
 
     void refuse(bool is_there, const std::string& what) {
         if (is_there && parts_.refused.empty()) {
@@ -106,12 +135,96 @@ private:
             QPDFNameTreeObjectHelper tree(files, pdf_, false);
             for (auto file = tree.begin(); file != tree.end() && parts_.attached_files < k_most_files; ++file) {
                 ++parts_.attached_files;
+                // As signing reads them: the stream of the one key, or of the other one.
+                QPDFObjectHandle of_file = entry_of((*file).second, "/EF");
+                QPDFObjectHandle stream = entry_of(of_file, "/UF");
+                stream = stream.isStream() ? stream : entry_of(of_file, "/F");
+                named_files_.insert(stream.getObjGen());
+            }
+        }
+        // What a viewer does with a document begins here: what is not listed may be anything.
+        static constexpr std::array<std::string_view, 22> k_keys = {
+            "/Type",     "/Version",    "/Extensions", "/Pages",         "/PageLabels",        "/Names",
+            "/PageMode", "/PageLayout", "/Outlines",   "/OpenAction",    "/ViewerPreferences", "/AcroForm",
+            "/Metadata", "/MarkInfo",   "/Lang",       "/OutputIntents", "/StructTreeRoot",    "/AF",
+            "/DSS",      "/Perms",      "/Dests",      "/PieceInfo"};
+        static constexpr std::array<std::string_view, 2> k_names = {"/Dests", "/EmbeddedFiles"};
+        const std::string other = other_key(catalog, k_keys);
+        refuse(!other.empty(), "has \"" + other + "\" in its catalog");
+        const std::string other_name = other_key(names, k_names);
+        refuse(!other_name.empty(), "has \"" + other_name + "\" among its names");
+        refuse(name_at(entry_of(catalog, "/ViewerPreferences"), "/Direction") == "/R2L", "is read from right to left");
+    }
+
+    /// An object and what stands within it, not what it refers to.
+    void look_at_object(const QPDFObjectHandle& object) {
+        std::vector<QPDFObjectHandle> left{object};
+        while (!left.empty() && parts_.refused.empty()) {
+            QPDFObjectHandle one = left.back();
+            left.pop_back();
+            if (one.isStream()) {
+                look_at_file(one, one.getDict().getKey("/Type").isNameAndEquals("/EmbeddedFile"));
+                one = one.getDict();
+                refuse(one.hasKey("/F"), "has a stream in another file");
+            }
+            std::vector<QPDFObjectHandle> within;
+            if (one.isDictionary()) {
+                look_at_dictionary(one);
+                for (const auto& [key, value] : one.getDictAsMap()) {
+                    within.push_back(value);
+                }
+            } else if (one.isArray()) {
+                within = one.getArrayAsVector();
+            }
+            for (QPDFObjectHandle& value : within) {
+                if (!value.isIndirect()) {
+                    left.push_back(value);
+                }
             }
         }
     }
 
+    void look_at_dictionary(QPDFObjectHandle dictionary) {
+        const std::string kind = name_at(dictionary, "/S");
+        QPDFObjectHandle action = entry_of(dictionary, "/A");
+        refuse(is_other_action(kind), "has an action \"" + (kind.empty() ? kind : kind.substr(1)) + '"');
+        refuse((kind == "/GoTo" || kind == "/URI") && dictionary.hasKey("/Next"), "has an action behind another one");
+        refuse(action.isDictionary() && action.hasKey("/S") && !is_plain_action(action), "has an action");
+        refuse(dictionary.hasKey("/AA"), "has an action that begins by itself");
+        QPDFObjectHandle script = entry_of(dictionary, "/JS");
+        refuse(script.isString() || script.isStream(), "has JavaScript");
+        QPDFObjectHandle files = entry_of(dictionary, "/EF");
+        if (files.isDictionary()) {
+            for (const auto& [key, file] : files.getDictAsMap()) {
+                look_at_file(file, true);
+            }
+        }
+        const bool is_catalog = dictionary.isSameObjectAs(pdf_.getRoot());
+        refuse(!is_catalog && dictionary.hasKey("/AF") && !entry_of(dictionary, "/AF").isNull(),
+               "has a file that is attached to a part of it");
+    }
+
+    void look_at_file(QPDFObjectHandle stream, bool is_file) {
+        refuse(is_file && !named_files_.contains(stream.getObjGen()),
+               "has an attached file that is not among those with a name");
+    }
+
     void look_at_page(QPDFObjectHandle page, const std::string& where) {
         refuse(page.hasKey("/AA"), "has an action" + where);
+        // Not those that turn a page, show a part of it, or show it in another size, nor those above it, which it takes over.
+        static constexpr std::array<std::string_view, 15> k_keys = {
+            "/Type",  "/Parent",  "/Resources", "/MediaBox", "/Contents",     "/StructParents", "/Annots",   "/Tabs",
+            "/Group", "/TrimBox", "/BleedBox",  "/ArtBox",   "/LastModified", "/Metadata",      "/PieceInfo"};
+        static constexpr std::array<std::string_view, 6> k_keys_above = {"/Type",  "/Parent",    "/Kids",
+                                                                         "/Count", "/Resources", "/MediaBox"};
+        const std::string other = other_key(page, k_keys);
+        refuse(!other.empty(), "has \"" + other + '"' + where);
+        QPDFObjectHandle above = entry_of(page, "/Parent");
+        for (int i = 0; i < k_most_levels && above.isDictionary(); ++i) {
+            const std::string other_above = other_key(above, k_keys_above);
+            refuse(!other_above.empty(), "has \"" + other_above + "\" above" + where.substr(3));
+            above = entry_of(above, "/Parent");
+        }
         QPDFObjectHandle annotations = entry_of(page, "/Annots");
         for (int i = 0; annotations.isArray() && i < annotations.getArrayNItems(); ++i) {
             look_at_annotation(annotations.getArrayItem(i), where);
@@ -136,6 +249,7 @@ private:
     }
 
     static constexpr std::size_t k_most_files = 100;
+    static constexpr int k_most_levels = 32;
 };
 
 }  // namespace

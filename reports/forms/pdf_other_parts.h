@@ -9,11 +9,13 @@ namespace gumcert::reports {
 /// What a PDF has beside the contents of its pages.
 struct PdfOtherParts {
     std::string refused;  ///< the first thing by which it may show something else than they say; "" without one
-    std::size_t attached_files = 0;    ///< by name
+    std::size_t attached_files = 0;    ///< by name; there are no others
     bool has_drawn_signature = false;  ///< a signature has a picture, which may lie over contents
 };
 
-/// Annotations other than links, actions, fields other than those of signatures, layers, and files that are attached to a place.
+/// Annotations other than links, actions wherever they are that do more than to go to a place or to open an address, fields
+/// other than those of signatures, layers, files that are attached without a name or to a part, and whatever else a catalog or a
+/// page has that is not listed.
 /// \throws std::exception of the reader if the file is no PDF, or damaged
 [[nodiscard]] PdfOtherParts other_parts_of_pdf(std::string_view pdf);
 

@@ -276,6 +276,47 @@ def statements_and_trust(both, signed, heads):
         both.judge("the time of the head is none", changed(unsigned, ("head", "at"), set_to(text)), sound=False)
 
 
+def several_files(both, signed, rng):
+    """Files in any order: each document belongs to the evidence before it, and both verifiers go by that."""
+    expect(len(signed) > 1, "evidence of two certificates is asked for")
+    own, files = {}, []
+
+    def digest_of(file):
+        return hashlib.sha256((both.folder / file).read_bytes()).hexdigest()
+
+    for index, evidence in enumerate(signed.values()):
+        name = f"several{index}.json"
+        (both.folder / name).write_text(json.dumps(evidence))
+        documents = [f"several{index}-{number}.pdf" for number in range(len(evidence["contents"]))]
+        for document, content in zip(documents, evidence["contents"], strict=True):
+            (both.folder / document).write_bytes(base64.b64decode(content["base64"]))
+        told = {}
+        list(verify_archive.verify_evidence(evidence, [], "", told))
+        own[name] = {digest for _, digest, holds in told["parts"] if holds}
+        files += [name, rng.choice([one for one in documents if digest_of(one) in own[name]])]
+    both.run("head", "--store", "a.archive", "-o", "several.head")
+    files += ["several.head", "other.pdf"]
+
+    def is_right(order):
+        last = None
+        for file in order:
+            if file in own:
+                last = file
+            elif file != "several.head" and (last is None or digest_of(file) not in own[last]):
+                return False
+        return True
+
+    orders = [files[:2] + files[2:4], files[:1] + files[2:3], [files[0], files[2], files[1]], [files[2], files[1], files[0]], [files[1], files[0]],
+              [files[0], "several.head", files[1]], ["several.head", files[1]], [files[0], "several.head"]]
+    orders += [rng.sample(files, rng.randint(1, len(files))) for _ in range(12)]
+    for order in orders:
+        first = both.run("verify", *order)
+        second = subprocess.run([sys.executable, "-B", ROOT / "tools" / "verify_archive.py", *order], capture_output=True, cwd=both.folder, check=False)
+        both.cases += 1
+        for name, ended in (("the program", first), ("the other verifier", second)):
+            expect((ended.returncode == 0) == is_right(order), f"{order}: {name} ends with {ended.returncode}: {ended.stdout} {ended.stderr}")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
@@ -315,6 +356,14 @@ def main():
         number = by_state.get("issued") or next(iter(by_state.values()))
         signed = export(number, "--sign", "key.pem", "--since", "early.json")
         both.judge("extends an earlier head", signed, heads=["early.json"], trust=False, sound=True)
+        copy_of_head = json.loads((folder / "late.json").read_bytes())
+        for what, other in (("itself", copy_of_head), ("itself without a proof", changed(copy_of_head, ("extends",), removed)),
+                            ("itself without a signature", changed(copy_of_head, ("signature",), removed))):
+            (folder / "copy.json").write_text(json.dumps(other))
+            both.judge(f"a head beside {what}", copy_of_head, heads=["copy.json"], sound=True)
+            both.judge(f"{what}, beside a head", other, heads=["late.json"], sound=True)
+        (folder / "copy.json").write_text(json.dumps(changed(copy_of_head, ("at",), set_to("2026-01-01T00:00:00Z"))))
+        both.judge("a head beside one of another time", copy_of_head, heads=["copy.json"], sound=False)
         both.judge("a proof of another head", changed(signed, ("head", "extends", "root"), set_to("0" * 64)), sound=False)
         both.judge("does not prove that it extends", export(number, "--sign", "key.pem"), heads=["early.json"], sound=False)
         both.judge("an earlier head that is not signed", signed, heads=["early.json"], trust=True, sound=False)
@@ -327,6 +376,7 @@ def main():
         both.judge("another document", signed, trust=True, documents=["other.pdf"], sound=False)
 
         plain = changed(changed(signed, ("states",), removed), ("head", "signature"), removed)
+        several_files(both, {one: export(one, "--sign", "key.pem") for one in list(by_state.values())[:2]}, rng)
         numbers_of_rules(both, plain)
         for base, trust in ((signed, False), (plain, False)):
             for what, text in texts_of(base):

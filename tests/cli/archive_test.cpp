@@ -271,6 +271,9 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     };
     EXPECT_TRUE(tells(edited("<main>", "<main><p hidden>x</p>"), "[GC-ARCHIVE-0070]"));
     EXPECT_TRUE(tells(edited("</style>", "h1 { display: none }</style>"), "[GC-ARCHIVE-0070]"));
+    // A page that names no changed templates has the sheet of those of this program, without even a plain rule more.
+    EXPECT_TRUE(tells(edited("</style>", "h1 { margin: 0 }</style>"), "names no changed ones"));
+    EXPECT_TRUE(tells(edited("</head>", "<style>td,dd{color:#fff}</style></head>"), "[GC-ARCHIVE-0070]"));
     EXPECT_TRUE(tells(edited("Example Customer", "Another Customer"), "[GC-ARCHIVE-0038]"));
     EXPECT_TRUE(
         tells(edited("reproduced only in full", "reproduced in part"), "and the page that the record gives says"));
@@ -295,6 +298,9 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
         const Ended taken = archive({"add", path("later.json"), path("later.xml"), page}, "R. Lin");
         EXPECT_EQ(taken.code, 0) << taken.err;
     }
+    const Ended of_others = edited("<main>", "<main><p>gumcert 0.1.0 changed templates 0123abcd</p>");
+    EXPECT_EQ(of_others.code, 0) << of_others.err;
+    EXPECT_TRUE(tells(of_others, "[GC-ARCHIVE-0071]"));
 }
 
 /// Bytes that somebody exchanged in the store are judged by nobody, and neither is an edited table of lists.
@@ -612,6 +618,39 @@ TEST_F(ArchiveOfALaboratory, NeverShowsAPassword) {
     EXPECT_EQ(verified_elsewhere({address}).err.find("S3cret"), std::string::npos);
 }
 
+// Law: whichever option is given an address, no part of the password is said, in letters of whichever size.
+TEST_F(ArchiveOfALaboratory, NeverShowsAPartOfAPassword) {
+    const std::string help = gumcert({"archive", "--help"}).out;
+    std::vector<std::string> options;
+    for (std::size_t at = help.find("--"); at != std::string::npos; at = help.find("--", at + 2)) {
+        const std::size_t end = help.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at);
+        options.push_back(help.substr(at, end - at));
+    }
+    ASSERT_GT(options.size(), 20U);
+    fs::create_directories(folder() / "empty");
+    const auto is_silent = [&](const std::vector<std::string>& words) {
+        const Ended ended = gumcert(words, {.working_folder = folder() / "empty"});
+        std::string said = ended.out + ended.err;
+        std::transform(said.begin(), said.end(), said.begin(), [](unsigned char c) { return std::tolower(c); });
+        for (const char* const part : {"s3c", "3cr", "etpw"}) {
+            EXPECT_EQ(said.find(part), std::string::npos) << words.back() << ": " << said;
+        }
+        return ended;
+    };
+    for (const std::string& option : options) {
+        for (const char* const value :
+             {"host=127.0.0.1 password=S3cRetPw", "7 password='S3cRetPw'", "postgresql://u:S3cRetPw@h/db"}) {
+            is_silent({"archive", "list", "--store", store(), option, value});
+            is_silent({"archive", "list", "--store", store(), option + "=" + value});
+        }
+    }
+    EXPECT_TRUE(
+        tells(is_silent({"archive", "list", "--memory-limit", "host=1 password=S3cRetPw"}), "--memory-limit: "));
+    is_silent({"archive", "list", "--memory-limit", "password=", "S3cRetPw"});
+    is_silent({"archive", "password=S3cRetPw"});
+    is_silent({"password=S3cRetPw", "list"});
+}
+
 TEST_F(ArchiveOfALaboratory, ExportsNothingOfANumberAlone) {
     begin({"--numbering", "N-###"});
     ASSERT_EQ(archive({"number"}, "K. Keeper").code, 0);
@@ -698,6 +737,16 @@ TEST_F(ArchiveOfALaboratory, SeesThatTheEndWasCutOff) {
     EXPECT_EQ(ended.code, 1);
     EXPECT_TRUE(tells(ended, "[GC-ARCHIVE-0045]")) << ended.err;
     EXPECT_EQ(verified_elsewhere({store(), "--head", path("head.json")}).code, 1);
+}
+
+TEST_F(ArchiveOfALaboratory, TakesTwoCopiesOfOneHeadForOne) {
+    issue_the_example();
+    for (const char* const name : {"a.json", "b.json"}) {
+        ASSERT_EQ(archive({"head", "-o", path(name)}).code, 0);
+    }
+    const Ended ended = gumcert({"archive", "verify", path("a.json"), "--head", path("b.json")});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(verified_elsewhere({path("a.json"), "--head", path("b.json")}).code, 0);
 }
 
 TEST_F(ArchiveOfALaboratory, SignsItsHead) {

@@ -111,27 +111,35 @@ void require_own_evidence(const fs::path& file, const std::string& number) {
     }
 }
 
-/// Evidence and heads, each by itself; behind the first evidence also documents that should be of one of them.
+/// A file that is verified, and the documents in hand that should be those of it.
+struct GivenFile {
+    std::string file;
+    std::vector<app::DocumentInHand> documents;
+};
+
+/// Evidence and heads, each by itself; what is neither, and stands behind evidence, should be a document of the evidence
+/// before it. tools/verify_archive.py reads its files in the same way.
 ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
     const app::TrustedHeads heads(options.heads, options.trust, latest_time());
-    std::vector<app::DocumentInHand> documents;
-    std::vector<std::string> evidence;
-    bool has_evidence = false;
+    std::vector<GivenFile> given;
+    std::optional<std::size_t> evidence;  // the last one
     ExitCode code = done;
     for (const std::string& file : options.named) {
         code = std::max(code, explained(common, [&] {
                             const std::string text = app::read_file(file);
                             const app::ArchiveFile kind = app::archive_file_of(text);
-                            if (kind == app::ArchiveFile::other && has_evidence) {
-                                documents.push_back({file, encoding::sha256(text)});
-                            } else {
-                                evidence.push_back(file);
-                                has_evidence = has_evidence || kind == app::ArchiveFile::evidence;
+                            if (kind == app::ArchiveFile::other && evidence) {
+                                given[*evidence].documents.push_back({file, encoding::sha256(text)});
+                                return done;
                             }
+                            evidence = kind == app::ArchiveFile::evidence ? given.size() : evidence;
+                            given.push_back({file, {}});
                             return done;
                         }));
     }
-    for (const std::string& file : evidence) {
+    const std::string* compared = nullptr;  // the first document that was
+    bool has_others = false;
+    for (auto& [file, documents] : given) {
         code = std::max(code, explained(common, [&] {
                             const std::string text = app::read_file(file);
                             const app::VerifiedFile said = app::archive_file_of(text) == app::ArchiveFile::head
@@ -145,13 +153,15 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
                             }
                             return said.sound() ? done : negative_answer;
                         }));
+        const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
+        print_findings(of_others, common);
+        has_others = has_others || !of_others.empty();
+        compared = compared == nullptr && !documents.empty() ? &documents.front().file : compared;
     }
-    const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
-    print_findings(of_others, common);
-    if (!documents.empty() && of_others.empty()) {
+    if (compared != nullptr && !has_others) {
         const std::vector<gum::Diagnostic> notes{
             {.code = "GC-ARCHIVE-0071",
-             .where = documents.front().file,
+             .where = *compared,
              .what = "compared with the evidence: its bytes, by their SHA-256; not compared here: what its pages say "
                      "with what "
                      "the record says",
@@ -160,7 +170,7 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
              .severity = gum::Severity::note}};
         print_messages(notes, common);
     }
-    return of_others.empty() ? code : std::max(code, negative_answer);
+    return has_others ? std::max(code, negative_answer) : code;
 }
 
 }  // namespace

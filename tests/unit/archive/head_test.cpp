@@ -91,7 +91,8 @@ TEST(ArchiveHead, ProvesThatItExtendsEveryEarlierOne) {
         EXPECT_EQ(read, *later);
         EXPECT_EQ(signed_bytes(read), signed_bytes(log.head())) << "a proof needs no signature";
         for (std::size_t j = 0; j < heads.size(); ++j) {
-            EXPECT_EQ(proves_extension(read, heads[j]), i == j);
+            // Of its own size it is a copy, which needs no proof.
+            EXPECT_EQ(proves_extension(read, heads[j]), i == j || j + 1 == heads.size());
         }
         Head other = read;
         other.extends->size = 21;
@@ -99,6 +100,19 @@ TEST(ArchiveHead, ProvesThatItExtendsEveryEarlierOne) {
         other = read;
         other.root = heads[0].root;
         EXPECT_FALSE(proves_its_extension(other));
+    }
+    for (const Head& head : heads) {
+        EXPECT_TRUE(proves_extension(head, head)) << head.size;
+        Head is_signed = head;
+        is_signed.signature = Head::Signature{std::string(32, 'k'), std::string(64, 's')};
+        EXPECT_TRUE(proves_extension(is_signed, head)) << head.size;
+        EXPECT_TRUE(proves_extension(head, is_signed)) << head.size;
+        for (std::string Head::*const part : {&Head::archive, &Head::root, &Head::chain, &Head::at}) {
+            Head other = head;
+            other.*part += 'x';
+            EXPECT_FALSE(proves_extension(other, head)) << head.size;
+            EXPECT_FALSE(proves_extension(head, other)) << head.size;
+        }
     }
     Head rewritten = heads[4];
     rewritten.root = heads[5].root;

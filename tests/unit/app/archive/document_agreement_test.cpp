@@ -8,6 +8,7 @@
 
 #include "app/archive/dcc_agreement.h"
 #include "app/evaluate_job.h"
+#include "app/read_file.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
@@ -77,11 +78,15 @@ void change_digits(std::string& printed) {
 }
 
 TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
+    const std::string sheet = read_file(k_agreement_templates / "certificate.css");
     for (const auto& [name, record] : example_certificates()) {
         for (const std::vector<std::string>& languages :
              std::vector<std::vector<std::string>>{{}, {"en"}, {"de"}, {"es"}, {"zh-Hant"}, {"de", "en"}}) {
             const std::string html = page_of(record, languages);
             EXPECT_EQ(disagreement(html, record), "") << name << " " << testing::PrintToString(languages);
+            EXPECT_EQ(reports::hidden_part_of_html(html, sheet), "")
+                << name << " " << testing::PrintToString(languages);
+            EXPECT_TRUE(reports::has_style_of(html, sheet)) << name;
             EXPECT_TRUE(says_number(html, record.certificate->data.number)) << name;
             EXPECT_FALSE(says_number(html, record.certificate->data.number + "1")) << name;
         }

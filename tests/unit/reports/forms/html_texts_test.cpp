@@ -46,9 +46,10 @@ TEST(TextsOfHtml, HideNothing) {
           "<img class=\"symbol\" style=\"max-width: 20rem; margin-left: 0\" src=\"data:image/png;base64,AA==\" "
           "alt=\"a\">",
           "<div class=\"page-head\"><div><span data-text=\"x\"></span></div></div><p>y</p>",
-          "<svg viewBox=\"0 0 1 1\"><g><text>1</text></g></svg>", "<!-- remark -->x", "a &lt; b & c",
-          "4.9 \u00D7 10<sup>\u22123</sup>", "4.9\u00B710<sup>3</sup>", "m<sup>2</sup>", "<i>R</i><sub>0</sub> = 5",
-          "4.9 <sup>1</sup>", "<p>5</p><sup>2</sup>", ""}) {
+          "<svg viewBox=\"0 0 1 1\"><g><text>1</text></g></svg>",
+          "<svg x=\"0\" y=\"0\" width=\"9\" height=\"9\" viewBox=\"0 0 9 9\" shape-rendering=\"crispEdges\"></svg>",
+          "<!-- remark -->x", "a &lt; b & c", "4.9 \u00D7 10<sup>\u22123</sup>", "4.9\u00B710<sup>3</sup>",
+          "m<sup>2</sup>", "<i>R</i><sub>0</sub> = 5", "4.9 <sup>1</sup>", "<p>5</p><sup>2</sup>", ""}) {
         EXPECT_EQ(hidden_part_of_html(page, k_sheet), "") << page;
     }
 }
@@ -101,8 +102,38 @@ TEST(TextsOfHtml, TellWhatMayBeHidden) {
                                    "10<sup>0838</sup>",
                                    "<sup>\u2212</sup>4.9",
                                    "<sub>5</sub>4.9",
-                                   "<ol><s>4.9</s></ol>"}) {
+                                   "<ol><s>4.9</s></ol>",
+                                   "<div class=\"a\tPage-Head\">4.9</div>",
+                                   "<p class=\"symbol\">4.9</p>",
+                                   "<p dir=\"RTL\">4.9</p>",
+                                   "<style media=\"print\">p { margin: 0 }</style>",
+                                   "<meta charset=\"utf-16\">",
+                                   "<svg overflow=\"visible\"></svg>",
+                                   "<svg transform=\"scale(9)\"></svg>",
+                                   "<table border=\"9999\"></table>",
+                                   "<table cellpadding=\"9999\"></table>",
+                                   "<p style=\"max-width: 1px\">4.9</p>",
+                                   "<p style=\"font-weight: bold; border: 99px solid white\">4.9</p>",
+                                   "<small><small>4.9</small></small>",
+                                   "<small><p>4.9</p></small>",
+                                   "<table><tr><td></small><small>4.9</td></tr></table>",
+                                   "<b><i>4.9</b></i>",
+                                   "<ul></div></ul>"}) {
         EXPECT_NE(hidden_part_of_html(page, k_sheet), "") << page;
+    }
+}
+
+// Law: what is within something within something comes to an end, whichever elements they are.
+TEST(TextsOfHtml, AreWithinFewElements) {
+    for (const std::string& name :
+         {std::string("div"), std::string("ul"), std::string("blockquote"), std::string("small"), std::string("sub"),
+          std::string("span"), std::string("code")}) {
+        std::string page = "4.9";
+        for (int i = 0; i < 40; ++i) {
+            page = "<" + name + ">" + page + "</" + name + ">";
+        }
+        EXPECT_NE(hidden_part_of_html(page, k_sheet), "") << name;
+        EXPECT_EQ(hidden_part_of_html("<" + name + ">4.9</" + name + ">", k_sheet), "") << name;
     }
 }
 

@@ -38,6 +38,12 @@ TEST(PdfOtherParts, OfAPlainDocumentAreNone) {
           {"/OpenAction [0 /Fit]", ""},
           {"/OpenAction << /S /GoTo /D [0 /Fit] >>", ""},
           {"/Names << /Dests << /Names [] >> >>", ""},
+          {"/Outlines << /Type /Outlines /First << /Title (x) /Dest [0 /Fit] /Next << /Title (y) >> >> >>", ""},
+          {"/Outlines << /First << /A << /S /GoTo /D [0 /Fit] >> /Next << /A << /S /URI /URI (x) >> >> >> >>", ""},
+          {"/StructTreeRoot << /K << /S /P /A << /O /Layout /Placement /Block >> >> >>", ""},
+          {"/ViewerPreferences << /Direction /L2R >> /Lang (en) /MarkInfo << /Marked true >> /Metadata null", ""},
+          {"/AcroForm << /Fields [] /SigFlags 3 >> /DSS << >> /Extensions << >> /Version /2.0", ""},
+          {"", "/Tabs /S /Group << /S /Transparency >> /StructParents 0"},
           {"", "/Annots []"},
           {"", "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /A << /S /URI /URI (x) >> >>]"},
           {"", "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /Dest [0 /Fit] >>]"},
@@ -55,7 +61,9 @@ TEST(PdfOtherParts, AreToldWhereTheyMayShowSomethingElse) {
          {"/OpenAction << /S /JavaScript /JS (x) >>", "/OpenAction << /S /Launch >>", "/AA << >>",
           "/OpenAction << /S /GoTo /D [0 /Fit] /Next << /S /JavaScript /JS (x) >> >>",
           "/Names << /JavaScript << /Names [] >> >>", "/OCProperties << /OCGs [] >>", "/Collection << >>",
-          "/AcroForm << /Fields [] /XFA (x) >>"}) {
+          "/AcroForm << /Fields [] /XFA (x) >>", "/Threads []", "/URI << /Base (x) >>", "/Requirements []",
+          "/Unknown 1", "/Names << /Pages << /Names [] >> >>", "/ViewerPreferences << /Direction /R2L >>",
+          "/Outlines << /First << /A << /S /GoTo /D [0 /Fit] /Next << /S /URI /URI (x) >> >> >> >>"}) {
         EXPECT_NE(other_parts_of_pdf(pdf_with_parts(catalog, "")).refused, "") << catalog;
     }
     for (const char* const kind : {"Stamp", "FreeText", "Text", "Square", "Highlight", "Ink", "Redact",
@@ -67,8 +75,102 @@ TEST(PdfOtherParts, AreToldWhereTheyMayShowSomethingElse) {
          {"/AA << /O << /S /JavaScript /JS (x) >> >>", "/Annots [<< /Subtype /Widget /FT /Tx /Rect [0 0 9 9] >>]",
           "/Annots [<< /Subtype /Widget /Parent << /FT /Btn >> /Rect [0 0 0 0] >>]", "/Annots [<< /Rect [0 0 9 9] >>]",
           "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /A << /S /JavaScript /JS (x) >> >>]",
-          "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /AP << >> >>]"}) {
+          "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /AP << >> >>]", "/Rotate 180", "/CropBox [0 0 1 1]",
+          "/UserUnit 0.01", "/Trans << /S /Fade >>", "/Thumb << >>", "/AF []", "/Unknown 1"}) {
         EXPECT_NE(other_parts_of_pdf(pdf_with_parts("", page)).refused, "") << page;
+    }
+}
+
+/// A PDF with an object more, which may be one that nothing refers to.
+std::string pdf_with_object(const std::string& object, bool in_outlines) {
+    QPDF pdf;
+    pdf.emptyPDF();
+    auto page = QPDFObjectHandle::parse("<< /Type /Page /MediaBox [0 0 595 842] /Resources << >> >>");
+    pdf.addPage(pdf.makeIndirectObject(page), false);
+    QPDFObjectHandle made = pdf.makeIndirectObject(QPDFObjectHandle::parse(&pdf, object));
+    if (in_outlines) {
+        pdf.getRoot().replaceKey("/Outlines", QPDFObjectHandle::parse(&pdf, "<< /First << /Title (x) >> >>"));
+        pdf.getRoot().getKey("/Outlines").getKey("/First").replaceKey("/A", made);
+    } else {
+        QPDFObjectHandle first = pdf.getAllPages().front();
+        first.getKey("/Resources").replaceKey("/Properties", made);
+    }
+    QPDFWriter writer(pdf);
+    writer.setOutputMemory();
+    writer.setStaticID(true);
+    writer.write();
+    const auto buffer = writer.getBufferSharedPointer();
+    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+}
+
+// Law: an action that does more than to go somewhere is found in whatever it stands, at whatever depth; the kinds are those of
+// ISO 32000-2:2020, table 201.
+TEST(PdfOtherParts, HaveNoOtherActionAnywhere) {
+    for (const char* const kind :
+         {"GoToR",       "GoToE",     "GoToDp", "Launch",     "Thread",           "URI",        "Sound",
+          "Movie",       "Hide",      "Named",  "SubmitForm", "ResetForm",        "ImportData", "JavaScript",
+          "SetOCGState", "Rendition", "Trans",  "GoTo3DView", "RichMediaExecute", "GoTo"}) {
+        const std::string action = std::string("<< /S /") + kind + " /D [0 /Fit] >>";
+        const bool is_plain = kind == std::string("URI") || kind == std::string("GoTo");
+        for (const bool in_outlines : {true, false}) {
+            std::string object = action;
+            for (int depth = 0; depth < 5; ++depth) {
+                const std::string refused = other_parts_of_pdf(pdf_with_object(object, in_outlines)).refused;
+                EXPECT_EQ(refused.empty(), is_plain) << object << refused;
+                object = depth % 2 == 0 ? "[" + object + "]" : "<< /K " + object + " >>";
+            }
+        }
+        EXPECT_NE(other_parts_of_pdf(pdf_with_object("<< /S /GoTo /Next " + action + " >>", true)).refused, "");
+        EXPECT_NE(other_parts_of_pdf(pdf_with_object("<< /AA << /O " + action + " >> >>", false)).refused, "");
+    }
+    EXPECT_NE(other_parts_of_pdf(pdf_with_object("<< /S /Unknown >>", true)).refused, "")
+        << "what is none is none of ours";
+    EXPECT_NE(other_parts_of_pdf(pdf_with_object("<< /JS (x) >>", false)).refused, "");
+}
+
+/// A PDF with a stream that is an attached file, which the catalog names or a part refers to.
+std::string pdf_with_file(bool with_name, bool with_type, const std::string& entry) {
+    QPDF pdf;
+    pdf.emptyPDF();
+    auto page = QPDFObjectHandle::parse("<< /Type /Page /MediaBox [0 0 595 842] /Resources << >> >>");
+    pdf.addPage(pdf.makeIndirectObject(page), false);
+    QPDFObjectHandle stream = QPDFObjectHandle::newStream(&pdf, "<x/>");
+    if (with_type) {
+        stream.getDict().replaceKey("/Type", QPDFObjectHandle::newName("/EmbeddedFile"));
+    }
+    auto files = QPDFObjectHandle::parse("<< /F (x) /EF << >> >>");
+    files.getKey("/EF").replaceKey("/F", stream);
+    files = pdf.makeIndirectObject(files);
+    if (with_name) {
+        auto names = QPDFObjectHandle::parse("<< /EmbeddedFiles << /Names [(x)] >> >>");
+        names.getKey("/EmbeddedFiles").getKey("/Names").appendItem(files);
+        pdf.getRoot().replaceKey("/Names", names);
+    }
+    if (!entry.empty()) {
+        auto list = QPDFObjectHandle::newArray();
+        list.appendItem(files);
+        QPDFObjectHandle first = pdf.getAllPages().front();
+        QPDFObjectHandle part = entry == "/Resources" ? first.getKey("/Resources") : pdf.getRoot();
+        part.replaceKey("/AF", list);
+    }
+    QPDFWriter writer(pdf);
+    writer.setOutputMemory();
+    writer.setStaticID(true);
+    writer.write();
+    const auto buffer = writer.getBufferSharedPointer();
+    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+}
+
+// Law: every attached file is one of those with a name, of which the contents are compared.
+TEST(PdfOtherParts, HaveFilesWithNamesAlone) {
+    for (const bool with_type : {false, true}) {
+        for (const char* const entry : {"", "/AF"}) {
+            const PdfOtherParts parts = other_parts_of_pdf(pdf_with_file(true, with_type, entry));
+            EXPECT_EQ(parts.refused, "") << entry;
+            EXPECT_EQ(parts.attached_files, 1U) << entry;
+        }
+        EXPECT_NE(other_parts_of_pdf(pdf_with_file(false, with_type, "/AF")).refused, "");
+        EXPECT_NE(other_parts_of_pdf(pdf_with_file(true, with_type, "/Resources")).refused, "");
     }
 }
 
