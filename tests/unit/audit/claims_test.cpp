@@ -184,14 +184,16 @@ TEST(Claims, RoundedByASheetAreNoOtherNumber) {
         for (int digits = 2; digits <= 5; ++digits) {
             const double U = 2.0 * u;
             const double step = std::pow(10.0, std::floor(std::log10(U)) - digits + 1);
-            for (const double steps : {std::round(U / step), std::ceil(U / step), std::ceil(U / step) + 2.0}) {
+            // A last digit of 0 is none of a number of a sheet.
+            const double up = std::ceil(U / step), other = up + (std::fmod(up + 2.0, 10.0) == 0.0 ? 3.0 : 2.0);
+            for (const double steps : {std::round(U / step), up, other}) {
                 AuditedBudget budget = budget_of({row("a", u)});
                 budget.coverage.kind = CoverageRule::Kind::fixed;
                 budget.claims.u_c = exact_number(u, "");
                 budget.claims.k = exact_number(2.0, "");
                 budget.claims.U = exact_number(steps * step, "");
                 note_unexplained(budget);
-                const bool is_other = steps > std::ceil(U / step) + 1.0;
+                const bool is_other = steps > up + 1.0;
                 EXPECT_EQ(check_claims(budget).U_outside, is_other) << U << " as " << steps * step;
                 EXPECT_EQ(budget.U_over_k_u_c == 1.0, !is_other) << U << " as " << steps * step;
             }
