@@ -152,7 +152,7 @@ TEST(VarianceComponents, LengthNoiseIsTheSameHoweverItIsStated) {
         const VarianceComponent& noise = solution.components[length_noise];
         // Weights that fall with the distance let short ones say more: the root mean square follows them by some percent.
         EXPECT_NEAR(noise.value / 0.1e-6, 1.0, 0.2);
-        EXPECT_NEAR(noise.value / *noise.stated, std::sqrt(solution.stochastic.length_factor), 1e-9);
+        EXPECT_NEAR(noise.value / *noise.stated, std::sqrt(solution.stochastic.length_factor), 1e-6);
         CampaignPlan stated = plan;
         stated.u_constant = constant;
         stated.u_proportional = proportional;
@@ -422,7 +422,7 @@ TEST(VarianceComponents, SingleDistanceAVisitKeepsTheLengthNoiseAsStated) {
     const RotaryTableSolution solution = evaluate_jointly(campaign.measurement, EvaluationOptions{});
     EXPECT_EQ(solution.stochastic.length_factor, 1.0);
     EXPECT_FALSE(solution.components[0].estimated);
-    EXPECT_NEAR(solution.components[0].value / rms_length_noise(plan, campaign), 1.0, 1e-5);
+    EXPECT_NEAR(solution.components[0].value / rms_length_noise(plan, campaign), 1.0, 1e-4);
     EXPECT_TRUE(std::isinf(solution.components[0].degrees_of_freedom));
     EXPECT_TRUE(has_note(solution, "GC-VARIANCE-0002"));
     const std::array<double, 4> truth{plan.u_constant, plan.table_linear, plan.table_axial, plan.table_tilt};
