@@ -58,16 +58,18 @@ public:
     /// Terms with plus signs between them; nothing where no number stands there.
     std::optional<Quantity> sum(int depth = 0) {
         std::optional<Quantity> all = product(depth);
+        std::optional<Quantity> last;
+        const double first = all && !all->is_open ? all->value : 0.0;
         while (all && follows_plus()) {
             if (!has(0) || !pieces_[at_].is_number()) {
                 ++at_;
             }
-            const std::optional<Quantity> term = product(depth);
-            add(*all, term);
+            last = product(depth);
+            add(*all, last);
+            last = last.value_or(Quantity{.is_open = true});
         }
-        if (all && has(0) && (pieces_[at_].is_sign("/") || (pieces_[at_].is_number() && pieces_[at_].value < 0.0))) {
-            all->is_open = true;  // divided by something, or with a term that is taken away
-            all->at_least = 0.0;
+        if (all && goes_on(last)) {
+            *all = Quantity{.kind = Quantity::Kind::of_row, .is_open = true, .at_least = last ? first : 0.0};
         }
         return all;
     }
@@ -77,6 +79,22 @@ private:
     [[nodiscard]] bool follows_plus() const {
         return has(0) && (pieces_[at_].is_sign("+") || pieces_[at_].word == "plus" ||
                           (pieces_[at_].is_number() && pieces_[at_].plus));
+    }
+    /// Whether what stands behind an expression belongs to it, and is not understood: a divisor, a term that is taken away, a raised
+    /// number, or, behind a sum, a number or a word that may be a factor of its last term.
+    /// \param last  term of a sum; none of a single one
+    [[nodiscard]] bool goes_on(const std::optional<Quantity>& last) const {
+        if (!has(0)) {
+            return false;
+        }
+        const Piece& next = pieces_[at_];
+        const bool is_raised =
+            next.kind == Piece::Kind::word &&
+            (next.raw.starts_with("\xE2\x81") || next.raw.starts_with("²") || next.raw.starts_with("³"));
+        const bool is_factor = last && !last->is_open && last->kind == Quantity::Kind::pure &&
+                               next.kind == Piece::Kind::word &&
+                               !is_word_of(next, {"k", "p", "at", "bei", "for", "fur", "with", "mit", "and", "und"});
+        return is_raised || is_factor || next.is_sign("/") || (next.is_number() && (last || next.value < 0.0));
     }
     [[nodiscard]] bool follows_times() const {
         return has(0) && (pieces_[at_].is_sign("×") || pieces_[at_].is_sign("·") || pieces_[at_].is_sign("*") ||

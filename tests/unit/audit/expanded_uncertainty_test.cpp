@@ -67,7 +67,8 @@ TEST(ExpandedUncertainty, IsTheExpressionDirectlyBehindItsSign) {
 TEST(ExpandedUncertainty, IsLeftOpenWhereAPartHasNoNumber) {
     for (const char* text :
          {"U = 0.12 µm + 0.5e-6 L, k = 2", "U = 0.12 µm + 0.5·10^-6·L, k = 2", "U = (0.12 + 0.5 L/m) µm, k = 2",
-          "U = 0.12 µm + 0.5 µm/m, k = 2", "U = 0.12 µm plus 0.5 µm/m"}) {
+          "U = 0.12 µm + 0.5·10⁻⁶·l; k = 2", "U = 0.12 µm + L/300", "U = 0.12 µm + 0.5 times L",
+          "U = 0.12 µm + 0.5 10-6 L", "U = 0.12 µm + 0.5 µm/m, k = 2", "U = 0.12 µm plus 0.5 µm/m"}) {
         const std::optional<ExpandedInWords> U = words(text, "µm");
         ASSERT_TRUE(U) << text;
         EXPECT_FALSE(U->value) << text;
