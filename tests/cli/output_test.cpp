@@ -71,7 +71,7 @@ TEST_F(Output, ReadOnlyFolderIsTold) {
 }
 
 TEST_F(Output, WithoutTheTypstPackageTheSetUpIsNamed) {
-    fs::create_directory(folder() / "share");
+    fs::create_directories(folder() / "share" / "node_modules");  // without any, that of the program is used
     fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "templates", folder() / "share" / "templates", fs::copy_options::recursive);
     const Message message =
         trouble({"run", job_.string(), "-o", (folder() / "out").string(), "--share", (folder() / "share").string()});

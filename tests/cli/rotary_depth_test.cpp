@@ -122,7 +122,7 @@ TEST_F(RotaryDepth, MonteCarloChecksEveryReportedQuantity) {
         for (const json& parameter : rotary.at("iso230_2").at("parameters")) {
             const std::string name = parameter.at("name");
             EXPECT_EQ(parameter.at("monte_carlo").is_null(), name != "B_mean") << name;
-            blocks += name != "B_mean" ? 0 : 1;
+            blocks += name != "B_mean" ? std::size_t{0} : std::size_t{1};
         }
         EXPECT_EQ(blocks, 36U + 4U + 6U + 4U + 1U);
         EXPECT_NE(summary.at("statement").get<std::string>().find("hold the noise already"), std::string::npos);

@@ -65,6 +65,7 @@ TEST_F(Evidence, TheDigestStandsOnThePage) {
 
 TEST_F(Evidence, WithoutThePdfProgramTheOtherFormsAreWrittenAndItIsSaid) {
     make_share({k_case});
+    fs::create_directory(folder() / "share" / "node_modules");  // without any, that of the program is used
     const Ended ended = self_test();
     EXPECT_EQ(ended.code, 0);
     EXPECT_NE(ended.err.find("[GC-SELF-0004]"), std::string::npos) << ended.err;

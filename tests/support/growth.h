@@ -1,5 +1,7 @@
 #pragma once
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +14,10 @@ namespace gumcert::test {
 /// several times counts, and the least of several growths, until one is below `enough`.
 template <class Make, class Work>
 double growth_of(std::size_t n, const Make& make, const Work& work, double enough) {
+    // Memory that was given back to the system is cleared page by page when it is taken again: that is time of the system,
+    // which large inputs have and small ones have not.
+    (void)mallopt(M_MMAP_MAX, 0);
+    (void)mallopt(M_TRIM_THRESHOLD, -1);
     const auto small = make(n);
     const auto large = make(4 * n);
     const auto least_time = [&](const auto& input) {

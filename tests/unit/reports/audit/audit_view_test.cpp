@@ -179,11 +179,9 @@ TEST(AuditViewOfABudget, LooksForContributorsAsTheRuleDoes) {
     for (const audit::RequiredContributor& required : minimum) {
         for (const audit::Contributor kind : required.by) {
             audit::AuditReport report = test::sample_audit();
-            std::vector<audit::AuditedRow>& rows = report.subject.budgets[0].rows;
-            rows.resize(1);
-            rows[0].contributor = kind;
-            rows[0].origin = audit::Origin::not_stated;
-            rows[0].readings.clear();
+            audit::AuditedRow row;
+            row.contributor = kind;
+            report.subject.budgets[0].rows = {row};
             const std::vector<ContributorView> all = view_of(report).files[0].results[0].contributors;
             ASSERT_EQ(all.size(), minimum.size());
             EXPECT_EQ(

@@ -475,7 +475,12 @@ TEST(ComparisonReport, AWorstEnWithoutALimitIsSaid) {
         const std::string without_limit =
             words["comparison_verdict"]["correlation_unknown_without_limit"].get<std::string>();
         const std::string said = without_limit.substr(without_limit.find("{largest}") + 9);
-        EXPECT_THAT(text_of(record, language), HasSubstr(squeezed(said))) << language;
+        // Without blanks: lines break anywhere between ideographs.
+        const auto without_blanks = [](std::string text) {
+            std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+            return text;
+        };
+        EXPECT_THAT(without_blanks(text_of(record, language)), HasSubstr(without_blanks(said))) << language;
         EXPECT_THAT(text_of(record, language), HasSubstr("∞")) << language << ": the table";
         for (ComparisonSummary& s : record.comparison->summary) {
             s.max_abs_En_worst = {3.04, "3.04"};
