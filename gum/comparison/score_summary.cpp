@@ -59,7 +59,8 @@ MethodDifferences differences_of(const std::vector<const ScoredResult*>& points,
         const auto a = static_cast<Eigen::Index>(positions[static_cast<std::size_t>(i)]);
         differences.d[i] = point.difference;
         differences.U[i] = *point.U_difference;
-        differences.degrees_of_freedom[i] = degrees_of_freedom_of_difference(point, item.assigned);
+        differences.degrees_of_freedom[i] =
+            degrees_of_freedom_of_difference(item.data, positions[static_cast<std::size_t>(i)], point, item.assigned);
         differences.U_method[i] = point.U_of_scores();
         differences.U_reference[i] = *point.U_assigned;
         for (Eigen::Index j = 0; j < m; ++j) {

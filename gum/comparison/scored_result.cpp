@@ -133,7 +133,8 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
             point.value, point.assigned_value, *point.u_difference, *point.U_difference, point.assigned_rest)) {
         point.en = score->en;
         point.zeta = score->zeta;
-        if (const double nu = degrees_of_freedom_of_difference(point, scene.assigned); std::isfinite(nu)) {
+        if (const double nu = degrees_of_freedom_of_difference(scene.data, position, point, scene.assigned);
+            std::isfinite(nu)) {
             point.zeta_as_normal = normal_score(score->zeta, nu);
         }
     }
@@ -449,13 +450,28 @@ void hold_against_others(std::vector<ScoredResult>& points) {
 
 }  // namespace
 
-double degrees_of_freedom_of_difference(const ScoredResult& point, const AssignedValue& assigned) {
+double degrees_of_freedom_of_difference(const LaboratoryData& data, std::size_t position, const ScoredResult& point,
+                                        const AssignedValue& assigned) {
+    double inverse = 0.0;
+    // No part is larger than the whole: where parts correlate the formula does not hold, and they may be.
+    const auto add = [&](double u, double nu) {
+        inverse += std::pow(std::min(1.0, std::abs(u) / *point.u_difference), 4) / nu;
+    };
+    double of_result = 1.0;  // of x in D = x − Σ w_j x_j
+    if (assigned.weights.size() > 0 && !assigned.scatter) {
+        for (std::size_t j = 0; j < data.size(); ++j) {
+            const double weight = assigned.weights[static_cast<Eigen::Index>(j)];
+            if (j == position) {
+                of_result -= weight;
+            } else if (weight != 0.0 && data.results[j]->uncertainty) {
+                add(weight * data.u[static_cast<Eigen::Index>(j)], data.results[j]->uncertainty->degrees_of_freedom);
+            }
+        }
+    } else if (!assigned.scatter) {
+        add(*assigned.u, assigned.degrees_of_freedom);  // what the items add to u(X) is exactly known
+    }
+    add(of_result * point.uncertainty->u, point.uncertainty->degrees_of_freedom);
     constexpr double k_least = 1.0;
-    const double of_result = point.uncertainty->u / *point.u_difference;
-    const double of_value = *point.u_assigned / *point.u_difference;
-    const double nu_of_value = assigned.scatter ? std::numeric_limits<double>::infinity() : assigned.degrees_of_freedom;
-    const double inverse =
-        std::pow(of_result, 4) / point.uncertainty->degrees_of_freedom + std::pow(of_value, 4) / nu_of_value;
     return inverse > 0.0 ? std::max(k_least, 1.0 / inverse) : std::numeric_limits<double>::infinity();
 }
 

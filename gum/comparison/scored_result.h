@@ -79,8 +79,11 @@ struct ScoredResult {
 
 /// ν of u(D) by Welch and Satterthwaite (JCGM 100:2008, G.4.1), 1 or more. A value that is made of results that scatter
 /// has no ν here: their own uncertainties make its u, and how far they scatter is what is tested.
-/// \param point  with u_D > 0
-[[nodiscard]] double degrees_of_freedom_of_difference(const ScoredResult& point, const AssignedValue& assigned);
+/// Of a result that is part of the value counts what it has in D: (1 − w)u.
+/// \param position  of the result in `data`
+/// \param point     with u_D > 0
+[[nodiscard]] double degrees_of_freedom_of_difference(const LaboratoryData& data, std::size_t position,
+                                                      const ScoredResult& point, const AssignedValue& assigned);
 
 /// Scores of all results of one item in one round against its assigned value.
 ///

@@ -479,7 +479,8 @@ void Application::verdict() {
     if (!reason_.empty()) {
         decision_.acceptance = {};
         decision_.guard_band = 0.0;
-    } else if (!some_value_passes()) {
+    } else if (!some_value_passes() && !(by_risk && passes && decision_.acceptance.two_sided())) {
+        // By risk, y that keeps to it is itself what is accepted.
         decision_.accepts_nothing = true;
         const ToleranceLimits& a = decision_.acceptance;
         // A distribution of several peaks may exceed the risk of the rule wherever it lies, though U is small.

@@ -391,6 +391,26 @@ TEST(ScoredResults, ZetaOfFewDegreesOfFreedomIsJudgedAsT) {
     }
 }
 
+/// A result that is most of the value has little of its own u in D, and little of its few degrees of freedom.
+TEST(ScoredResults, ZetaCountsWhatAResultHasInTheDifference) {
+    const auto scored = [](double nu) {
+        test::StatedComparison stated;
+        ComparisonItem& item = stated.scheme.items.emplace_back();
+        item.id = "weight";
+        item.unit = Unit::parse("mg");
+        item.assigned_value.method = AssignedValueMethod::weighted_mean;
+        stated.add("A", 10.00, ResultUncertainty{.u = 0.01, .U = 0.02, .k = 2.0, .degrees_of_freedom = nu});
+        stated.add("B", 10.11, test::u_with_k_2(0.03));
+        stated.add("C", 10.09, test::u_with_k_2(0.03));
+        return scores_of(stated)[0];
+    };
+    const double infinite = *scored(std::numeric_limits<double>::infinity()).zeta;
+    EXPECT_NEAR(infinite, -4.264, 1e-3);
+    // D = (1 − w)(x − mean of the others): of u_D² x has 1 − w = 0.182, so that ν = 5/0.182² = 151.
+    const double judged = scored(5.0).zeta_as_normal.value_or(0.0);
+    EXPECT_NEAR(judged, normal_score(infinite, 5.0 / (0.18182 * 0.18182)), 1e-3);
+}
+
 TEST(ScoredResults, NoSignalRestsOnTheChoiceOfASubset) {
     test::StatedComparison stated = test::comparison_of({10.0, 10.05, 11.0, 11.05, 20.0}, {0.1, 0.1, 0.1, 0.1, 0.1});
     stated.scheme.items[0].assigned_value.method = AssignedValueMethod::largest_consistent_subset;
