@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "encoding/base64.h"
@@ -420,9 +422,10 @@ void certificates_in(const xmlNode* signature, const CoveredParts& covered, cons
 
 std::vector<std::string> identifiers_in(const xmlNode* signature, const CoveredParts& covered) {
     std::vector<std::string> all;
+    std::set<std::string> known;
     const auto visit = [&](const xmlNode* element) -> std::string {
         const std::string id = attribute(element, "Id");
-        if (!id.empty() && element != signature && std::find(all.begin(), all.end(), id) == all.end()) {
+        if (!id.empty() && element != signature && known.insert(id).second) {
             all.push_back(id);
         }
         return {};

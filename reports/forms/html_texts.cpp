@@ -210,11 +210,11 @@ bool is_plain_drawing(std::string_view name) {
 /// Attributes that neither hide, move or cover what they are of, nor make a text of it; others are refused. Names that begin
 /// with "data-" and "aria-" are plain as well.
 bool is_plain_attribute(std::string_view name) {
-    static constexpr std::array<std::string_view, 37> k_names = {
-        "class", "id",      "lang",  "title",    "alt",     "src",     "href",    "style",   "colspan",  "rowspan",
-        "scope", "headers", "span",  "role",     "name",    "content", "width",   "viewbox", "datetime", "cite",
-        "abbr",  "start",   "value", "type",     "align",   "valign",  "border",  "nowrap",  "rel",      "target",
-        "fill",  "stroke",  "xmlns", "tabindex", "summary", "version", "xml:lang"};
+    static constexpr std::array<std::string_view, 35> k_names = {
+        "class",    "id",    "lang",    "title", "alt",      "src",     "href",    "style",   "colspan",
+        "rowspan",  "scope", "headers", "span",  "role",     "name",    "content", "width",   "viewbox",
+        "datetime", "cite",  "abbr",    "type",  "align",    "valign",  "border",  "nowrap",  "rel",
+        "target",   "fill",  "stroke",  "xmlns", "tabindex", "summary", "version", "xml:lang"};
     return is_one_of(k_names, name) || name.starts_with("data-") || name.starts_with("aria-") ||
            name == "preserveaspectratio" || name == "shape-rendering";
 }

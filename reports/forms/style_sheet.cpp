@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -83,7 +82,7 @@ std::size_t end_of_block(std::string_view sheet, std::size_t open) {
     return sheet.size();
 }
 
-constexpr double k_unlimited = std::numeric_limits<double>::infinity();
+constexpr double k_widest = 1280.0;  // [px]: what is wider puts what stands at its right beyond the page
 
 /// Sizes of a CSS pixel; 0 for a unit that is not known.
 double pixels_of(std::string_view unit) {
@@ -161,8 +160,8 @@ constexpr std::array<PlainProperty, 26> k_plain_properties = {{
     {"caption-side", " top bottom "},
     {"break-", " auto avoid page avoid-page "},
     {"page-break-", " auto avoid always "},
-    {"width", " auto ", k_least_width, k_unlimited},
-    {"max-width", " none ", k_least_width, k_unlimited},
+    {"width", " auto ", k_least_width, k_widest},
+    {"max-width", " none ", k_least_width, k_widest},
 }};
 
 /// Fonts that have letters and digits for letters and digits.
@@ -187,14 +186,15 @@ bool is_plain_value(std::string_view token, const PlainProperty& property, bool 
     if (!measure) {
         return false;
     }
-    const bool may_be_narrow = of_picture && (property.name == "width" || property.name == "max-width");
+    const bool is_width = property.name == "width" || property.name == "max-width";
+    const bool may_be_narrow = of_picture && is_width;
     const double least = may_be_narrow ? 0.0 : property.least;
     if (measure->unit.empty()) {
         return (measure->number == 0.0 && least == 0.0) ||
                (measure->number >= property.least_number && measure->number <= property.most_number);
     }
     if (measure->unit == "%") {
-        const bool is_whole = least > 0.0 && property.most == k_unlimited && measure->number == 100.0;
+        const bool is_whole = is_width && least > 0.0 && measure->number == 100.0;
         return is_whole || (may_be_narrow && measure->number >= 0.0 && measure->number <= 100.0) ||
                (measure->number >= 0.0 && measure->number <= property.most_percent);
     }
