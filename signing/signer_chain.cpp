@@ -116,7 +116,19 @@ SignerChain::SignerChain(const std::vector<CertificateHandle>& brought, const st
     const bool is_complete =
         has_issued(signer_, signer_) || one_has_issued(issuers_, signer_) ||
         std::any_of(chain.begin() + 1, chain.end(), [&](X509* one) { return has_issued(one, signer_); });
-    take_over(others, chain, [&](X509* one) { return !is_complete && has_issued_one(one, chain); });
+    // Where nothing that is trusted has issued the signer, what leads upwards may be genuine; where something has, what lies
+    // above it, but not another certificate of its name and key, which anybody can make.
+    const auto stands_for = [](const X509* one) {
+        return [one](const X509* known) {
+            return X509_NAME_cmp(X509_get_subject_name(one), X509_get_subject_name(known)) == 0 &&
+                   EVP_PKEY_eq(X509_get0_pubkey(one), X509_get0_pubkey(known)) == 1;
+        };
+    };
+    take_over(others, chain, [&](X509* one) {
+        return has_issued_one(one, chain) &&
+               (!is_complete || (std::none_of(issuers_.begin(), issuers_.end(), stands_for(one)) &&
+                                 std::none_of(proven_.begin(), proven_.end(), stands_for(one))));
+    });
     unproven_.assign(chain.begin() + static_cast<std::ptrdiff_t>(proven_.size()), chain.end());
     foreign_ = std::move(sure);
     foreign_.insert(foreign_.end(), others.begin(), others.end());

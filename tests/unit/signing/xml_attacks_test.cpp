@@ -352,6 +352,18 @@ TEST_F(XmlAttack, CertificatesOfOthersDoNotComeAlong) {
     const Bytes with_both = replaced(xml, "</ds:X509Data>", beside(der(lookalike)) + "</ds:X509Data>");
     EXPECT_FALSE(checked(with_both, {der(laboratory_.root)}).valid);
     EXPECT_FALSE(checked(with_both, {der(authority)}).valid);
+    // Above an authority that is trusted itself, the chain goes on; with or without its end.
+    const Identity lower = authority_named("Lower", &authority);
+    const Identity under_lower = make_identity(ec_key(), {}, &lower);
+    for (const std::vector<Identity>& chain :
+         {std::vector<Identity>{under_lower, lower, authority},
+          std::vector<Identity>{under_lower, lower, authority, laboratory_.root}}) {
+        const Bytes deep = sign_dcc(k_attacked_dcc, CarelessSigner(under_lower.key, chain), k_signing_time);
+        for (const Identity& trusted : chain) {
+            EXPECT_TRUE(checked(deep, {der(trusted)}).valid) << chain.size();
+        }
+        EXPECT_THAT(checked(deep, {der(lower)}).not_covered, Contains(HasSubstr("the certificate of CN=Authority")));
+    }
 }
 
 // Exclusive canonical XML leaves out the declarations that nothing uses: they can be put in after signing.
