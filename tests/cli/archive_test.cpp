@@ -277,10 +277,11 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     EXPECT_TRUE(tells(edited("Example Customer", "Another Customer"), "[GC-ARCHIVE-0038]"));
     EXPECT_TRUE(
         tells(edited("reproduced only in full", "reproduced in part"), "and the page that the record gives says"));
-    // What its text does not tell: drawings, numbers of lists, titles, elements and attributes of other kinds.
-    for (const char* const more :
-         {"<svg viewBox=\"0 0 90 9\"><text>l = 50 001 234 nm, PASS</text></svg>", "<ol start=\"51\"></ol>",
-          "<p title=\"U = 1 nm, PASS\"></p>", "<p class=\"end\"></p>", "<b></b>"}) {
+    EXPECT_TRUE(
+        tells(edited("<main>", "<main><ol start=\"51\"></ol>"), "[GC-ARCHIVE-0070]"));  // a number without a text
+    // What its text does not tell: drawings, lists, titles, elements and attributes of other kinds.
+    for (const char* const more : {"<svg viewBox=\"0 0 90 9\"><text>l = 50 001 234 nm, PASS</text></svg>", "<ol></ol>",
+                                   "<p title=\"U = 1 nm, PASS\"></p>", "<p class=\"end\"></p>", "<b></b>"}) {
         EXPECT_TRUE(tells(edited("<main>", "<main>" + std::string(more)), "[GC-ARCHIVE-0038]")) << more;
     }
     // What was written together stays together.
