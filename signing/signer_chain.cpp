@@ -12,10 +12,12 @@ namespace gumcert::signing {
 
 namespace {
 
-struct AnswerFree {
+struct ValueFree {
     void operator()(OCSP_RESPONSE* p) const { OCSP_RESPONSE_free(p); }
     void operator()(OCSP_BASICRESP* p) const { OCSP_BASICRESP_free(p); }
     void operator()(TS_TST_INFO* p) const { TS_TST_INFO_free(p); }
+    void operator()(X509_CRL* p) const { X509_CRL_free(p); }
+    void operator()(CMS_ContentInfo* p) const { CMS_ContentInfo_free(p); }
 };
 
 /// Whether the one certificate bears a signature by the key, and the name, of the other.
@@ -57,10 +59,10 @@ void take_over(std::vector<X509*>& from, std::vector<X509*>& into, Condition con
 
 /// \return none where the bytes are not one value, or are followed by others
 template <class Value>
-std::unique_ptr<Value, AnswerFree> whole_value(const Bytes& der, Value* (*read)(Value**, const unsigned char**, long)) {
+std::unique_ptr<Value, ValueFree> whole_value(const Bytes& der, Value* (*read)(Value**, const unsigned char**, long)) {
     const auto* at = reinterpret_cast<const unsigned char*>(der.data());
     const auto* const end = at + der.size();
-    std::unique_ptr<Value, AnswerFree> value(read(nullptr, &at, static_cast<long>(der.size())));
+    std::unique_ptr<Value, ValueFree> value(read(nullptr, &at, static_cast<long>(der.size())));
     ERR_clear_error();
     return at == end ? std::move(value) : nullptr;
 }
@@ -113,9 +115,7 @@ SignerChain::SignerChain(const std::vector<CertificateHandle>& brought, const st
     // Upwards: a root that has signed itself and one of these. Its content is genuine, for its key has signed both.
     take_over(others, chain, [&](X509* one) { return has_issued(one, one) && has_issued_one(one, chain); });
     proven_ = chain;
-    const bool is_complete =
-        has_issued(signer_, signer_) || one_has_issued(issuers_, signer_) ||
-        std::any_of(chain.begin() + 1, chain.end(), [&](X509* one) { return has_issued(one, signer_); });
+    const bool is_complete = one_has_issued(issuers_, signer_) || one_has_issued(chain, signer_);
     // Where nothing that is trusted has issued the signer, what leads upwards may be genuine; where something has, what lies
     // above it, but not another certificate of its name and key, which anybody can make.
     const auto stands_for = [](const X509* one) {
@@ -140,10 +140,8 @@ SignerChain::SignerChain(const std::vector<CertificateHandle>& brought, const st
 }
 
 bool is_revocation_list_of(const Bytes& der, const std::vector<X509*>& issuers) {
-    const auto* at = reinterpret_cast<const unsigned char*>(der.data());
-    const auto* const end = at + der.size();
-    const Handle<X509_CRL> list(d2i_X509_CRL(nullptr, &at, static_cast<long>(der.size())));
-    const bool fits = list != nullptr && at == end && std::any_of(issuers.begin(), issuers.end(), [&](X509* issuer) {
+    const auto list = whole_value<X509_CRL>(der, d2i_X509_CRL);
+    const bool fits = list != nullptr && std::any_of(issuers.begin(), issuers.end(), [&](X509* issuer) {
                           EVP_PKEY* key = X509_get0_pubkey(issuer);
                           return key != nullptr &&
                                  X509_NAME_cmp(X509_CRL_get_issuer(list.get()), X509_get_subject_name(issuer)) == 0 &&
@@ -158,7 +156,7 @@ bool is_revocation_answer_of(const Bytes& der, const std::vector<X509*>& issuers
     if (answer == nullptr || OCSP_response_status(answer.get()) != OCSP_RESPONSE_STATUS_SUCCESSFUL) {
         return false;
     }
-    const std::unique_ptr<OCSP_BASICRESP, AnswerFree> basic(OCSP_response_get1_basic(answer.get()));
+    const std::unique_ptr<OCSP_BASICRESP, ValueFree> basic(OCSP_response_get1_basic(answer.get()));
     ERR_clear_error();
     return is_answer_of(basic.get(), issuers);
 }
@@ -168,11 +166,8 @@ bool is_basic_revocation_answer_of(const Bytes& der, const std::vector<X509*>& i
 }
 
 bool is_time_stamp(const Bytes& der) {
-    const auto* at = reinterpret_cast<const unsigned char*>(der.data());
-    const auto* const end = at + der.size();
-    const Handle<CMS_ContentInfo> cms(d2i_CMS_ContentInfo(nullptr, &at, static_cast<long>(der.size())));
-    ERR_clear_error();
-    if (cms == nullptr || at != end || OBJ_obj2nid(CMS_get0_type(cms.get())) != NID_pkcs7_signed ||
+    const auto cms = whole_value<CMS_ContentInfo>(der, d2i_CMS_ContentInfo);
+    if (cms == nullptr || OBJ_obj2nid(CMS_get0_type(cms.get())) != NID_pkcs7_signed ||
         OBJ_obj2nid(CMS_get0_eContentType(cms.get())) != NID_id_smime_ct_TSTInfo) {
         return false;
     }
