@@ -141,6 +141,11 @@ private:
         return found == job_.output_parts.end() ? QuantityPart() : found->second;
     }
 
+    [[nodiscard]] QuantityPart part_of_input(const std::string& name) const {
+        const auto found = job_.input_parts.find(name);
+        return found == job_.input_parts.end() ? QuantityPart() : found->second;
+    }
+
     /// What has a role: columns of points, inputs, results.
     [[nodiscard]] std::vector<std::string> with_role(std::string_view role) const {
         std::vector<std::string> names;
@@ -209,16 +214,15 @@ private:
                                .stage = part.stage};
         }
         if (input(name)) {
-            const auto part = job_.input_parts.find(name);
+            const QuantityPart part = part_of_input(name);
+            return ShownColumn{.show = "column", .of = name, .heading = {}, .role = part.role, .stage = part.stage};
+        }
+        if (const std::optional<std::size_t> i = input_of_scatter(name); i && has_readings(*i)) {
             return ShownColumn{.show = "column",
                                .of = name,
                                .heading = {},
-                               .role = part == job_.input_parts.end() ? "" : part->second.role,
-                               .stage = part == job_.input_parts.end() ? "" : part->second.stage};
-        }
-        if (const std::optional<std::size_t> i = input_of_scatter(name); i && has_readings(*i)) {
-            return ShownColumn{
-                .show = "column", .of = name, .heading = {}, .role = "", .stage = shown(job_.inputs[*i].name)->stage};
+                               .role = "",
+                               .stage = part_of_input(job_.inputs[*i].name).stage};
         }
         return std::nullopt;
     }
@@ -657,10 +661,9 @@ private:
             }
             PointColumn added;
             added.name = stated.name;
-            if (const auto part = job_.input_parts.find(stated.name); part != job_.input_parts.end()) {
-                added.role = part->second.role;
-                added.stage = part->second.stage;
-            }
+            const QuantityPart part = part_of_input(stated.name);
+            added.role = part.role;
+            added.stage = part.stage;
             if (const auto described = job_.input_descriptions.find(stated.name);
                 added.role.empty() && described != job_.input_descriptions.end()) {
                 added.heading = described->second;
@@ -704,9 +707,7 @@ private:
         const gum::BudgetInput& stated = job_.inputs[i];
         PointColumn added;
         added.name = name;
-        if (const auto part = job_.input_parts.find(stated.name); part != job_.input_parts.end()) {
-            added.stage = part->second.stage;
-        }
+        added.stage = part_of_input(stated.name).stage;
         added.unit = gum::unit_of_difference(stated.unit.text());
         added.printed_unit = gum::unit_for_people(added.unit);
         for (std::size_t p = 0; p < job_.points.size(); ++p) {
