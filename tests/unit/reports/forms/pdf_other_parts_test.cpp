@@ -10,6 +10,15 @@
 namespace gumcert::reports {
 namespace {
 
+std::string written(QPDF& pdf) {
+    QPDFWriter writer(pdf);
+    writer.setOutputMemory();
+    writer.setStaticID(true);
+    writer.write();
+    const auto buffer = writer.getBufferSharedPointer();
+    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+}
+
 /// A PDF of one page with entries of its own in the catalog and in the page.
 std::string pdf_with_parts(const std::string& of_catalog, const std::string& of_page) {
     QPDF pdf;
@@ -24,12 +33,7 @@ std::string pdf_with_parts(const std::string& of_catalog, const std::string& of_
     };
     add(pdf.getRoot(), of_catalog);
     add(pdf.getAllPages().front(), of_page);
-    QPDFWriter writer(pdf);
-    writer.setOutputMemory();
-    writer.setStaticID(true);
-    writer.write();
-    const auto buffer = writer.getBufferSharedPointer();
-    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+    return written(pdf);
 }
 
 TEST(PdfOtherParts, OfAPlainDocumentAreNone) {
@@ -95,12 +99,7 @@ std::string pdf_with_object(const std::string& object, bool in_outlines) {
         QPDFObjectHandle first = pdf.getAllPages().front();
         first.getKey("/Resources").replaceKey("/Properties", made);
     }
-    QPDFWriter writer(pdf);
-    writer.setOutputMemory();
-    writer.setStaticID(true);
-    writer.write();
-    const auto buffer = writer.getBufferSharedPointer();
-    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+    return written(pdf);
 }
 
 // Law: an action that does more than to go somewhere is found in whatever it stands, at whatever depth; the kinds are those of
@@ -153,12 +152,7 @@ std::string pdf_with_file(bool with_name, bool with_type, const std::string& ent
         QPDFObjectHandle part = entry == "/Resources" ? first.getKey("/Resources") : pdf.getRoot();
         part.replaceKey("/AF", list);
     }
-    QPDFWriter writer(pdf);
-    writer.setOutputMemory();
-    writer.setStaticID(true);
-    writer.write();
-    const auto buffer = writer.getBufferSharedPointer();
-    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
+    return written(pdf);
 }
 
 // Law: every attached file is one of those with a name, of which the contents are compared.
