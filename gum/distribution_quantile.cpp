@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "gum/argument_check.h"
@@ -339,15 +340,72 @@ double standard_density(const Distribution& distribution, double s) {
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-void require_usable(const Distribution& distribution) {
-    const std::string problem = distribution_problem(distribution);
-    if (!problem.empty()) {
-        refuse("GC-GUM-0124", "distribution " + std::string(distribution_name(distribution.kind)), problem,
-               "a distribution needs parameters inside its range", "Correct the parameters.");
+/// What cannot be used of a distribution. No texts are made here: it is asked at each value of a tail.
+struct Problem {
+    const char* what;
+    std::optional<double> value;
+    const char* rule;
+};
+
+std::optional<Problem> problem_of(const Distribution& distribution) {
+    const double shape = distribution.shape;
+    const auto positive = [](const char* name, double value) -> std::optional<Problem> {
+        if (value > 0.0 && std::isfinite(value)) {
+            return std::nullopt;
+        }
+        return Problem{name, value, "must be finite and greater than 0"};
+    };
+    if (!std::isfinite(distribution.location)) {
+        return Problem{"location", distribution.location, "must be finite"};
+    }
+    if (distribution.kind == DistributionKind::constant) {
+        return distribution.scale == 0.0 ? std::nullopt
+                                         : std::optional(Problem{"scale", distribution.scale, "a constant has none"});
+    }
+    if (const std::optional<Problem> problem = positive("scale", distribution.scale)) {
+        return problem;
+    }
+    switch (distribution.kind) {
+        case DistributionKind::trapezoidal:
+        case DistributionKind::curvilinear_trapezoid:
+            return shape >= 0.0 && shape <= 1.0 ? std::nullopt
+                                                : std::optional(Problem{"shape", shape, "must be from 0 to 1"});
+        case DistributionKind::student_t:
+            return positive("degrees of freedom", shape);
+        case DistributionKind::gamma:
+        case DistributionKind::lognormal:
+            return positive("shape", shape);
+        case DistributionKind::beta: {
+            const std::optional<Problem> problem = positive("shape alpha", shape);
+            return problem ? problem : positive("shape beta", distribution.second_shape);
+        }
+        case DistributionKind::empirical: {
+            if (!distribution.samples || distribution.samples->empty()) {
+                return Problem{"no samples", std::nullopt, "needs at least one"};
+            }
+            const std::vector<double>& samples = *distribution.samples;
+            if (!std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); })) {
+                return Problem{"a sample that is not finite", std::nullopt, "samples must be finite"};
+            }
+            // Tails are counted and quantiles looked up by place.
+            return std::is_sorted(samples.begin(), samples.end())
+                       ? std::nullopt
+                       : std::optional(Problem{"samples not in ascending order", std::nullopt, "must be sorted"});
+        }
+        default:
+            return std::nullopt;
     }
 }
 
-void require_argument(bool usable, const std::string& name, double value, const std::string& rule) {
+void require_usable(const Distribution& distribution) {
+    if (problem_of(distribution)) {
+        refuse("GC-GUM-0124", "distribution " + std::string(distribution_name(distribution.kind)),
+               distribution_problem(distribution), "a distribution needs parameters inside its range",
+               "Correct the parameters.");
+    }
+}
+
+void require_argument(bool usable, const char* name, double value, const char* rule) {
     if (!usable) {
         refuse("GC-GUM-0125", name, text::shortest(value), rule, "Correct the value.");
     }
@@ -367,51 +425,12 @@ double standardised(const Distribution& distribution, double x) {
 }  // namespace
 
 std::string distribution_problem(const Distribution& distribution) {
-    const double shape = distribution.shape;
-    const auto between_0_and_1 = [&](const char* name) -> std::string {
-        return shape >= 0.0 && shape <= 1.0 ? "" : name + (" " + text::shortest(shape)) + "; must be from 0 to 1";
-    };
-    const auto positive = [](const char* name, double value) -> std::string {
-        return value > 0.0 && std::isfinite(value)
-                   ? ""
-                   : name + (" " + text::shortest(value)) + "; must be finite and greater than 0";
-    };
-    if (!std::isfinite(distribution.location)) {
-        return "location " + text::shortest(distribution.location) + "; must be finite";
+    const std::optional<Problem> problem = problem_of(distribution);
+    if (!problem) {
+        return "";
     }
-    if (distribution.kind == DistributionKind::constant) {
-        return distribution.scale == 0.0 ? "" : "scale " + text::shortest(distribution.scale) + "; a constant has none";
-    }
-    if (const std::string problem = positive("scale", distribution.scale); !problem.empty()) {
-        return problem;
-    }
-    switch (distribution.kind) {
-        case DistributionKind::trapezoidal:
-        case DistributionKind::curvilinear_trapezoid:
-            return between_0_and_1("shape");
-        case DistributionKind::student_t:
-            return positive("degrees of freedom", shape);
-        case DistributionKind::gamma:
-        case DistributionKind::lognormal:
-            return positive("shape", shape);
-        case DistributionKind::beta: {
-            const std::string problem = positive("shape alpha", shape);
-            return problem.empty() ? positive("shape beta", distribution.second_shape) : problem;
-        }
-        case DistributionKind::empirical: {
-            if (!distribution.samples || distribution.samples->empty()) {
-                return "no samples; needs at least one";
-            }
-            const std::vector<double>& samples = *distribution.samples;
-            if (!std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); })) {
-                return "a sample that is not finite; samples must be finite";
-            }
-            // Tails are counted and quantiles looked up by place.
-            return std::is_sorted(samples.begin(), samples.end()) ? "" : "samples not in ascending order";
-        }
-        default:
-            return "";
-    }
+    const std::string value = problem->value ? " " + text::shortest(*problem->value) : "";
+    return problem->what + value + "; " + problem->rule;
 }
 
 double lower_tail_probability(const Distribution& distribution, double x) {
