@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -375,6 +376,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         put_effects(budget, i, report.findings, nested, result);
         report.results.push_back(std::move(result));
     }
+    std::map<std::size_t, std::optional<MissingTerm>> missing;  // of a budget: the same for all findings of it
     for (std::size_t i = 0; i < report.findings.size(); ++i) {
         AuditFinding& finding = report.findings[i];
         if (policies[i] == SeverityPolicy::by_effect && finding.effect) {
@@ -389,7 +391,11 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         // A term that is not there has no size that could be corrected: told is how large it would have to be to be
         // seen.
         if (finding.contribution_missing && !finding.budgets.empty()) {
-            finding.missing_term = missing_term(subject.budgets[finding.budgets.front()]);
+            const std::size_t of = finding.budgets.front();
+            const auto known = missing.find(of);
+            finding.missing_term = known != missing.end()
+                                       ? known->second
+                                       : missing.emplace(of, missing_term(subject.budgets[of])).first->second;
         }
     }
     const std::vector<certificate::Waiver> waivers = std::exchange(subject.waivers, {});

@@ -203,20 +203,23 @@ std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
     }
     AuditedBudget more = without_texts(budget);
     more.rows.emplace_back();
-    const auto with = [&more](double u) {
-        more.rows.back().used_u = u;
-        return evaluate(more);
-    };
+    AuditedBudget undecided = more;  // digits do not ask what is decided, which takes longest
+    undecided.rule.reset();
+    undecided.reference.reset();
     /// The smallest u for which something has changed; nothing where even the largest changes nothing.
-    const auto smallest = [&](const auto& changed) -> std::optional<double> {
+    const auto smallest = [&](AuditedBudget& budget_with, const auto& changed) -> std::optional<double> {
         constexpr double k_largest = 100.0;  // in parts of u_c
+        const auto changes = [&](double u) {
+            budget_with.rows.back().used_u = u;
+            return changed(without, evaluate(budget_with));
+        };
         double low = 0.0, high = k_largest * without.u_c;
-        if (!changed(without, with(high))) {
+        if (!changes(high)) {
             return std::nullopt;
         }
         // What changes first is looked for from below, in steps of a factor 2.
         for (double u = 1e-4 * without.u_c; u < high; u *= 2.0) {
-            if (changed(without, with(u))) {
+            if (changes(u)) {
                 high = u;
                 break;
             }
@@ -224,13 +227,13 @@ std::optional<MissingTerm> missing_term(const AuditedBudget& budget) {
         }
         while (high - low > 1e-6 * high) {
             const double middle = 0.5 * (low + high);
-            (changed(without, with(middle)) ? high : low) = middle;
+            (changes(middle) ? high : low) = middle;
         }
         return high;
     };
     MissingTerm term;
-    term.u_for_digit = smallest(is_seen).value_or(0.0);
-    term.u_for_verdict = smallest(changes_decision);
+    term.u_for_digit = smallest(undecided, is_seen).value_or(0.0);
+    term.u_for_verdict = smallest(more, changes_decision);
     term.is_decided = without.undecided.empty();
     return term;
 }
