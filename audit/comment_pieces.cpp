@@ -112,6 +112,11 @@ std::optional<gum::Unit> unit_of(const std::string& text) {
     }
 }
 
+/// A number in the unit of a row, where it can be written in that unit: 1e-320 µm is 0 m.
+std::optional<NumberOfRow> number_of_row(double number) {
+    return number > 0.0 && std::isfinite(number) ? std::optional(NumberOfRow{number, true}) : std::nullopt;
+}
+
 }  // namespace
 
 Pieces pieces_of(std::string_view all, DecimalSign sign) {
@@ -178,7 +183,7 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
     }
     if (piece.percent) {
         const bool of_percent = row.unit.find('%') != std::string::npos;
-        return of_percent ? std::optional(NumberOfRow{100.0 * size, true}) : std::nullopt;
+        return of_percent ? number_of_row(100.0 * size) : std::nullopt;
     }
     // Words that are units as well, and in a sentence are none.
     constexpr std::array<std::string_view, 5> k_words{"in", "a", "at", "as", "am"};
@@ -199,7 +204,7 @@ std::optional<NumberOfRow> in_unit_of_row(const Piece& piece, const AuditedRow& 
     if (!own || !(own->dimension() == unit->dimension())) {
         return std::nullopt;
     }
-    return NumberOfRow{own->difference_from_si(unit->difference_to_si(size)), true};
+    return number_of_row(own->difference_from_si(unit->difference_to_si(size)));
 }
 
 bool is_filler(const Piece& piece) {
