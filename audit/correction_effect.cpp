@@ -146,7 +146,8 @@ std::vector<Effect> effects_of(std::size_t n, const ShareDivision& division,
     const std::vector<double> shares =
         division.is_exact ? exact_shares(outcomes, n) : sampled_shares(outcomes, n, division.orders);
     const double log_total = std::accumulate(shares.begin(), shares.end(), 0.0);
-    const double total = audited.U / claimed.U - 1.0;
+    // Of a capability of 1e308 the ratio is infinite; what is stated is a number.
+    const double total = std::min(audited.U / claimed.U - 1.0, 1e300);
     std::vector<Effect> effects(n);
     for (std::size_t i = 0; i < n; ++i) {
         ChosenCorrections only(n, false), all_others(n, true);

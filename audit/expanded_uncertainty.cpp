@@ -489,14 +489,16 @@ void settle_expanded_uncertainty(AuditedRow& row) {
     }
     constexpr double k_near = 0.01;
     const auto is_near = [](double a, double b, double half_step) { return std::abs(a - b) <= half_step + k_near * b; };
-    const std::optional<double> divided = row.stated ? std::optional(std::abs(row.stated->value)) : std::nullopt;
+    const bool has_size = row.stated && row.stated->value != 0.0;
+    const std::optional<double> divided = has_size ? std::optional(std::abs(row.stated->value)) : std::nullopt;
     const double half = row.stated ? printed_half_step(*row.stated) : 0.0;
+    const auto is_usable = [](double U) { return U > 0.0 && std::isfinite(U); };  // "U = 0" says nothing of a size
     std::vector<double> may_be_divided = may_be;
     if (open.part && open.at_least.value_or(0.0) == 0.0) {
         may_be_divided.push_back(100.0 * *open.part);  // of a row of relative uncertainties in percent
     }
     for (const double U : may_be_divided) {  // the row is right with this one
-        if (row.certificate_k && *row.certificate_k > 0.0 &&
+        if (is_usable(U) && row.certificate_k && *row.certificate_k > 0.0 &&
             is_near(row.used_u, U / *row.certificate_k, row.u_half_step)) {
             row.origin_value = U;
             return;
@@ -507,7 +509,7 @@ void settle_expanded_uncertainty(AuditedRow& row) {
             row.origin_value = divided;
             return;
         }
-        if (!divided && is_near(row.used_u, U, row.u_half_step)) {
+        if (is_usable(U) && !divided && is_near(row.used_u, U, row.u_half_step)) {
             row.origin_value = U;
             return;
         }

@@ -690,6 +690,9 @@ void read_comment(AuditedRow& row) {
             row.origin_value = row.origin_value ? row.origin_value : deviation_of_readings(pieces, row);
         }
     }
+    if (row.origin_value && !(*row.origin_value > 0.0 && std::isfinite(*row.origin_value))) {
+        row.origin_value.reset();  // "U = 0" says nothing of a size
+    }
     if (!row.nu) {
         if (const std::optional<double> nu = degrees_of_freedom(texts.front())) {
             row.nu = exact_number(*nu, row.place);

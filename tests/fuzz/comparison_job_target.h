@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "jobs/comparison/comparison_job.h"
@@ -28,8 +29,8 @@ inline void demand_consistent_laboratories(const ComparisonJob& job) {
         }
         ++results[result.item];
     }
-    for (const std::size_t count : results) {
-        demand(count >= 2, "an item with one result");
+    for (std::size_t item = 0; item < results.size(); ++item) {
+        demand(results[item] >= 2 || job.refused_items.contains({item, std::nullopt}), "an item with one result");
     }
     for (const MissingResult& missing : job.missing) {
         demand(missing.participant < job.participants.size() && missing.item < job.items.size() &&
