@@ -145,15 +145,14 @@ std::string unit_in_group(const certificate::TableRequest& table, const std::str
                           const std::string& unit) {
     std::string found = unit;
     for (const certificate::TableRequest::GroupUnit& stated : table.units) {
-        if (stated.group != group || (!stated.of.empty() && stated.of != name)) {
+        if (stated.group != group || (!stated.of.empty() && stated.of != name) ||
+            !gum::of_one_kind(gum::Unit::parse(stated.unit), gum::Unit::parse(unit))) {
             continue;
         }
         if (!stated.of.empty()) {
             return stated.unit;
         }
-        if (gum::Unit::parse(stated.unit).dimension() == gum::Unit::parse(unit).dimension()) {
-            found = stated.unit;
-        }
+        found = stated.unit;
     }
     return found;
 }
