@@ -231,14 +231,23 @@ private:
     [[nodiscard]] std::optional<std::size_t> input_of_scatter(std::string_view name) const {
         return name.starts_with("s(") && name.ends_with(")") ? input(name.substr(2, name.size() - 3)) : std::nullopt;
     }
-    /// Its readings at a point; none where it is stated otherwise, or has one reading.
+    /// Its readings at a point, whatever stands beside them; none where it is stated otherwise, has one reading, or two
+    /// series.
     [[nodiscard]] std::vector<double> readings_at(std::size_t i, std::size_t p) const {
         if (!job_.sections.empty() && !inputs_.is_used(job_.inputs[i].name, section_of(p))) {
             return {};
         }
-        const std::vector<gum::StatedQuantity>& components = gum::input_at(job_, i, p).components;
-        return components.size() == 1 && components.front().observations.size() > 1 ? components.front().observations
-                                                                                    : std::vector<double>();
+        std::vector<double> readings;
+        for (const gum::StatedQuantity& component : gum::input_at(job_, i, p).components) {
+            if (component.observations.empty()) {
+                continue;  // the display, the calibration
+            }
+            if (!readings.empty()) {
+                return {};  // of which of two series?
+            }
+            readings = component.observations;
+        }
+        return readings.size() > 1 ? readings : std::vector<double>();
     }
     [[nodiscard]] bool has_readings(std::size_t i) const {
         const auto [first, end] = points_of(section_);

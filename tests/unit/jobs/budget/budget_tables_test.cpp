@@ -208,6 +208,15 @@ TEST(BudgetTables, ShowTheScatterOfReadings) {
     EXPECT_NEAR(s.values[0].value_or(0.0), 2e-4 / std::sqrt(2.0), 1e-18);
 }
 
+/// A display beside the readings, as docs/budget_job.md wants it, takes nothing from them.
+TEST(BudgetTables, ShowTheScatterOfReadingsBesideADisplay) {
+    std::string keys =
+        meter(k_columns, R"j(, "tables": [{"columns": ["reference", "indication", "s(V_x)", "E", "U"]}])j");
+    keys.replace(keys.find(R"j("role": "indication")j"), 0, R"j("resolution": 0.0001, )j");
+    const BudgetJob job = read_budget(keys, k_points);
+    EXPECT_THAT(job.point_columns.back().printed, ElementsAre("0.00014", "0.000071"));
+}
+
 TEST(BudgetTables, ShowNoScatterOfWhatHasNoReadings) {
     for (const char* const name : {"s(dV)", "s(V_s)", "s(V_y)", "s()", "s(", "s(V_x", "s(E)"}) {
         expect_refusal(meter(k_columns, std::string(R"j(, "tables": [{"columns": ["E", "U", ")j") + name + R"j("]}])j"),
