@@ -41,11 +41,20 @@ LimitsAt about(const AgreedSpecification& s, const PointLookup& point, double ha
 
 LimitsAt of_columns(const AgreedSpecification& s, const PointLookup& point) {
     // A difference: in degrees Celsius the zero of the scale has no part in it.
-    if (const auto mpe = point.number("mpe", s.unit, true)) {
-        return about(s, point, *mpe);
-    }
+    const std::optional<double> mpe = point.number("mpe", s.unit, true);
     LimitsAt limits{.lower = point.number("limit_low", s.unit, false),
                     .upper = point.number("limit_high", s.unit, false)};
+    if (mpe) {
+        LimitsAt of_mpe = about(s, point, *mpe);
+        const auto differs = [mpe](const std::optional<double>& stated, const std::optional<double>& own) {
+            return stated && own && std::abs(*stated - *own) > k_step_noise * (std::abs(*own) + *mpe);
+        };
+        // Which of two statements was agreed is not the program's to choose.
+        if (differs(limits.lower, of_mpe.lower) || differs(limits.upper, of_mpe.upper)) {
+            return without_limits("the point states mpe, and other limits in limit_low or limit_high");
+        }
+        return of_mpe;
+    }
     if (!limits.lower && !limits.upper) {
         limits.problem = "the point states no limit";
     } else if (limits.lower && limits.upper && *limits.lower >= *limits.upper) {
@@ -74,7 +83,11 @@ LimitsAt of_accuracy(const AgreedSpecification& s, const PointLookup& point) {
         in_unit(entry->full_scale.value_or(0.0) * entry->percent_of_range.value_or(0.0) / 100.0 +
                 entry->digits.value_or(0.0) * entry->digit.value_or(0.0) + entry->constant.value_or(0.0));
     if (entry->percent_of_reading) {
-        const std::optional<double> reading = point.number(limits.of, s.unit, false);
+        std::optional<double> reading = point.number(limits.of, s.unit, false);
+        if (!reading) {
+            // Of an error of a thermometer: what its own scale shows. 68 °F are 68 steps of 1 °F, not 20 of 1 K.
+            reading = point.number(limits.of, s.unit, true);
+        }
         if (!reading) {
             return without_limits("the point has no value of " + text::in_quotes(limits.of) + " in " + s.unit);
         }
@@ -138,7 +151,7 @@ PointLookup lookup_at(const PointTable& table, std::size_t point) {
                 }
                 const Unit from = Unit::parse(column->unit);
                 const Unit to = Unit::parse(unit);
-                if (!(from.dimension() == to.dimension())) {
+                if (!(difference ? from.dimension() == to.dimension() : gum::of_one_kind(from, to))) {
                     return std::nullopt;
                 }
                 return difference ? to.difference_from_si(from.difference_to_si(value)) : to.from_si(from.to_si(value));

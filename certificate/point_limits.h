@@ -13,7 +13,8 @@ namespace gumcert::certificate {
 /// Where the numbers and words of one point are found.
 struct PointLookup {
     /// A number of a column in a unit of its kind; nothing where the point has none.
-    /// \param difference  true: without the origin of a temperature scale
+    /// \param difference  true: without the origin of a temperature scale; false: nothing where only one of the two units
+    ///                    has such an origin
     std::function<std::optional<double>(const std::string& name, const std::string& unit, bool difference)> number;
     /// A word of a column; "" where the point has none.
     std::function<std::string(const std::string& name)> word;
@@ -32,6 +33,7 @@ struct LimitsAt {
 /// Limits of a specification at one point: its own, where they are the same for all, else as AgreedSpecification::limits
 /// states them.
 ///
+/// points: mpe about 0 or `about`, else limit_low and limit_high; both only where they say the same.
 /// accuracy: half-width = |reading|·a/100 + full scale·b/100 + digits·digit + constant, about 0 or `about`.
 /// steps: the first step that the argument does not exceed. expression: plain numbers, as a capability is written.
 [[nodiscard]] LimitsAt limits_at(const AgreedSpecification& specification, const PointLookup& point);

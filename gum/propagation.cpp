@@ -267,8 +267,9 @@ std::vector<BudgetContribution> add_up_by_source(const std::vector<InputGroup>& 
 
 /// Sets to 0 what only rounding left of quantities that cancel: 3 a − b with r = 1 and u(b) = 3 u(a). It is no u.
 ///
-/// Coefficients, roots and products are rounded: c L is uncertain by some ε Σ|c_i|u_i where L is known. Where it comes
-/// from the covariance, the entries of R are rounded, u² = c R c by some ε (Σ|c_i|u_i)², and u by the root of that.
+/// Coefficients, roots and products are rounded: c L is uncertain by some ε Σ|c_i|u_i where L is known, as it is of stated
+/// r = ±1. Where it comes from the covariance, the entries of R are rounded, u² = c R c by some ε (Σ|c_i|u_i)², and u by
+/// the root of that: R = 1 − 10⁻¹⁵ must not be taken for 1, nor 1 for it.
 /// \param contributions  Σ|c_i|u_i, one an output
 /// \param block          c L, a row an output
 void clear_rounding(const InputGroup& group, const Eigen::VectorXd& contributions, Eigen::Ref<Eigen::MatrixXd> block) {

@@ -12,10 +12,6 @@ namespace gumcert::certificate {
 
 using gum::Unit;
 
-bool of_one_kind(const Unit& a, const Unit& b) {
-    return a.dimension() == b.dimension() && a.is_celsius_temperature() == b.is_celsius_temperature();
-}
-
 double value_for_scope(double value, const Unit& of, const Unit& unit) {
     const double in_unit = unit.from_si(of.to_si(value));
     // Scopes state magnitudes, "up to 1000 V"; the sign of a temperature in degrees Celsius is part of the place on its

@@ -22,9 +22,6 @@ struct HeldAgainst {
     std::string unit;
 };
 
-/// Same dimension, and both or neither a Celsius temperature.
-[[nodiscard]] bool of_one_kind(const gum::Unit& a, const gum::Unit& b);
-
 /// A number in the unit of a scope: its magnitude, or the temperature itself in degrees Celsius.
 [[nodiscard]] double value_for_scope(double value, const gum::Unit& of, const gum::Unit& unit);
 

@@ -34,6 +34,7 @@ struct BudgetInput {
 struct InputCorrelation {
     std::size_t first = 0, second = 0;  ///< positions in Budget::inputs
     double r = 0.0;
+    bool is_computed = false;  ///< of a covariance or of readings: known to rounding, where a stated one is exact
 };
 
 /// Inputs that were observed together (JCGM 100:2008, 5.2.3): their correlations are in `correlations` as well.

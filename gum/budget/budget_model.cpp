@@ -1,5 +1,6 @@
 #include "gum/budget/budget_model.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -344,6 +345,84 @@ void set_dependence(const Budget& budget, const std::vector<Member>& members, co
                                                                      : "Gaussian copula";
 }
 
+/// D L with L Lᵀ = R, lower triangular, of inputs of which some are one quantity but for their size: r = ±1, as stated.
+///
+/// From the covariance, which is rounded, u² of a difference of such inputs is known to some ε of their own u² only, and u
+/// to the root of that; from D and R it is known as well as D is: a − b with r = 1 has |u(a) − u(b)|.
+/// \return empty where no two inputs are so, or where R is known to rounding only
+Eigen::MatrixXd factor_of_stated(const Budget& budget, const std::vector<Member>& members) {
+    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    constexpr long double k_least_pivot = 1e-14L;  // what is nearer to singular is so by rounding
+    std::map<std::size_t, Eigen::Index> place;
+    for (const Member& member : members) {
+        if (member.stated->components.size() != 1) {
+            return {};
+        }
+        place.emplace(member.input, static_cast<Eigen::Index>(place.size()));
+    }
+    const auto n = static_cast<Eigen::Index>(members.size());
+    Matrix R = Matrix::Identity(n, n);
+    bool any = false;
+    for (const InputCorrelation& correlation : budget.correlations) {
+        const auto first = place.find(correlation.first);
+        const auto second = place.find(correlation.second);
+        if (first == place.end() || second == place.end()) {
+            continue;
+        }
+        if (correlation.is_computed) {
+            return {};
+        }
+        any = any || std::abs(correlation.r) == 1.0;
+        R(first->second, second->second) = R(second->second, first->second) = correlation.r;
+    }
+    if (!any) {
+        return {};
+    }
+    // Each input is the first one that it is equal to, or the negative of it.
+    std::vector<Eigen::Index> firsts, first_of;
+    std::vector<long double> sign;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto equal = std::find_if(firsts.begin(), firsts.end(),
+                                        [&](Eigen::Index first) { return std::abs(R(i, first)) == 1.0L; });
+        first_of.push_back(equal - firsts.begin());
+        sign.push_back(equal == firsts.end() ? 1.0L : R(i, *equal));
+        if (equal == firsts.end()) {
+            firsts.push_back(i);
+        }
+    }
+    const auto m = static_cast<Eigen::Index>(firsts.size());
+    Matrix different(m, m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+        for (Eigen::Index j = 0; j < m; ++j) {
+            different(i, j) = R(firsts[static_cast<std::size_t>(i)], firsts[static_cast<std::size_t>(j)]);
+        }
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index j = 0; j < i; ++j) {
+            const auto a = static_cast<std::size_t>(i);
+            const auto b = static_cast<std::size_t>(j);
+            // What is correlated with one of two equal inputs otherwise than with the other contradicts them.
+            if (R(i, j) != sign[a] * sign[b] * different(first_of[a], first_of[b])) {
+                return {};
+            }
+        }
+    }
+    const Eigen::LLT<Matrix> root(different);
+    if (root.info() != Eigen::Success || !(root.matrixLLT().diagonal().cwiseAbs2().minCoeff() > k_least_pivot)) {
+        return {};
+    }
+    const Matrix L = root.matrixL();
+    Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        for (Eigen::Index c = 0; c <= first_of[at]; ++c) {
+            factor(i, firsts[static_cast<std::size_t>(c)]) =
+                members[at].quantity().u * static_cast<double>(sign[at] * L(first_of[at], c));
+        }
+    }
+    return factor;
+}
+
 /// Adds inputs that are correlated with each other as one group of their components.
 void add_correlated(const Budget& budget, const std::vector<std::size_t>& inputs, std::optional<std::size_t> point,
                     BudgetInputs& result) {
@@ -395,6 +474,8 @@ void add_correlated(const Budget& budget, const std::vector<std::size_t>& inputs
             group.own_streams.push_back(is_own(member) ? stream_of(member.input, member.component, point)
                                                        : InputGroup::k_shared);
         }
+    } else if (group.dependence == Dependence::normal || group.dependence == Dependence::student_t) {
+        group.factor = factor_of_stated(budget, members);  // a copula joins other deviates than the quantities
     }
     result.groups.push_back(std::move(group));
 }

@@ -471,6 +471,9 @@ BudgetResult evaluate_budget(const Budget& budget, unsigned threads, const Progr
         }
         if (is_without_scatter(fit, result.fits.back())) {
             result.notes.push_back(no_scatter_message(fit));
+            // Rounding is no scatter: what it left would be printed with twenty decimals.
+            result.fits.back().covariance.setZero();
+            result.fits.back().factor.setZero();
         } else if (auto lost = lost_digits_message(fit, result.fits.back())) {
             result.notes.push_back(std::move(*lost));
         }

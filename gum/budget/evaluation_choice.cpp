@@ -199,7 +199,9 @@ std::vector<std::string> evidence_against_law(BudgetPointResult& point, bool lin
             const double shift = std::abs(point.second_order->shift(index));
             // Second-order terms come first: of several reasons they are the one that names a size.
             if (std::abs(second - u) > k_largest_change * u || shift > k_largest_shift * std::max(u, second)) {
-                evidence[i] = u < k_vanishing * second ? "vanishing" : "second_order";
+                // At a pole, tan(x) at 90°, terms of any order are infinite: nothing vanishes there.
+                const bool is_small = checks.empty() || u <= checks[i].spread;
+                evidence[i] = u < k_vanishing * second && is_small ? "vanishing" : "second_order";
                 continue;
             }
         }

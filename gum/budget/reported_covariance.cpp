@@ -93,7 +93,7 @@ Eigen::VectorXd slope_of(const BudgetPointResult& point, const DrawnResult& of, 
             // What a result does not depend on has exactly no part in it, whatever the trials happen to show.
         } else if (n == 1 || group.is_diagonal()) {
             slope.segment(first, n) = c;
-        } else if (group.factor.size() > 0 && group.covariance.diagonal().minCoeff() > 0.0) {
+        } else if (group.factor.size() > 0 && group.factor.diagonal().minCoeff() > 0.0) {  // regular: no r = ±1
             const Eigen::MatrixXd L = known_correlation_root(group);
             const auto lower = L.triangularView<Eigen::Lower>();
             slope.segment(first, n) = lower.transpose().solve(Eigen::VectorXd(lower.solve(Eigen::VectorXd(c))));

@@ -77,7 +77,8 @@ void state_zero_uncertainty(const Budget& budget, const BudgetPointResult& point
     result.coverage_note =
         "the standard uncertainty is 0 although quantities that the result depends on are uncertain: they cancel in "
         "the "
-        "equation, or its derivatives vanish at these estimates";
+        "equation, its derivatives vanish at these estimates, or what is left of their uncertainty cannot be told from "
+        "0";
 }
 
 Diagnostic zero_uncertainty_message(const BudgetOutputResult& result, const std::string& where) {

@@ -383,6 +383,10 @@ Unit Unit::parse(std::string_view text) {
     return unit;
 }
 
+bool of_one_kind(const Unit& a, const Unit& b) {
+    return a.dimension() == b.dimension() && a.is_celsius_temperature() == b.is_celsius_temperature();
+}
+
 Unit Unit::coherent(const Dimension& dimension, bool celsius) {
     Unit unit;
     unit.dimension_ = dimension;

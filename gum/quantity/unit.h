@@ -80,6 +80,10 @@ private:
     bool celsius_ = false;
 };
 
+/// Whether a number in one unit can be stated in the other: the same dimension, and the origin of a temperature scale in
+/// both of them or in neither. A number of °C has none in K: it would be read as a thermodynamic temperature.
+[[nodiscard]] bool of_one_kind(const Unit& a, const Unit& b);
+
 /// A unit as people write it: "um" → "µm", "degC" → "°C", "nm K-1" → "nm·K⁻¹", "1" → "".
 [[nodiscard]] std::string unit_for_people(std::string_view text);
 

@@ -263,7 +263,7 @@ private:
             return;
         }
         if (r != 0.0) {
-            job_.correlations.push_back({pair.first, pair.second, std::clamp(r, -1.0, 1.0)});
+            job_.correlations.push_back({pair.first, pair.second, std::clamp(r, -1.0, 1.0), half_unit.has_value()});
         }
     }
 
@@ -461,6 +461,7 @@ private:
                     moved = &pair;
                 }
                 pair.r = r;
+                pair.is_computed = true;
             }
         }
         const auto at = stated_.find({moved->first, moved->second});

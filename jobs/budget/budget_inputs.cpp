@@ -426,9 +426,8 @@ bool BudgetInputs::complete(Evaluated& evaluated, const Reading& reading) const 
                 is_complete = false;
                 continue;
             }
-            // The reading as its own scale shows it: 100 °C is 100 K here, not 373.15 K.
-            read = other->unit.is_celsius_temperature() ? input.unit.difference_from_si(value_in_si(*other))
-                                                        : input.unit.from_si(value_in_si(*other));
+            // The reading as its own scale shows it: 100 °C is 100 K here, not 373.15 K, and 68 °F is 68 Δ°F, not 36 Δ°F.
+            read = input.unit.difference_from_si(other->unit.difference_to_si(value_in_unit(*other)));
         }
         is_complete = specify(input.components[i], *specification, read, input.unit, keys) && is_complete;
     }

@@ -231,14 +231,23 @@ private:
     [[nodiscard]] std::optional<std::size_t> input_of_scatter(std::string_view name) const {
         return name.starts_with("s(") && name.ends_with(")") ? input(name.substr(2, name.size() - 3)) : std::nullopt;
     }
-    /// Its readings at a point; none where it is stated otherwise, or has one reading.
+    /// Its readings at a point, whatever stands beside them; none where it is stated otherwise, has one reading, or two
+    /// series.
     [[nodiscard]] std::vector<double> readings_at(std::size_t i, std::size_t p) const {
         if (!job_.sections.empty() && !inputs_.is_used(job_.inputs[i].name, section_of(p))) {
             return {};
         }
-        const std::vector<gum::StatedQuantity>& components = gum::input_at(job_, i, p).components;
-        return components.size() == 1 && components.front().observations.size() > 1 ? components.front().observations
-                                                                                    : std::vector<double>();
+        std::vector<double> readings;
+        for (const gum::StatedQuantity& component : gum::input_at(job_, i, p).components) {
+            if (component.observations.empty()) {
+                continue;  // the display, the calibration
+            }
+            if (!readings.empty()) {
+                return {};  // of which of two series?
+            }
+            readings = component.observations;
+        }
+        return readings.size() > 1 ? readings : std::vector<double>();
     }
     [[nodiscard]] bool has_readings(std::size_t i) const {
         const auto [first, end] = points_of(section_);
@@ -600,10 +609,52 @@ private:
                                                    : "correct the name of the group");
             }
         }
+        check_units(table, where);
         if (!job_.sections.empty()) {
             table.section = job_.sections[section_].name;
         }
         job_.tables.push_back(std::move(table));
+    }
+
+    /// Unit of what a table shows under a name; none of words, and of limits, which are in that of a specification.
+    [[nodiscard]] std::optional<Unit> unit_of(const std::string& name) const {
+        if (const PointColumn* const c = column(name)) {
+            return c->unit.empty() ? std::nullopt : std::optional(Unit::parse(c->unit));
+        }
+        if (const Unit* const of_result = result(name)) {
+            return *of_result;
+        }
+        if (const std::optional<std::size_t> i = input(name)) {
+            return job_.inputs[*i].unit;
+        }
+        const std::optional<std::size_t> i = input_of_scatter(name);
+        return i ? std::optional(Unit::parse(gum::unit_of_difference(job_.inputs[*i].unit.text()))) : std::nullopt;
+    }
+
+    /// A number in a unit of another kind would be another quantity: 20 °C is not 20 K, and an error of 0.1 K not 32.2 °F.
+    void check_units(const TableRequest& table, const std::string& where) {
+        for (const TableRequest::GroupUnit& stated : table.units) {
+            const Unit unit = Unit::parse(stated.unit);
+            const auto fits = [&](const std::string& name) {
+                const std::optional<Unit> own = unit_of(name);
+                return own && of_one_kind(*own, unit);
+            };
+            const bool fits_any = std::any_of(table.columns.begin(), table.columns.end(),
+                                              [&](const ShownColumn& c) { return !c.of.empty() && fits(c.of); });
+            if (stated.of.empty() ? fits_any : fits(stated.of)) {
+                continue;
+            }
+            const std::optional<Unit> own = stated.of.empty() ? std::nullopt : unit_of(stated.of);
+            problems_.refuse(
+                k_unit_does_not_fit, where,
+                "the unit " + text::in_quotes(stated.unit) + " of the group " + text::in_quotes(stated.group) +
+                    (stated.of.empty() ? " fits nothing that the table shows"
+                     : own             ? ", and " + text::in_quotes(stated.of) + " is in " + own->text()
+                                       : ", and " + text::in_quotes(stated.of) + " has no unit"),
+                "a number is stated in units of its kind: temperatures of a scale with an origin in degC or degF, "
+                "differences and thermodynamic temperatures in K, differences in delta_degF too",
+                "correct the unit, or state it for the columns that it fits");
+        }
     }
 
     // ---- what follows from it ---------------------------------------------------------------------------------------
@@ -856,8 +907,7 @@ private:
                     const Unit unit = Unit::parse(stated.unit);
                     for (const ShownColumn& c : table.columns) {
                         const Unit* const own = c.show == "value" ? result(c.of, section_of(p)) : nullptr;
-                        if (own == nullptr || (!stated.of.empty() && stated.of != c.of) ||
-                            !(own->dimension() == unit.dimension())) {
+                        if (own == nullptr || (!stated.of.empty() && stated.of != c.of) || !of_one_kind(*own, unit)) {
                             continue;
                         }
                         // A unit of one result goes before that of all.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -145,17 +146,31 @@ std::string unit_in_group(const certificate::TableRequest& table, const std::str
                           const std::string& unit) {
     std::string found = unit;
     for (const certificate::TableRequest::GroupUnit& stated : table.units) {
-        if (stated.group != group || (!stated.of.empty() && stated.of != name)) {
+        if (stated.group != group || (!stated.of.empty() && stated.of != name) ||
+            !gum::of_one_kind(gum::Unit::parse(stated.unit), gum::Unit::parse(unit))) {
             continue;
         }
         if (!stated.of.empty()) {
             return stated.unit;
         }
-        if (gum::Unit::parse(stated.unit).dimension() == gum::Unit::parse(unit).dimension()) {
-            found = stated.unit;
-        }
+        found = stated.unit;
     }
     return found;
+}
+
+/// A number that was converted by a factor that is no power of ten: all of its digits, where it has at most two more than
+/// `decimals` (2.54 mm of 0.1 in), else one more. The step that was written is then ten steps of the last digit at least,
+/// and rounding takes a twentieth of it at most.
+std::string converted(double value, int decimals) {
+    constexpr double k_noise = 1e-6;  // of the last digit
+    for (int all = std::max(decimals, 0); all <= decimals + 2; ++all) {
+        const double steps = value * std::pow(10.0, all);
+        if (std::abs(steps - std::round(steps)) <=
+            k_noise + 4.0 * std::numeric_limits<double>::epsilon() * std::abs(steps)) {
+            return gum::round_as_written(value, all);
+        }
+    }
+    return gum::round_as_written(value, std::max(decimals + 1, 0));
 }
 
 /// The rows of a group in the unit of the group, each with the decimals that it has: zeros up to those of another row would
@@ -176,16 +191,18 @@ certificate::PointColumn in_group(const certificate::PointColumn& all, const std
     const gum::Unit from = gum::Unit::parse(all.unit);
     const gum::Unit to = gum::Unit::parse(unit);
     constexpr double k_noise = 1e-9;
-    const double factor = to.difference_from_si(from.difference_to_si(1.0));
-    const int shift = static_cast<int>(std::floor(std::log10(factor) + k_noise));
+    const double exponent = std::log10(to.difference_from_si(from.difference_to_si(1.0)));
+    const int shift = static_cast<int>(std::floor(exponent + k_noise));
+    const bool is_power_of_ten = std::abs(exponent - shift) < k_noise;
     column.unit = unit;
     column.printed_unit = gum::unit_for_people(unit);
     for (std::size_t i = 0; i < column.values.size(); ++i) {
         if (std::optional<double>& value = column.values[i]) {
             value = to.from_si(from.to_si(*value));
             const int own = certificate::decimals_of(column.printed[i]) - shift;
-            column.printed[i] =
-                is_computed ? gum::round_to_quantum(*value, own) : gum::round_as_written(*value, std::max(own, 0));
+            column.printed[i] = is_computed       ? gum::round_to_quantum(*value, own)
+                                : is_power_of_ten ? gum::round_as_written(*value, std::max(own, 0))
+                                                  : converted(*value, own);
         }
     }
     return column;

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace gumcert::certificate {
 namespace {
@@ -83,6 +86,78 @@ TEST(PointLimits, StandInColumns) {
     const LimitsAt about = limits_at(s, lookup_at(table, 0));
     EXPECT_NEAR(*about.lower, 49.8, 1e-12);
     EXPECT_NEAR(*about.upper, 50.2, 1e-12);
+}
+
+/// Which of two statements was agreed nobody can tell; one that only says the same again changes nothing.
+TEST(PointLimits, OfTwoKindsSayTheSame) {
+    PointTable table = points();
+    const AgreedSpecification s = specification("points");
+    const auto limits = [&](std::optional<double> low_uV) {
+        table.columns.back().values[0] = low_uV;
+        return limits_at(s, lookup_at(table, 0));
+    };
+    EXPECT_EQ(limits(-200.0).lower, -0.2);
+    EXPECT_EQ(limits(-200.0).upper, 0.2);
+    EXPECT_EQ(limits(-200.0).problem, "");
+    for (const double other : {-100.0, -300.0, -200.001, 200.0}) {
+        EXPECT_THAT(limits(other).problem, HasSubstr("states mpe, and other limits")) << other;
+    }
+}
+
+/// A table with a reading or nominal value of a temperature.
+PointTable temperature(double value, const std::string& unit) {
+    return {.points = {"1"},
+            .columns = {{.name = "t",
+                         .heading = {},
+                         .role = "",
+                         .stage = "",
+                         .unit = unit,
+                         .printed_unit = unit,
+                         .values = {value},
+                         .printed = {"t"}}},
+            .tables = {}};
+}
+
+/// 0.5 % of a reading is 0.5 % of what the thermometer shows, whatever unit the error is stated in.
+TEST(PointLimits, AreAPercentageOfWhatAThermometerShows) {
+    struct Shown {
+        const char* unit;
+        double value, step;  ///< of the scale [K]
+    };
+    for (const Shown& shown : {Shown{"degC", 20.0, 1.0}, Shown{"degC", -40.0, 1.0}, Shown{"degF", 68.0, 5.0 / 9.0},
+                               Shown{"degF", -40.1, 5.0 / 9.0}, Shown{"K", 293.15, 1.0}, Shown{"mK", 4200.0, 1e-3}}) {
+        for (const auto& [unit, kelvin] : {std::pair{"K", 1.0}, {"mK", 1e-3}, {"delta_degF", 5.0 / 9.0}}) {
+            AgreedSpecification s = specification("accuracy");
+            s.unit = unit;
+            s.limits->of = "t";
+            s.limits->accuracy = {{.range = "",
+                                   .unit = "",
+                                   .percent_of_reading = 0.5,
+                                   .percent_of_range = {},
+                                   .full_scale = {},
+                                   .digits = {},
+                                   .digit = {},
+                                   .constant = {}}};
+            const PointTable table = temperature(shown.value, shown.unit);
+            const double expected = 0.005 * std::abs(shown.value) * shown.step / kelvin;
+            EXPECT_NEAR(limits_at(s, lookup_at(table, 0)).upper.value_or(0.0), expected, 1e-13 * expected)
+                << shown.value << " " << shown.unit << " in " << unit;
+        }
+    }
+}
+
+/// 20 °C is not 20 K: neither as the argument of a step, nor as the value that limits lie about.
+TEST(PointLimits, TakeNoNumberOverTheOriginOfAScale) {
+    AgreedSpecification s = specification("steps");
+    s.unit = "K";
+    s.limits->arguments = {{.name = "t", .unit = "K", .of = "t"}};
+    s.limits->steps = {{.up_to = 300.0, .mpe = 0.2}};
+    EXPECT_THAT(limits_at(s, lookup_at(temperature(20.0, "degC"), 0)).problem, HasSubstr("no value of \"t\" in K"));
+    EXPECT_EQ(limits_at(s, lookup_at(temperature(20.0, "K"), 0)).upper, 0.2);
+    s.limits->arguments.front().unit = "degF";
+    EXPECT_EQ(limits_at(s, lookup_at(temperature(20.0, "degC"), 0)).upper, 0.2);
+    s.limits->about = "t";
+    EXPECT_THAT(limits_at(s, lookup_at(temperature(20.0, "degC"), 0)).problem, HasSubstr("no value of \"t\" in K"));
 }
 
 TEST(PointLimits, AreAnAccuracyByRange) {

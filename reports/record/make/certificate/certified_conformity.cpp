@@ -233,9 +233,10 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
     }
     const std::optional<DecisionNumbers> numbers = numbers_of(value, known, rule.limits);
     if (!numbers) {
-        return not_applicable(verdict, !value.U && value.u == 0.0
-                                           ? "the value is defined, not measured: it has no uncertainty"
-                                           : "no expanded uncertainty is stated for the value");
+        // U = 0 of constants, or none at all; what cancels has u = 0 too, and was measured.
+        const bool is_defined = value.U ? *value.U == 0.0 : value.u == 0.0 && value.coverage != "none";
+        return not_applicable(verdict, is_defined ? "the value is defined, not measured: it has no uncertainty"
+                                                  : "no expanded uncertainty is stated for the value");
     }
     ConformityDecision shown;
     try {

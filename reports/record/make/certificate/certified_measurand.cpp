@@ -78,7 +78,7 @@ std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, co
     const certificate::Measured measured = budgeted.measured(unit);
     const Unit of = Unit::parse(measured.unit);
     const Unit stated = Unit::parse(row->unit);
-    if (!certificate::of_one_kind(of, unit) || !certificate::of_one_kind(stated, unit)) {
+    if (!gum::of_one_kind(of, unit) || !gum::of_one_kind(stated, unit)) {
         return std::nullopt;
     }
     const double value = certificate::value_for_scope(measured.value, of, unit);

@@ -21,6 +21,13 @@ BudgetOutputResult result_of(const std::string& model, std::vector<BudgetInput> 
     return test::first_result(test::budget({model}, std::move(inputs)));
 }
 
+/// At a pole no derivative vanishes: they are all far above what the model does beside it.
+TEST(EvaluationChoice, NothingVanishesAtAPole) {
+    Budget pole = test::budget({"y = tan(x)"}, {input("x", state_uncertainty(1.5707963267948966, 0.01), "rad")});
+    pole.monte_carlo.emplace().trials = 2000;
+    EXPECT_EQ(test::first_result(pole).because, "second_order");
+}
+
 TEST(EvaluationChoice, SaysWhyMonteCarloIsReported) {
     const BudgetInput x0 = input("x", state_uncertainty(0, 1));
     const std::vector<BudgetInput> pair{input("a", state_uncertainty(3, 1)), input("b", state_uncertainty(3, 1))};

@@ -58,6 +58,20 @@ TEST(FitScatter, ResidualsOfZeroAreNoUncertainty) {
     EXPECT_THAT(note->action, HasSubstr("\"u_V\""));
 }
 
+/// Where residuals are rounding, the parameters have no uncertainty, in place of one of 1e-19.
+TEST(FitScatter, RoundingOfResidualsIsNoUncertaintyOfTheParameters) {
+    for (const std::vector<double>& y :
+         {std::vector<double>{0.1, 0.3, 0.5, 0.7, 0.9}, {2.1, 5.2, 8.3, 11.4}, k_perfect}) {
+        const BudgetResult result = on_line(y);
+        EXPECT_TRUE(tells(result, "GC-BUDGET-0036"));
+        EXPECT_EQ(result.fits[0].covariance.cwiseAbs().maxCoeff(), 0.0);
+        EXPECT_EQ(result.fits[0].factor.cwiseAbs().maxCoeff(), 0.0);
+        const double slope = y[1] - y[0];  // what is left is the uncertainty of q
+        EXPECT_NEAR(result.points[0].outputs[0].standard_uncertainty, slope * 1e-6, 1e-20);
+    }
+    EXPECT_GT(on_line(k_nearly).fits[0].covariance(0, 0), 0.0);
+}
+
 /// The cures of the warning: uncertainties that the data have, or none.
 TEST(FitScatter, TheCuresOfKeptUncertaintiesHold) {
     EXPECT_FALSE(tells(on_line(k_nearly, 0.0001, true), "GC-BUDGET-0035"));

@@ -102,7 +102,7 @@ inline void take_together(Budget& of) {
     for (std::size_t i = 0; i < of.inputs.size(); ++i) {
         for (std::size_t j = i + 1; j < of.inputs.size(); ++j) {
             if (const double r = R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)); r != 0.0) {
-                of.correlations.push_back({.first = i, .second = j, .r = r});
+                of.correlations.push_back({.first = i, .second = j, .r = r, .is_computed = true});
             }
         }
     }

@@ -171,6 +171,21 @@ TEST(BudgetJob, ConvertsTemperaturesAsScalesAndTheirUncertaintiesAsDifferences) 
     EXPECT_NEAR(sum.components[1].distribution.scale, 1.0, 1e-15);
 }
 
+/// A percentage of a reading is one of what its scale shows, whether the reading states it or a correction beside it.
+TEST(BudgetJob, TakesAPercentageOfWhatAScaleShows) {
+    for (const char* const reading : {R"j("value": 68, "unit": "degF")j", R"j("value": -40.1, "unit": "degF")j",
+                                      R"j("value": 20, "unit": "degC")j", R"j("value": 293, "unit": "K")j"}) {
+        const std::string percent = R"j("specification": {"percent_of_reading": 0.5)j";
+        const double own = read_one_input("{" + std::string(reading) + ", " + percent + "}}").components.front().u;
+        for (const char* const unit : {"K", "mK", "delta_degF"}) {
+            const BudgetJob job = read_budget(R"j("inputs": {"t": {)j" + std::string(reading) +
+                                              R"j(, "constant": true}, "e": {"value": 0, "unit": ")j" + unit +
+                                              R"j(", )j" + percent + R"j(, "of": "t"}}}, "model": "y = t + e")j");
+            EXPECT_NEAR(job.inputs.at(1).components.front().u, own, 1e-14 * own) << reading << " " << unit;
+        }
+    }
+}
+
 TEST(BudgetJob, ReadsTheExampleOfTheContract) {
     const BudgetJob job = read_budget(R"j("title": "End gauge",
   "model": ["l = l_s + d - l_s*(d_alpha*theta + alpha_s*d_theta)"],

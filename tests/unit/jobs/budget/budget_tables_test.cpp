@@ -208,6 +208,15 @@ TEST(BudgetTables, ShowTheScatterOfReadings) {
     EXPECT_NEAR(s.values[0].value_or(0.0), 2e-4 / std::sqrt(2.0), 1e-18);
 }
 
+/// A display beside the readings, as docs/budget_job.md wants it, takes nothing from them.
+TEST(BudgetTables, ShowTheScatterOfReadingsBesideADisplay) {
+    std::string keys =
+        meter(k_columns, R"j(, "tables": [{"columns": ["reference", "indication", "s(V_x)", "E", "U"]}])j");
+    keys.replace(keys.find(R"j("role": "indication")j"), 0, R"j("resolution": 0.0001, )j");
+    const BudgetJob job = read_budget(keys, k_points);
+    EXPECT_THAT(job.point_columns.back().printed, ElementsAre("0.00014", "0.000071"));
+}
+
 TEST(BudgetTables, ShowNoScatterOfWhatHasNoReadings) {
     for (const char* const name : {"s(dV)", "s(V_s)", "s(V_y)", "s()", "s(", "s(V_x", "s(E)"}) {
         expect_refusal(meter(k_columns, std::string(R"j(, "tables": [{"columns": ["E", "U", ")j") + name + R"j("]}])j"),
@@ -272,6 +281,34 @@ TEST(BudgetTables, RefuseAMissingReading) {
     test::BudgetFiles files = k_points;
     files["points.csv"].replace(files["points.csv"].find("0,0503"), 6, "");
     expect_refusal(meter(k_columns), k_empty_cell, "no value in the column \"V_x.2\"", files);
+}
+
+/// A unit goes to what it fits: a temperature of a scale with an origin never becomes a difference, nor the other way round.
+TEST(BudgetTables, StateNumbersInUnitsOfTheirKind) {
+    const auto thermometer = [](const std::string& units) {
+        return R"j("model": ["E = t_x - t_s"], "inputs": {"t_x": {"unit": "degC", "u": 0.1},
+                    "t_s": {"unit": "degF", "constant": true}}, "outputs": {"E": {"unit": "mK"}},
+                   "points": {"list": [{"range": "A", "nom": 20, "t_x": 20.1, "t_s": 68}],
+                              "columns": {"range": "text", "nom": "degC"}},
+                   "tables": [{"columns": ["nom", "t_x", "t_s", "E", "U"], "units": {"A": )j" +
+               units + "}}]";
+    };
+    for (const std::string name : {"nom", "t_x", "t_s", "E"}) {
+        for (const std::string unit : {"degC", "degF", "K", "mK", "delta_degF", "kg", "1"}) {
+            const bool fits =
+                name == "E" ? unit == "K" || unit == "mK" || unit == "delta_degF" : unit == "degC" || unit == "degF";
+            const std::string keys = thermometer("{\"" + name + "\": \"" + unit + "\"}");
+            if (fits) {
+                EXPECT_TRUE(budget_refusals(keys, {}).empty()) << name << " " << unit;
+            } else {
+                expect_refusal(keys, k_unit_does_not_fit, "and \"" + name + "\" is in ", {});
+            }
+        }
+    }
+    EXPECT_TRUE(read_budget(thermometer("\"degF\"")).point_units.at(0).empty()) << "the error stays in mK";
+    EXPECT_EQ(read_budget(thermometer("\"K\"")).point_units.at(0).at("E").text(), "K");
+    expect_refusal(thermometer("\"kg\""), k_unit_does_not_fit, "fits nothing that the table shows", {});
+    expect_refusal(thermometer("{\"range\": \"1\"}"), k_unit_does_not_fit, "\"range\" has no unit", {});
 }
 
 TEST(BudgetTables, RefuseWhatTheyCannotShow) {

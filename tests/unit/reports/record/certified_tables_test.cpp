@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
+#include "gum/quantity/unit.h"
 #include "tests/support/sample_budget_record.h"
 
 namespace gumcert::reports {
@@ -104,6 +108,64 @@ TEST(CertifiedTables, HoldAGroupOfPointsEachInItsUnits) {
         << "each as its uncertainty has it";
     points.tables[0].units.clear();
     EXPECT_EQ(certified_tables(record)[0].layout->columns.at(0).printed, (std::vector<std::string>{"0.05000", "0.1"}));
+}
+
+/// 0.1 in is 2.54 mm and not 3 mm: what was written keeps its value in another unit, whatever the factor between the two.
+TEST(CertifiedTables, KeepTheValueOfWhatWasWrittenInAnotherUnit) {
+    EvaluationRecord record;
+    record.kind = "budget";
+    Result one;
+    one.quantity = "E";
+    one.unit = "mm";
+    one.point = "1";
+    one.name = "E[1]";
+    record.results = {one};
+    certificate::PointTable& points = record.points.emplace();
+    points.points = {"1"};
+    const auto printed = [&](const std::string& written, const std::string& unit, const std::string& in) {
+        points.columns = {{.name = "x",
+                           .heading = {},
+                           .role = "",
+                           .stage = "",
+                           .unit = unit,
+                           .printed_unit = unit,
+                           .values = {std::stod(written)},
+                           .printed = {written}}};
+        certificate::TableRequest request;
+        request.units = {{.group = "", .of = "x", .unit = in}};
+        request.columns = {{.show = "column", .of = "x", .heading = {}, .role = "", .stage = ""},
+                           {.show = "value", .of = "E", .heading = {}, .role = "", .stage = ""}};
+        points.tables = {request};
+        return certified_tables(record).at(0).layout->columns.at(0).printed.at(0);
+    };
+    EXPECT_EQ(printed("0.1", "in", "mm"), "2.54");
+    EXPECT_EQ(printed("1.250", "in", "mm"), "31.75");
+    EXPECT_EQ(printed("2", "in", "mm"), "50.8");
+    EXPECT_EQ(printed("0.5", "deg", "arcmin"), "30");
+    EXPECT_EQ(printed("20.1", "degC", "degF"), "68.18");
+    EXPECT_EQ(printed("68.2", "degF", "degC"), "20.111");
+    EXPECT_EQ(printed("0.50", "V", "mV"), "500") << "a power of ten moves the decimal sign";
+    EXPECT_EQ(printed("20.1", "degC", "K"), "20.1") << "no unit of its kind: as it is";
+    for (const auto& [unit, in] : {std::pair{"in", "mm"},
+                                   {"mm", "in"},
+                                   {"psi", "kPa"},
+                                   {"kPa", "psi"},
+                                   {"deg", "rad"},
+                                   {"rad", "arcsec"},
+                                   {"degC", "degF"},
+                                   {"degF", "degC"},
+                                   {"lb", "g"},
+                                   {"h", "s"}}) {
+        const gum::Unit from = gum::Unit::parse(unit);
+        const gum::Unit to = gum::Unit::parse(in);
+        for (const auto& [written, step] :
+             {std::pair{"0.1", 0.1}, {"1.25", 0.01}, {"2", 1.0}, {"-37.0", 0.1}, {"123.4567", 1e-4}, {"0.003", 1e-3}}) {
+            const double exact = to.from_si(from.to_si(std::stod(written)));
+            EXPECT_NEAR(std::stod(printed(written, unit, in)), exact,
+                        0.0501 * to.difference_from_si(from.difference_to_si(step)))
+                << written << " " << unit << " in " << in;
+        }
+    }
 }
 
 TEST(CertifiedTables, HoldARotaryTable) {

@@ -204,7 +204,8 @@ TEST(BudgetFindings, DataOfFitsWhoseDigitsAreLostAreFindings) {
     EXPECT_THAT(findings(record_of(fit(large, R"(, "u_y": 1e-7)")), "accredited"), HasSubstr("M02 critical"));
     EXPECT_EQ(findings(record_of(fit(large, R"(, "u_y": 0.3)")), "accredited"), "");
     EXPECT_EQ(findings(record_of(fit(large, "")), "accredited"), "");
-    EXPECT_EQ(findings(record_of(fit(tiny, "")), "accredited"), "F03 critical; M02 critical");
+    // Residuals of a rounding or two are no scatter: no uncertainty is made of them that digits could be held against.
+    EXPECT_EQ(findings(record_of(fit(tiny, "")), "accredited"), "F03 critical");
     // As the message advises: the whole number is subtracted from the data.
     EXPECT_EQ(findings(record_of(fit("[0.1, 1.1, 2.1, 3.1, 4.1000003]", "")), "accredited"), "");
 }

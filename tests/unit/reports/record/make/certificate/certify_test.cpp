@@ -850,6 +850,28 @@ TEST(Certify, LeavesValuesWithoutUncertaintyByDefinitionAsTheyAre) {
     EXPECT_FALSE(record.certificate->blocked);
 }
 
+// U = 0 of constants is stated; a result that cancels has u = 0 and no U, and was measured all the same.
+TEST(Certify, TellsAnExactValueFromOneThatCancels) {
+    const auto note = [](std::optional<double> U, const std::string& coverage) {
+        EvaluationRecord record = confirmed(test::sample_budget_record());
+        Result& result = record.results.front();
+        result.reported = {};
+        result.monte_carlo.reset();
+        result.u = 0.0;
+        result.U = U;
+        result.k.reset();
+        result.nu_eff.reset();
+        result.coverage = coverage;
+        result.printed.U = U ? "0" : "";
+        CertificateData data = test::sample_certificate_data();
+        data.specifications = {test::sample_specification("limits", result.name, -1e9, 1e9, result.unit)};
+        certify(record, data, {});
+        return column(record, "results", result.name).values.at(0).verdict->note;
+    };
+    EXPECT_THAT(note(0.0, "student_t"), HasSubstr("defined, not measured"));
+    EXPECT_THAT(note({}, "none"), HasSubstr("no expanded uncertainty is stated"));
+}
+
 TEST(Certify, SaysWhereMonteCarloDoesNotValidate) {
     EvaluationRecord record = test::sample_record();  // EXA at 30° is not validated
     certify(record, test::sample_certificate_data(), {});
