@@ -190,16 +190,21 @@ std::string table(const json& block) {
     if (total() > k_columns) {
         gap = 1;
     }
-    // Heads in two languages take as many lines as they have words before anything else gives way.
-    std::vector<std::size_t> least = widths;
-    for (std::size_t c = 0; c < count && bilingual(columns); ++c) {
-        least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+    // Heads in two languages take as many lines as they have words before anything else gives way. A number is never broken
+    // into two lines, where it would read as another one: a table that is too wide for that is wider than the page.
+    std::vector<std::size_t> words(count);
+    for (std::size_t c = 0; c < count; ++c) {
+        words[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
     }
-    while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
+    const std::vector<std::size_t> least = bilingual(columns) ? words : widths;
+    while (total() >
+           k_columns) {  // the widest column of texts gives way; heads of numbers when no text is left to wrap
         std::size_t widest = count;
         for (const int step : {0, 1, 2}) {
             for (std::size_t c = 0; c < count; ++c) {
-                const bool candidate = step == 0 ? widths[c] > least[c] : widths[c] > 8 && (may_shrink[c] || step == 2);
+                const bool candidate = step == 0   ? widths[c] > least[c]
+                                       : step == 1 ? may_shrink[c] && widths[c] > 8
+                                                   : !may_shrink[c] && widths[c] > words[c];
                 if (candidate && (widest == count || widths[c] > widths[widest])) {
                     widest = c;
                 }
@@ -215,7 +220,7 @@ std::string table(const json& block) {
     }
 
     std::string out = sentences(block, "caption", both(block, "number") + ". ");
-    const std::string rule(std::min(total(), k_columns), '-');
+    const std::string rule(total(), '-');
     out += rule + "\n";
     for (const json& group : block.at("groups")) {
         std::string line;
