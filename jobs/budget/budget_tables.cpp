@@ -17,6 +17,7 @@
 #include "gum/rounding.h"
 #include "gum/type_a.h"
 #include "jobs/budget/budget_fit_statement.h"
+#include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_results.h"
 #include "jobs/certificate/certificate_archive.h"
@@ -236,9 +237,12 @@ private:
         if (!job_.sections.empty() && !inputs_.is_used(job_.inputs[i].name, section_of(p))) {
             return {};
         }
+        // Beside other components, such as the step of the display, they are the one that the program called so.
         const std::vector<gum::StatedQuantity>& components = gum::input_at(job_, i, p).components;
-        return components.size() == 1 && components.front().observations.size() > 1 ? components.front().observations
-                                                                                    : std::vector<double>();
+        const auto found = std::find_if(components.begin(), components.end(), [&](const gum::StatedQuantity& c) {
+            return c.observations.size() > 1 && (components.size() == 1 || c.name == k_component_of_readings);
+        });
+        return found == components.end() ? std::vector<double>() : found->observations;
     }
     [[nodiscard]] bool has_readings(std::size_t i) const {
         const auto [first, end] = points_of(section_);

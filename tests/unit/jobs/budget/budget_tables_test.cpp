@@ -208,6 +208,19 @@ TEST(BudgetTables, ShowTheScatterOfReadings) {
     EXPECT_NEAR(s.values[0].value_or(0.0), 2e-4 / std::sqrt(2.0), 1e-18);
 }
 
+/// Readings stand beside the step of the display, or beside other components: their scatter is the same.
+TEST(BudgetTables, ShowTheScatterOfReadingsBesideOtherComponents) {
+    for (const std::string beside :
+         {R"j("resolution": 1e-5)j",
+          R"j("components": [{"name": "display", "resolution": 1e-5}, {"name": "zero", "u": 1e-6}])j"}) {
+        std::string keys = meter(k_columns, R"j(, "tables": [{"columns": ["indication", "s(V_x)", "E", "U"]}])j");
+        keys.insert(keys.find(R"j("role": "indication")j"), beside + ", ");
+        const BudgetJob job = read_budget(keys, k_points);
+        ASSERT_EQ(job.tables.size(), 1U);
+        EXPECT_THAT(job.point_columns.back().printed, ElementsAre("0.00014", "0.000071")) << beside;
+    }
+}
+
 TEST(BudgetTables, ShowNoScatterOfWhatHasNoReadings) {
     for (const char* const name : {"s(dV)", "s(V_s)", "s(V_y)", "s()", "s(", "s(V_x", "s(E)"}) {
         expect_refusal(meter(k_columns, std::string(R"j(, "tables": [{"columns": ["E", "U", ")j") + name + R"j("]}])j"),
