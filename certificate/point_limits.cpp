@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "certificate/capability.h"
 #include "gum/quantity/diagnostic.h"
@@ -15,7 +16,8 @@ namespace {
 
 using gum::Unit;
 
-constexpr double k_step_noise = 1e-12;  // of a nominal value that a unit was converted of
+constexpr double k_step_noise = 1e-12;   // of a nominal value that a unit was converted of
+constexpr double k_edge_of_step = 0.01;  // of its end: as near as a measured value lies to its nominal one
 
 LimitsAt without_limits(std::string problem) {
     return {.lower = {}, .upper = {}, .problem = std::move(problem)};
@@ -94,10 +96,17 @@ LimitsAt of_steps(const AgreedSpecification& s, const PointLookup& point) {
     const auto step = std::find_if(
         s.limits->steps.begin(), s.limits->steps.end(),
         [&](const PointLimits::Step& candidate) { return size <= candidate.up_to * (1.0 + k_step_noise); });
-    if (step == s.limits->steps.end()) {
-        return without_limits(text::shortest(size) + " " + argument.unit + " is beyond the last step of the limits");
+    std::optional<double> passed;
+    if (step != s.limits->steps.begin()) {
+        const double end = std::prev(step)->up_to;
+        passed = size <= end * (1.0 + k_edge_of_step) ? std::optional(end) : std::nullopt;
     }
-    return about(s, point, step->mpe);
+    LimitsAt limits =
+        step == s.limits->steps.end()
+            ? without_limits(text::shortest(size) + " " + argument.unit + " is beyond the last step of the limits")
+            : about(s, point, step->mpe);
+    limits.passed = passed;
+    return limits;
 }
 
 LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
