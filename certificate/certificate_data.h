@@ -111,6 +111,13 @@ struct StandardUsed {
     /// The largest U with this k, in `unit`, where several lines of the certificate were used; U is the smallest then
     std::optional<double> U_to;
     std::string unit;
+    /// The same of another kind of quantity: currents of a standard whose U above is that of voltages.
+    struct FurtherUncertainty {
+        double U = 0.0;
+        std::optional<double> U_to, k;
+        std::string unit;
+    };
+    std::vector<FurtherUncertainty> further;
     bool conformity_statement_only = false;  ///< no values: its limits are in the budget
     std::string sha256;                      ///< of the certificate, a DCC for instance
 };

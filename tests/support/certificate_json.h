@@ -168,6 +168,7 @@ inline certificate::CertificateData complete_certificate_data() {
     d.persons.performed_by->authorised_to = d.persons.reviewed_by->authorised_to = "2027-12-31";
     AgreedSpecification::Rule& rule = d.specifications[1].rule;
     rule = {};
+    d.standards.front().further = {{.U = 2e-6, .U_to = 5e-6, .k = 2.0, .unit = "A"}};
     rule.id = "DR-02";
     rule.test_uncertainty_ratio = 4.0;
     rule.largest_U = 1.0;

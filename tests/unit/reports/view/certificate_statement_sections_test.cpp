@@ -153,6 +153,10 @@ TEST(CertificateStatement, StatesTheRangeOfUOfAStandard) {
     standard.U_to.reset();
     EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
                 HasSubstr("|2\u00A0×\u00A010⁻¹¹\u00A0µm (k\u00A0=\u00A02)|"));
+    standard.further = {{.U = 5.0, .U_to = 8.0, .k = 2.0, .unit = "uA"},
+                        {.U = 0.1, .U_to = {}, .k = {}, .unit = "ohm"}};
+    EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
+                HasSubstr("; 5\u00A0µA to 8\u00A0µA (k\u00A0=\u00A02); 0.1\u00A0Ω|"));
 }
 
 TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
