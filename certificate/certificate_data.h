@@ -164,6 +164,8 @@ struct PointLimits {
     std::vector<Step> steps;                    ///< rising
     std::vector<CapabilityArgument> arguments;  ///< steps: one; `of` names a column or an input
     std::string expression;                     ///< plain numbers, as in a capability
+    /// In place of `expression`: the limits themselves, in the unit of the specification; "" one that there is not
+    std::string limit_low, limit_high;
 };
 
 /// An agreed specification and the rule by which conformity is decided (ISO/IEC 17025:2017, 7.1.3 and 7.8.6).

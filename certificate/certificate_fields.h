@@ -270,6 +270,8 @@ void describe(Archive& a, Struct& r) {
     a("steps", r.steps);
     a("arguments", r.arguments);
     a("expression", r.expression, TextForm::text);
+    a.stated("limit_low", r.limit_low, TextForm::text);
+    a.stated("limit_high", r.limit_high, TextForm::text);
 }
 
 template <class Archive, Described<AgreedSpecification> Struct>

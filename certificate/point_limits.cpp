@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "certificate/capability.h"
+#include "certificate/capability_equation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "text/numbers.h"
@@ -109,6 +110,43 @@ LimitsAt of_steps(const AgreedSpecification& s, const PointLookup& point) {
     return limits;
 }
 
+/// A limit that an expression gives itself, of any sign.
+std::optional<double> limit_of(const std::string& expression, const AgreedSpecification& s,
+                               const std::vector<ArgumentValue>& values, std::string& problem) {
+    if (expression.empty()) {
+        return std::nullopt;
+    }
+    Capability given;
+    given.form = "function";
+    given.unit = s.unit;
+    given.arguments = s.limits->arguments;
+    Eigen::VectorXd numbers(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        numbers(static_cast<Eigen::Index>(i)) = values[i].value;
+    }
+    const double limit =
+        compile_capability(given, expanded_capability_expression(expression, problem)).evaluate(numbers)(0);
+    if (!std::isfinite(limit)) {
+        problem = "the expression of a limit has no value here";
+    }
+    return limit;
+}
+
+LimitsAt of_two_expressions(const AgreedSpecification& s, const std::vector<ArgumentValue>& values) {
+    LimitsAt limits;
+    try {
+        limits.lower = limit_of(s.limits->limit_low, s, values, limits.problem);
+        limits.upper = limit_of(s.limits->limit_high, s, values, limits.problem);
+    } catch (const gum::NoResultError&) {
+        return without_limits("the expression of a limit has no value here");
+    }
+    if (limits.problem.empty() && limits.lower && limits.upper && *limits.lower >= *limits.upper) {
+        limits.problem = "the lower limit " + text::shortest(*limits.lower) + " " + s.unit +
+                         " is not below the upper one, " + text::shortest(*limits.upper) + " " + s.unit;
+    }
+    return limits.problem.empty() ? limits : without_limits(limits.problem);
+}
+
 LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
     Capability mpe;
     mpe.form = "function";
@@ -122,6 +160,9 @@ LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
             return without_limits("the point has no value of " + text::in_quotes(argument.of) + " in " + argument.unit);
         }
         values.push_back({argument.name, *at});
+    }
+    if (!s.limits->limit_low.empty() || !s.limits->limit_high.empty()) {
+        return of_two_expressions(s, values);
     }
     const CapabilityAt found = capability_at(mpe, values);
     return found.U ? about(s, point, *found.U)
