@@ -111,6 +111,13 @@ struct StandardUsed {
     /// The largest U with this k, in `unit`, where several lines of the certificate were used; U is the smallest then
     std::optional<double> U_to;
     std::string unit;
+    /// The same of another kind of quantity: currents of a standard whose U above is that of voltages.
+    struct FurtherUncertainty {
+        double U = 0.0;
+        std::optional<double> U_to, k;
+        std::string unit;
+    };
+    std::vector<FurtherUncertainty> further;
     bool conformity_statement_only = false;  ///< no values: its limits are in the budget
     std::string sha256;                      ///< of the certificate, a DCC for instance
 };
@@ -157,6 +164,8 @@ struct PointLimits {
     std::vector<Step> steps;                    ///< rising
     std::vector<CapabilityArgument> arguments;  ///< steps: one; `of` names a column or an input
     std::string expression;                     ///< plain numbers, as in a capability
+    /// In place of `expression`: the limits themselves, in the unit of the specification; "" one that there is not
+    std::string limit_low, limit_high;
 };
 
 /// An agreed specification and the rule by which conformity is decided (ISO/IEC 17025:2017, 7.1.3 and 7.8.6).

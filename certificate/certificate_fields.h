@@ -168,6 +168,14 @@ void describe(Archive& a, Struct& r) {
     a("no_deviations", r.no_deviations);
 }
 
+template <class Archive, Described<StandardUsed::FurtherUncertainty> Struct>
+void describe(Archive& a, Struct& r) {
+    a.needed("U", r.U, NumberRule::positive);
+    a.stated("U_to", r.U_to, NumberRule::positive);
+    a("k", r.k, NumberRule::at_least_one);
+    a.needed("unit", r.unit, TextForm::unit);
+}
+
 template <class Archive, Described<StandardUsed> Struct>
 void describe(Archive& a, Struct& r) {
     a.needed("name", r.name);
@@ -184,6 +192,7 @@ void describe(Archive& a, Struct& r) {
     a.stated("U_to", r.U_to, NumberRule::positive);
     a("k", r.k, NumberRule::at_least_one);
     a("unit", r.unit, TextForm::unit);
+    a.stated("further", r.further);
     a("conformity_statement_only", r.conformity_statement_only);
     a("sha256", r.sha256, TextForm::sha256);
 }
@@ -261,6 +270,8 @@ void describe(Archive& a, Struct& r) {
     a("steps", r.steps);
     a("arguments", r.arguments);
     a("expression", r.expression, TextForm::text);
+    a.stated("limit_low", r.limit_low, TextForm::text);
+    a.stated("limit_high", r.limit_high, TextForm::text);
 }
 
 template <class Archive, Described<AgreedSpecification> Struct>

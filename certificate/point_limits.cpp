@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "certificate/capability.h"
+#include "certificate/capability_equation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "text/numbers.h"
@@ -15,7 +17,8 @@ namespace {
 
 using gum::Unit;
 
-constexpr double k_step_noise = 1e-12;  // of a nominal value that a unit was converted of
+constexpr double k_step_noise = 1e-12;   // of a nominal value that a unit was converted of
+constexpr double k_edge_of_step = 0.01;  // of its end: as near as a measured value lies to its nominal one
 
 LimitsAt without_limits(std::string problem) {
     return {.lower = {}, .upper = {}, .problem = std::move(problem)};
@@ -107,10 +110,54 @@ LimitsAt of_steps(const AgreedSpecification& s, const PointLookup& point) {
     const auto step = std::find_if(
         s.limits->steps.begin(), s.limits->steps.end(),
         [&](const PointLimits::Step& candidate) { return size <= candidate.up_to * (1.0 + k_step_noise); });
-    if (step == s.limits->steps.end()) {
-        return without_limits(text::shortest(size) + " " + argument.unit + " is beyond the last step of the limits");
+    std::optional<double> passed;
+    if (step != s.limits->steps.begin()) {
+        const double end = std::prev(step)->up_to;
+        passed = size <= end * (1.0 + k_edge_of_step) ? std::optional(end) : std::nullopt;
     }
-    return about(s, point, step->mpe);
+    LimitsAt limits =
+        step == s.limits->steps.end()
+            ? without_limits(text::shortest(size) + " " + argument.unit + " is beyond the last step of the limits")
+            : about(s, point, step->mpe);
+    limits.passed = passed;
+    return limits;
+}
+
+/// A limit that an expression gives itself, of any sign.
+std::optional<double> limit_of(const std::string& expression, const AgreedSpecification& s,
+                               const std::vector<ArgumentValue>& values, std::string& problem) {
+    if (expression.empty()) {
+        return std::nullopt;
+    }
+    Capability given;
+    given.form = "function";
+    given.unit = s.unit;
+    given.arguments = s.limits->arguments;
+    Eigen::VectorXd numbers(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        numbers(static_cast<Eigen::Index>(i)) = values[i].value;
+    }
+    const double limit =
+        compile_capability(given, expanded_capability_expression(expression, problem)).evaluate(numbers)(0);
+    if (!std::isfinite(limit)) {
+        problem = "the expression of a limit has no value here";
+    }
+    return limit;
+}
+
+LimitsAt of_two_expressions(const AgreedSpecification& s, const std::vector<ArgumentValue>& values) {
+    LimitsAt limits;
+    try {
+        limits.lower = limit_of(s.limits->limit_low, s, values, limits.problem);
+        limits.upper = limit_of(s.limits->limit_high, s, values, limits.problem);
+    } catch (const gum::NoResultError&) {
+        return without_limits("the expression of a limit has no value here");
+    }
+    if (limits.problem.empty() && limits.lower && limits.upper && *limits.lower >= *limits.upper) {
+        limits.problem = "the lower limit " + text::shortest(*limits.lower) + " " + s.unit +
+                         " is not below the upper one, " + text::shortest(*limits.upper) + " " + s.unit;
+    }
+    return limits.problem.empty() ? limits : without_limits(limits.problem);
 }
 
 LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
@@ -126,6 +173,9 @@ LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
             return without_limits("the point has no value of " + text::in_quotes(argument.of) + " in " + argument.unit);
         }
         values.push_back({argument.name, *at});
+    }
+    if (!s.limits->limit_low.empty() || !s.limits->limit_high.empty()) {
+        return of_two_expressions(s, values);
     }
     const CapabilityAt found = capability_at(mpe, values);
     return found.U ? about(s, point, *found.U)

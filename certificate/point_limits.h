@@ -28,6 +28,9 @@ struct PointLookup {
 struct LimitsAt {
     std::optional<double> lower, upper;
     std::string problem = {};  ///< why there are none, in English; "" else
+    /// End of a step that the argument passes by less than a hundredth of it, in the unit of the argument: a measured value
+    /// of the nominal value that the step ends with lies there half of the time.
+    std::optional<double> passed = {};
 };
 
 /// Limits of a specification at one point: its own, where they are the same for all, else as AgreedSpecification::limits

@@ -16,6 +16,7 @@
 #include "json/strict_parser.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/printable_text.h"
+#include "text/lists.h"
 #include "text/utf8.h"
 
 namespace gumcert::imports {
@@ -442,6 +443,21 @@ void add_notes(const std::string& file, std::size_t inputs, std::size_t left_out
     }
 }
 
+/// What the issuer marks as outside of its accreditation: no traceability rests on its mark.
+void add_unaccredited(const std::string& file, const std::vector<std::string>& names,
+                      std::vector<gum::Diagnostic>& remarks) {
+    if (names.empty()) {
+        return;
+    }
+    remarks.push_back({.code = "GC-DCC-0035",
+                       .where = file,
+                       .what = std::to_string(names.size()) + (names.size() == 1 ? " input is" : " inputs are") +
+                               " outside of the accreditation of the issuer: " + text::listed(names, 8),
+                       .rule = "an accreditation covers what its scope names (ILAC-P10:07/2020)",
+                       .action = "do not rely on the accreditation for them: choose another route of traceability",
+                       .severity = gum::Severity::warning});
+}
+
 std::string job_text(const ImportedCertificate& c, const std::vector<Input>& inputs) {
     std::string result = "y";
     while (std::any_of(inputs.begin(), inputs.end(), [&](const Input& input) { return input.name == result; })) {
@@ -486,6 +502,7 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
     std::vector<std::size_t> quantities;
     std::map<std::string, std::size_t> distributions;
     std::set<std::size_t> tables;  // that inputs come from
+    std::vector<std::string> unaccredited;
     for (const ImportedQuantity& q : certificate.quantities) {
         if (q.role != "result" || Rows::is_degrees_of_freedom(q) || is_stated_twice(q)) {
             continue;
@@ -503,6 +520,9 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
             input->members.emplace_back("description", json_text(description_of(q, rows.place_of(q))));
             input->members.emplace_back("source", json_text(source_of(certificate)));
             note_distribution(q, input->members);
+            if (q.in_scope == false) {
+                unaccredited.push_back(input->name);
+            }
             inputs.push_back(std::move(*input));
             quantities.push_back(static_cast<std::size_t>(&q - certificate.quantities.data()));
             tables.insert(q.table);
@@ -529,6 +549,7 @@ ImportedJob import_certificate(std::string_view bytes, const std::string& file, 
                     .negative = unreliable};
     out.remarks.insert(out.remarks.end(), certificate.remarks.begin(), certificate.remarks.end());
     out.remarks.insert(out.remarks.end(), importer.remarks.begin(), importer.remarks.end());
+    add_unaccredited(file, unaccredited, out.remarks);
     add_notes(file, inputs.size(), left_out, distributions, out.remarks);
     return out;
 }

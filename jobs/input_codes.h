@@ -177,6 +177,8 @@ inline constexpr InputCode k_warn_same_position{"GC-WARN-0013", "two angles that
 inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0014",
                                                         "correlations that hold together within their digits only"};
 inline constexpr InputCode k_warn_beyond_range{"GC-WARN-0015", "a reading beyond the range of its specification"};
+inline constexpr InputCode k_warn_step_passed{"GC-WARN-0016",
+                                              "a measured value that passes the end of a step of limits"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,

@@ -201,8 +201,8 @@ private:
     std::string number_;
     DocumentWords words_;
     reports::RenderAssets assets_;
-    std::map<std::vector<std::string>, std::string>
-        digital_certificates_;                 // as the record gives them now, by languages
+    std::map<std::pair<std::vector<std::string>, std::string>, std::string>
+        digital_certificates_;                 // as the record gives them now, by languages and changed templates
     std::optional<PrintedDocument> made_now_;  // the texts of its pages
     std::optional<std::string> style_;         // of the templates
 
@@ -415,13 +415,15 @@ private:
     }
 
     const std::string& digital_certificate(const reports::RenderAssets& assets) {
-        std::string& made = digital_certificates_[assets.languages];
+        std::string& made = digital_certificates_[{assets.languages, assets.changed_templates}];
         made = made.empty() ? reports::render_dcc(record_, assets) : made;
         return made;
     }
 
     void require_agreement_of_dcc(const fs::path& file, std::string_view bytes) {
-        const reports::RenderAssets assets = in_languages(file, languages_of_dcc(bytes, file.string()));
+        reports::RenderAssets assets = in_languages(file, languages_of_dcc(bytes, file.string()));
+        // Which templates it names is no statement of the record: everything else is that of these templates all the same.
+        assets.changed_templates = changed_templates_of_dcc(bytes, file.string());
         refuse_disagreement(file, disagreement_of_dcc(bytes, file.string(), digital_certificate(assets)));
     }
 };

@@ -143,4 +143,22 @@ std::vector<std::string> languages_of_dcc(std::string_view bytes, const std::str
     return languages;
 }
 
+std::string changed_templates_of_dcc(std::string_view bytes, const std::string& name) {
+    constexpr std::size_t k_digits = 12;  // of a digest that a document shows
+    const XmlElement root = reports::read_xml(bytes, name);
+    const XmlElement* const data = root.child("dcc:administrativeData");
+    const XmlElement* const statements = data == nullptr ? nullptr : data->child("dcc:statements");
+    if (statements == nullptr) {
+        return "";
+    }
+    for (const XmlElement* const one : statements->children_named("dcc:statement")) {
+        const std::string digest = one->child_text("dcc:reference");
+        if (one->attribute("refType").ends_with("_changedTemplates") && digest.size() == k_digits &&
+            digest.find_first_not_of("0123456789abcdef") == std::string::npos) {
+            return digest;
+        }
+    }
+    return "";
+}
+
 }  // namespace gumcert::app

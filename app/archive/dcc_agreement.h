@@ -18,4 +18,9 @@ namespace gumcert::app {
 /// \throws gum::InputError  if it cannot be read
 [[nodiscard]] std::vector<std::string> languages_of_dcc(std::string_view bytes, const std::string& name);
 
+/// The beginning of the digest of changed templates that a digital certificate says it was made with; "" where it says nothing
+/// of them, or something else than such a digest.
+/// \throws gum::InputError  if it cannot be read
+[[nodiscard]] std::string changed_templates_of_dcc(std::string_view bytes, const std::string& name);
+
 }  // namespace gumcert::app

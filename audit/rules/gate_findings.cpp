@@ -74,6 +74,7 @@ constexpr std::array k_gate_findings{
     GateFinding{"D09", "D07"},
     GateFinding{"D10", "D01"},
     GateFinding{"D11", "D05"},
+    GateFinding{"D12", "D04"},
     // the printed statement
     GateFinding{"R01", "R01"},
     GateFinding{"R02", "R02"},

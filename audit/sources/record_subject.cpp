@@ -236,7 +236,8 @@ struct CertifiedAt {
     const certificate::AgreedSpecification* specification = nullptr;
 };
 
-/// The values that a certificate certifies, in the order of the results of a name.
+/// The values that a certificate certifies: those of points by the name of the point, because a table shows its rows in an
+/// order of its own (groups, rows that are chosen), and others in the order of the results of a name.
 class CertifiedValues {
 public:
     explicit CertifiedValues(const std::optional<certificate::Certificate>& certificate) : certificate_(certificate) {
@@ -244,25 +245,24 @@ public:
             return;
         }
         for (const certificate::CertifiedTable& table : certificate->tables) {
+            const bool has_points = table.argument && table.argument->name == "point";
             for (const certificate::CertifiedColumn& column : table.columns) {
-                for (const certificate::CertifiedValue& value : column.values) {
-                    by_result_[column.result].push_back(&value);
+                for (std::size_t row = 0; row < column.values.size(); ++row) {
+                    if (has_points && row < table.argument->printed.size()) {
+                        at_point_[{column.result, table.argument->printed[row]}] = &column.values[row];
+                    } else {
+                        by_result_[column.result].push_back(&column.values[row]);
+                    }
                 }
             }
         }
     }
-    /// \param result  "l" or, at a point of a table, "l[20 mm]"
-    [[nodiscard]] CertifiedAt next(const std::string& result) {
-        const std::string name = result.substr(0, result.find('['));
-        const auto values = by_result_.find(name);
-        std::size_t& taken = taken_[name];
-        if (values == by_result_.end() || taken >= values->second.size()) {
-            return {};
-        }
-        CertifiedAt at{.value = values->second[taken++]};
-        if (at.value->verdict) {
+    [[nodiscard]] CertifiedAt of(const reports::Result& result) {
+        const certificate::CertifiedValue* const value = value_of(result);
+        CertifiedAt at{.value = value};
+        if (value != nullptr && value->verdict) {
             for (const certificate::AgreedSpecification& specification : certificate_->data.specifications) {
-                if (specification.id == at.value->verdict->specification) {
+                if (specification.id == value->verdict->specification) {
                     at.specification = &specification;
                 }
             }
@@ -271,7 +271,19 @@ public:
     }
 
 private:
+    [[nodiscard]] const certificate::CertifiedValue* value_of(const reports::Result& result) {
+        // "l" or, at a point of a table, "l[20 mm]"
+        const std::string name = result.name.substr(0, result.name.find('['));
+        if (const auto found = at_point_.find({name, result.point}); found != at_point_.end()) {
+            return found->second;
+        }
+        const auto values = by_result_.find(name);
+        std::size_t& taken = taken_[name];
+        return values == by_result_.end() || taken >= values->second.size() ? nullptr : values->second[taken++];
+    }
+
     const std::optional<certificate::Certificate>& certificate_;
+    std::map<std::pair<std::string, std::string>, const certificate::CertifiedValue*> at_point_;
     std::map<std::string, std::vector<const certificate::CertifiedValue*>> by_result_;
     std::map<std::string, std::size_t> taken_;
 };
@@ -389,7 +401,7 @@ AuditedBudget budget_of(const reports::EvaluationRecord& record, const reports::
         claims.U = exact_number(*reported.U, budget.place);
     }
     claims.coverage_probability = reported.coverage_probability;
-    state_conformity(budget, certified.next(result.name));
+    state_conformity(budget, certified.of(result));
     return budget;
 }
 

@@ -5,6 +5,7 @@
 #include "certificate/gates/cited_documents.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
+#include "certificate/gates/worded_verdicts.h"
 #include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/decimal_rounding.h"
 
@@ -120,6 +121,7 @@ std::vector<Finding> uncertainty_findings(const Certificate& certificate) {
             }
         }
     }
+    worded_verdicts(found, certificate);
     return found.take();
 }
 

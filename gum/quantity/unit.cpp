@@ -400,9 +400,11 @@ std::string unit_for_people(std::string_view text) {
         return "";
     }
     const std::optional<UnitExpression> expression = factors_of(text);
-    if (!expression || !expression->plain) {
+    if (!expression) {
         return std::string(text);
     }
+    // A quotient inside of another one, or of a power, is written as a product: pC/(m/s2) is pC·m⁻¹·s².
+    const bool is_quotient = expression->quotient && expression->plain;
     std::vector<std::string> above;
     std::vector<std::string> below;
     for (const UnitFactor& factor : expression->factors) {
@@ -411,7 +413,7 @@ std::string unit_for_people(std::string_view text) {
         const std::string name = unit.people.empty()
                                      ? std::string(factor.text)
                                      : std::string(prefix != nullptr ? prefix->people : "") + std::string(unit.people);
-        const bool under = expression->quotient && factor.exponent.numerator < 0;
+        const bool under = is_quotient && factor.exponent.numerator < 0;
         UnitExponent exponent = factor.exponent;
         exponent.numerator = under ? -exponent.numerator : exponent.numerator;
         (under ? below : above).push_back(with_exponent(name, exponent));

@@ -67,7 +67,6 @@ double value_in_unit(const gum::BudgetInput& input) {
     return sum;
 }
 
-constexpr std::string_view k_readings = "readings";  // the component that they make beside others
 constexpr std::string_view k_resolution = "resolution";
 
 /// Readings of one input in a row of a file of points.
@@ -263,12 +262,12 @@ bool BudgetInputs::add_readings_and_resolution(const Stated& stated, const State
     if (!add_component(stated, keys.without(k_of_resolution), true, out, true)) {
         return false;
     }
-    out.input.components.back().name = k_readings;
+    out.input.components.back().name = k_component_of_readings;
     if (!add_component(stated, keys.without(k_of_readings), true, out)) {
         return false;
     }
     out.input.components.back().name = k_resolution;
-    own_components_.emplace(k_readings);
+    own_components_.emplace(k_component_of_readings);
     own_components_.emplace(k_resolution);
     return true;
 }
@@ -337,10 +336,10 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
         });
         is_read = add_component(stated, keys, true, out, holds_resolution) && is_read;
         if (!out.input.components.empty()) {
-            out.input.components.back().name = k_readings;
+            out.input.components.back().name = k_component_of_readings;
         }
-        names.emplace(k_readings);
-        own_components_.emplace(k_readings);
+        names.emplace(k_component_of_readings);
+        own_components_.emplace(k_component_of_readings);
     }
     for (std::size_t i = 0; i < list->size(); ++i) {
         const std::string pointer = child_pointer(keys.pointer("components"), i);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jobs/budget/budget_correlation.h"
@@ -15,6 +16,9 @@
 #include "jobs/laboratory/laboratory_use.h"
 
 namespace gumcert::jobs {
+
+/// The component that readings make beside others.
+inline constexpr std::string_view k_component_of_readings = "readings";
 
 /// The inputs of a budget job while it is read, and the points of its table, which state some of them anew.
 ///

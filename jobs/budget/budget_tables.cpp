@@ -17,6 +17,7 @@
 #include "gum/rounding.h"
 #include "gum/type_a.h"
 #include "jobs/budget/budget_fit_statement.h"
+#include "jobs/budget/budget_inputs.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_results.h"
 #include "jobs/certificate/certificate_archive.h"
@@ -36,6 +37,8 @@ using gum::Unit;
 using nlohmann::json;
 
 constexpr std::size_t k_most_shown = 40;
+constexpr const char* k_take_nominal_values =
+    "name a column of nominal values, with the role \"nominal\", in \"of\" of the argument";
 constexpr std::string_view k_range = "range";
 constexpr std::array<std::string_view, 7> k_of_results{"U",         "k",          "nu_eff", "limit",
                                                        "limit_low", "limit_high", "verdict"};
@@ -806,8 +809,9 @@ private:
                     refuse_name(needed, where);
                 }
             }
-            std::vector<std::string> without;
+            std::vector<std::string> without, past;
             std::string problem;
+            std::optional<double> end;
             for (std::size_t p = 0; p < points.points.size() && problems_.refusals() == 0; ++p) {
                 const auto& results = results_[section_of(p)];
                 if (!job_.sections.empty() && std::none_of(results.begin(), results.end(), [&](const auto& known) {
@@ -820,6 +824,10 @@ private:
                     problem = without.empty() ? limits.problem : problem;
                     without.push_back(text::in_quotes(points.points[p]));
                 }
+                if (limits.passed && !is_set(s.limits->arguments.front().of)) {
+                    end = end ? end : limits.passed;
+                    past.push_back(text::in_quotes(points.points[p]));
+                }
             }
             if (!without.empty()) {
                 problems_.refuse(k_point_without_limit, where,
@@ -827,9 +835,26 @@ private:
                                      text::listed(without, 5) + ": " + problem,
                                  "every point has the limits of a specification that names its result",
                                  s.limits->by == "points" ? "state them in the columns limit_low, limit_high or mpe"
-                                                          : "complete \"limits\" of the specification");
+                                 : past.empty()           ? "complete \"limits\" of the specification"
+                                                          : k_take_nominal_values);
+            } else if (!past.empty()) {
+                const certificate::CapabilityArgument& argument = s.limits->arguments.front();
+                problems_.warn(k_warn_step_passed, where,
+                               name + ": " + text::in_quotes(argument.of) + " passes " + text::shortest(*end) + " " +
+                                   argument.unit + ", the end of a step of the limits, by less than 1 % at the point" +
+                                   (past.size() == 1 ? " " : "s ") + text::listed(past, 5),
+                               "the limits there are those of the next step", k_take_nominal_values);
             }
         }
+    }
+    /// Whether a column or an input is what was meant to be, not what was measured.
+    [[nodiscard]] bool is_set(const std::string& name) const {
+        const PointColumn* const c = column(name);
+        const std::optional<std::size_t> i = input(name);
+        const auto is_constant = [](const gum::StatedQuantity& part) { return part.statement == "constant"; };
+        return (c != nullptr && (c->role == "nominal" || c->role == "setting")) ||
+               (i && !job_.inputs[*i].components.empty() &&
+                std::all_of(job_.inputs[*i].components.begin(), job_.inputs[*i].components.end(), is_constant));
     }
 
     [[nodiscard]] bool holds(const TableRequest& table, std::size_t point) const {

@@ -136,6 +136,8 @@ void check_entry(const certificate::PointLimits::Accuracy& accuracy, const Certi
     }
 }
 
+constexpr std::string_view k_unused_argument = "the expression does not use the argument";
+
 void check_entry(const certificate::PointLimits& limits, const CertificatePlace& place) {
     struct Part {
         const char* key;
@@ -144,18 +146,25 @@ void check_entry(const certificate::PointLimits& limits, const CertificatePlace&
     const bool accuracy = limits.by == "accuracy";
     const bool steps = limits.by == "steps";
     const bool expression = limits.by == "expression";
+    const bool themselves = expression && (!limits.limit_low.empty() || !limits.limit_high.empty());
     const bool of_reading = std::any_of(limits.accuracy.begin(), limits.accuracy.end(),
                                         [](const auto& entry) { return entry.percent_of_reading.has_value(); });
-    for (const Part& part : {Part{"accuracy", !limits.accuracy.empty(), accuracy, accuracy},
-                             Part{"of", !limits.of.empty(), accuracy, accuracy && of_reading},
-                             Part{"steps", !limits.steps.empty(), steps, steps},
-                             Part{"arguments", !limits.arguments.empty(), steps || expression, steps || expression},
-                             Part{"expression", !limits.expression.empty(), expression, expression}}) {
+    for (const Part& part :
+         {Part{"accuracy", !limits.accuracy.empty(), accuracy, accuracy},
+          Part{"of", !limits.of.empty(), accuracy, accuracy && of_reading},
+          Part{"steps", !limits.steps.empty(), steps, steps},
+          Part{"arguments", !limits.arguments.empty(), steps || expression, steps || expression},
+          Part{"expression", !limits.expression.empty(), expression && !themselves, expression && !themselves},
+          Part{"limit_low", !limits.limit_low.empty(), expression, false},
+          Part{"limit_high", !limits.limit_high.empty(), expression, false},
+          Part{"about", !limits.about.empty(), !themselves, false}}) {
         if (part.stated && !part.belongs) {
             place.below("/" + std::string(part.key))
-                .refuse(k_certificate_contradiction,
-                        text::in_quotes(part.key) + " beside limits by " + text::in_quotes(limits.by),
-                        "limits are stated in one way", "remove it, or correct \"by\"");
+                .refuse(
+                    k_certificate_contradiction,
+                    text::in_quotes(part.key) + " beside " +
+                        (themselves ? "\"limit_low\" or \"limit_high\"" : "limits by " + text::in_quotes(limits.by)),
+                    "limits are stated in one way", "remove it, or correct \"by\"");
         } else if (!part.stated && part.needed) {
             place.refuse(k_certificate_missing_key, text::in_quotes(part.key) + " is missing",
                          "limits by " + text::in_quotes(limits.by) + " need it", "add " + text::in_quotes(part.key));
@@ -169,14 +178,38 @@ void check_entry(const certificate::PointLimits& limits, const CertificatePlace&
     for (std::size_t i = 1; i < limits.steps.size(); ++i) {
         demand_order(limits.steps[i - 1].up_to, limits.steps[i].up_to, "steps", "", place);
     }
-    if (expression && !limits.arguments.empty() && !limits.expression.empty()) {
+    const std::vector<std::pair<const char*, const std::string*>> expressions{
+        {"/expression", &limits.expression}, {"/limit_low", &limits.limit_low}, {"/limit_high", &limits.limit_high}};
+    for (const auto& [key, text] : expressions) {
+        if (!expression || limits.arguments.empty() || text->empty()) {
+            continue;
+        }
         certificate::Capability mpe;
         mpe.form = "function";
         mpe.unit = "1";
         mpe.arguments = limits.arguments;
-        mpe.expression = limits.expression;
+        mpe.expression = *text;
         for (const certificate::CapabilityProblem& problem : certificate::check_capability(mpe)) {
-            place.below(problem.key).refuse(k_certificate_capability, problem.what, problem.rule, problem.action);
+            // A limit may be the same for all points; that both are is told below.
+            if (text == &limits.expression || !problem.what.starts_with(k_unused_argument)) {
+                place.below(problem.key == "/expression" ? key : problem.key)
+                    .refuse(k_certificate_capability, problem.what, problem.rule, problem.action);
+            }
+        }
+    }
+    if (themselves && !limits.arguments.empty()) {
+        certificate::Capability both;
+        both.form = "function";
+        both.unit = "1";
+        both.arguments = limits.arguments;
+        both.expression = "0";
+        for (const std::string* const limit : {&limits.limit_low, &limits.limit_high}) {
+            both.expression += limit->empty() ? "" : " + (" + *limit + ")";
+        }
+        for (const certificate::CapabilityProblem& problem : certificate::check_capability(both)) {
+            if (problem.what.starts_with(k_unused_argument)) {
+                place.below("/arguments").refuse(k_certificate_capability, problem.what, problem.rule, problem.action);
+            }
         }
     }
 }

@@ -203,22 +203,29 @@ std::optional<double> U_in_si(const json& row, const char* key) {
 
 constexpr double k_same_U = 1e-9;
 
+/// Whether the unit of a row is of the kind of another one: 2 µA are not 2 µV, though both are 2e-6.
+bool is_of_kind(const json& row, const std::string& unit) {
+    const std::string stated = text_in(row, "unit");
+    return gum::Unit::parse(stated.empty() ? "1" : stated).dimension() == gum::Unit::parse(unit).dimension();
+}
+
 double factor_of(const laboratory::CalibrationResult& line) {
     return line.k ? *line.k : line.U / laboratory::standard_uncertainty(line);
 }
 
-/// From the smallest U of the lines that were used to the largest, in the unit of the first: that of one line alone would
-/// be taken for all of them. Lines of another kind of quantity are not among these.
-void put_uncertainty(json& row, const std::vector<const laboratory::CalibrationResult*>& lines) {
-    const laboratory::CalibrationResult& first = *lines.front();
-    const std::string unit = gum::unit_of_difference(first.unit);
+/// From the smallest U of lines of one kind of quantity to the largest, in the unit of the first: that of one line alone
+/// would be taken for all of them.
+/// \param lines  those of the kind of the first are taken away
+void put_uncertainty_of_kind(json& row, std::vector<const laboratory::CalibrationResult*>& lines) {
+    const std::string unit = gum::unit_of_difference(lines.front()->unit);
     std::vector<std::pair<double, double>> all;  // U in the unit, and its k
-    for (const laboratory::CalibrationResult* line : lines) {
+    std::erase_if(lines, [&](const laboratory::CalibrationResult* line) {
         const UnitChange change(gum::unit_of_difference(line->unit), unit);
         if (change.is_possible()) {
             all.emplace_back(change.difference(line->U), factor_of(*line));
         }
-    }
+        return change.is_possible();
+    });
     const auto less = [](const auto& a, const auto& b) { return a.first / a.second < b.first / b.second; };
     const double k = std::max_element(all.begin(), all.end(), less)->second;
     for (auto& [U, own] : all) {
@@ -233,6 +240,16 @@ void put_uncertainty(json& row, const std::vector<const laboratory::CalibrationR
     row["unit"] = unit;
     if (largest->first > least->first * (1.0 + k_same_U)) {
         row["U_to"] = largest->first;
+    }
+}
+
+/// U of the lines that were used, each kind of quantity by itself: volts say nothing of amperes.
+void put_uncertainty(json& row, std::vector<const laboratory::CalibrationResult*> lines) {
+    put_uncertainty_of_kind(row, lines);
+    while (!lines.empty()) {
+        json further = json::object();
+        put_uncertainty_of_kind(further, lines);
+        row["further"].push_back(std::move(further));
     }
 }
 
@@ -1021,6 +1038,14 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
         if (key == "name" || key == "identification" || value.is_discarded()) {
             continue;  // a name may be worded for the reader of a certificate
         }
+        if (key == "further") {
+            for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
+                if (value[i].is_object()) {  // else its reader refuses it
+                    compare_standard(value[i], row, record, child_pointer(pointer + "/further", i));
+                }
+            }
+            continue;
+        }
         const auto registered = row.find(key);
         if (key == "U" || key == "U_to" || key == "k" || key == "unit") {
             // Of any of its lines, in any unit.
@@ -1031,7 +1056,8 @@ void LaboratoryUse::compare_standard(const json& stated, const json& row, const 
                 const double of_line = gum::Unit::parse(line.unit).difference_to_si(line.U);
                 const double k = factor_of(line);
                 fits = fits || (key == "k" ? value.is_number() && std::abs(value.get<double>() - k) <= k_same_U * k
-                                           : U && std::abs(*U - of_line) <= k_same_U * of_line);
+                                           : U && is_of_kind(stated, line.unit) &&
+                                                 std::abs(*U - of_line) <= k_same_U * of_line);
             }
             if (!fits && (key == "k" || (key != "unit" && U))) {
                 const auto of_row = registered == row.end() ? row.find("U") : registered;
@@ -1083,7 +1109,7 @@ void LaboratoryUse::complete_standards(json& data, const CertificatePlace& place
         compare_standard(entry, row, *record, pointer);
         const bool states_U = entry.contains("U");  // and whether it is that of several lines
         for (const auto& [key, value] : row.items()) {
-            if (!entry.contains(key) && !(key == "U_to" && states_U)) {
+            if (!entry.contains(key) && !((key == "U_to" || key == "further") && states_U)) {
                 entry[key] = value;
             }
         }

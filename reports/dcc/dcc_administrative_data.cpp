@@ -346,6 +346,12 @@ void status_statements(DccWriter& w) {
     if (w.has_scope()) {
         w.statement("capability", words("dcc", "capability"), w.tables().empty() ? "" : "scope");
     }
+    if (!w.changed_templates.empty()) {
+        w.xml.open("dcc:statement", {{"refType", w.ref_types()("changed_templates")}});
+        w.optional_string("dcc:reference", w.changed_templates);
+        w.text("dcc:declaration", words.filled("document", "changed_templates", {{"digest", w.changed_templates}}));
+        w.xml.close();
+    }
 }
 
 void decision_rules(DccWriter& w) {

@@ -107,14 +107,19 @@ void standard(DccWriter& w, const certificate::StandardUsed& s) {
     line("valid_to", s.valid_to);
     // Quantities of equipment have no place for the definition of a unit.
     // One quantity would state one U for all that was used.
-    const bool has_quantity = s.U && !s.U_to && !needs_unit_definition(s.unit);
+    const bool has_quantity = s.U && !s.U_to && s.further.empty() && !needs_unit_definition(s.unit);
     line("k", s.k && !has_quantity ? words.number(d_si_number(*s.k)) : Text());
-    const auto with_unit_of = [&](double U) { return words.number(d_si_number(U)) + (" " + s.unit); };
-    if (s.U && s.U_to) {
-        line("standard_U",
-             words.filled("certificate", "from_to", {{"low", with_unit_of(*s.U)}, {"high", with_unit_of(*s.U_to)}}));
-    } else if (s.U && !has_quantity) {
-        line("standard_U", with_unit_of(*s.U));
+    const auto from_to = [&](double U, const std::optional<double>& U_to, const std::string& unit) {
+        const auto with_unit_of = [&](double number) { return words.number(d_si_number(number)) + (" " + unit); };
+        return U_to ? words.filled("certificate", "from_to", {{"low", with_unit_of(U)}, {"high", with_unit_of(*U_to)}})
+                    : with_unit_of(U);
+    };
+    if (s.U && !has_quantity) {
+        line("standard_U", from_to(*s.U, s.U_to, s.unit));
+    }
+    for (const certificate::StandardUsed::FurtherUncertainty& one : s.further) {
+        const Text k = one.k ? "; " + words("certificate", "k") + ": " + words.number(d_si_number(*one.k)) : Text();
+        line("standard_U", from_to(one.U, one.U_to, one.unit) + k);
     }
     w.optional_text("dcc:description", description);
     certificate_of(w, s);

@@ -64,8 +64,10 @@ void write_comment(DccWriter& w) {
     w.xml.close();
 }
 
-std::string written(const EvaluationRecord& record, const Wording& words, const RefTypes& ref_types) {
+std::string written(const EvaluationRecord& record, const Wording& words, const RefTypes& ref_types,
+                    const std::string& changed_templates) {
     DccWriter w(record, words, ref_types);
+    w.changed_templates = changed_templates;
     w.xml.open("dcc:digitalCalibrationCertificate",
                {{"xmlns:dcc", "https://ptb.de/dcc"},
                 {"xmlns:si", "https://ptb.de/si"},
@@ -101,7 +103,7 @@ std::string written(const EvaluationRecord& record, const Wording& words, const 
 std::string render_dcc(const EvaluationRecord& record, const RenderAssets& assets) {
     const Wording words = read_wording(assets, record);
     const RefTypes ref_types = RefTypes::read(assets);
-    std::string document = written(record, words, ref_types);
+    std::string document = written(record, words, ref_types, assets.changed_templates);
     std::vector<gum::Diagnostic> breaches =
         business_rule_breaches(read_dcc_root(document, "digital certificate"), "digital certificate");
     // A document that its own check refuses is not handed out: the mistake is then in the program or in what the job

@@ -566,6 +566,26 @@ std::string Reader::base_name(const XmlElement& quantity, const Context& context
     return base.empty() ? "quantity" : base;
 }
 
+/// Whether the accreditation of the issuer covers one row of a quantity, where it says so.
+void add_scope(const XmlElement& quantity, std::size_t row, std::size_t rows, ImportedQuantity& imported) {
+    const XmlElement* const meta = quantity.child("dcc:measurementMetaData");
+    if (meta == nullptr) {
+        return;
+    }
+    for (const XmlElement* data : meta->children_named("dcc:metaData")) {
+        const std::vector<std::string> types = xml_list(data->attribute("refType"));
+        if (std::find(types.begin(), types.end(), "basic_isInCMC") == types.end()) {
+            continue;
+        }
+        const XmlElement* const list = data->child("dcc:validXMLList");
+        const XmlElement* const one = list == nullptr ? data->child("dcc:valid") : list;
+        const std::optional<std::string> word = one == nullptr ? std::nullopt : entry(xml_list(one->text), row, rows);
+        if (word && (*word == "true" || *word == "1" || *word == "false" || *word == "0")) {
+            imported.in_scope = *word == "true" || *word == "1";
+        }
+    }
+}
+
 /// The statement of conformity of one row of a quantity.
 void add_conformity(const XmlElement& quantity, std::size_t row, std::size_t rows, ImportedQuantity& imported) {
     const XmlElement* const meta = quantity.child("dcc:measurementMetaData");
@@ -620,6 +640,7 @@ void Reader::add_rows(const XmlElement& quantity, const Context& context, const 
             imported.also.push_back(other->numbers[row]);
         }
         imported.remark = note;
+        add_scope(quantity, row, rows, imported);
         add_conformity(quantity, row, rows, imported);
         out_.quantities.push_back(std::move(imported));
     }

@@ -43,6 +43,8 @@ struct ImportedQuantity : ImportedNumber {
     std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
+    /// Whether the issuer says that it is inside of its accreditation (basic_isInCMC); none: it says nothing
+    std::optional<bool> in_scope;
     /// dcc:conformity of its row ("pass", "fail", "conditionalPass" …), the first that is not "noPass"; "" without one
     std::string conformity;
     std::string conformity_id;           ///< refId of it: the statement with the decision rule

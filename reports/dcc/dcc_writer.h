@@ -34,6 +34,8 @@ public:
     [[nodiscard]] std::string item_id(const std::string& section) const;
     /// Pieces of the sets among the items.
     [[nodiscard]] const SetPieces& pieces() const { return pieces_; }
+    /// Beginning of the digest of templates that are not those of the release; "" where they are
+    std::string changed_templates;
     [[nodiscard]] bool is_specimen() const { return data_.status == "specimen"; }
     /// True where values are marked as within or outside of the scope of accreditation.
     [[nodiscard]] bool has_scope() const { return data_.status == "accredited" && data_.accreditation.has_value(); }

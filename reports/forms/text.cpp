@@ -20,6 +20,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t k_part_indent = 2;
+constexpr std::size_t k_least_column = 8;  // of texts, and of numbers that are shorter
+constexpr std::string_view k_minus = "\u2212";
 
 std::string text_of(const json& object, const char* key) {
     return object.at(key).get<std::string>();
@@ -136,6 +138,22 @@ std::size_t longest_word(const json& column, const json& rows, std::size_t c) {
     return longest;
 }
 
+/// The width of the longest number of a column; a text that stands among numbers is none.
+std::size_t longest_number(const json& rows, std::size_t c) {
+    constexpr std::size_t k_longest = 40;  // [columns]: more digits than any number has
+    std::size_t longest = 0;
+    for (const json& row : rows) {
+        const json& cell = row.at("cells").at(c);
+        const std::string text = both(cell, "text");
+        const std::size_t own = width(text) + text_of(cell, "pad").size();
+        const std::size_t first = text.starts_with(k_minus) ? k_minus.size() : 0;
+        if (own <= k_longest && first < text.size() && text[first] >= '0' && text[first] <= '9') {
+            longest = std::max(longest, own + (c == 0 && text_of(row, "kind") == "part" ? k_part_indent : 0));
+        }
+    }
+    return longest;
+}
+
 std::string table(const json& block) {
     const json& columns = block.at("columns");
     const std::size_t count = columns.size();
@@ -190,16 +208,24 @@ std::string table(const json& block) {
     if (total() > k_columns) {
         gap = 1;
     }
-    // Heads in two languages take as many lines as they have words before anything else gives way.
+    // Heads in two languages take as many lines as they have words before anything else gives way. A number is never broken
+    // into two lines, where it would read as another one: a table that is too wide for that is wider than the page.
     std::vector<std::size_t> least = widths;
-    for (std::size_t c = 0; c < count && bilingual(columns); ++c) {
-        least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+    std::vector<std::size_t> of_numbers(count);
+    for (std::size_t c = 0; c < count; ++c) {
+        if (bilingual(columns)) {
+            least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
+        }
+        of_numbers[c] = std::max(k_least_column, longest_number(block.at("rows"), c));
     }
-    while (total() > k_columns) {  // the widest column of texts gives way; numbers only when no text is left to wrap
+    while (total() >
+           k_columns) {  // the widest column of texts gives way; heads of numbers when no text is left to wrap
         std::size_t widest = count;
         for (const int step : {0, 1, 2}) {
             for (std::size_t c = 0; c < count; ++c) {
-                const bool candidate = step == 0 ? widths[c] > least[c] : widths[c] > 8 && (may_shrink[c] || step == 2);
+                const bool candidate = step == 0   ? widths[c] > least[c]
+                                       : step == 1 ? may_shrink[c] && widths[c] > k_least_column
+                                                   : !may_shrink[c] && widths[c] > of_numbers[c];
                 if (candidate && (widest == count || widths[c] > widths[widest])) {
                     widest = c;
                 }
@@ -215,7 +241,7 @@ std::string table(const json& block) {
     }
 
     std::string out = sentences(block, "caption", both(block, "number") + ". ");
-    const std::string rule(std::min(total(), k_columns), '-');
+    const std::string rule(total(), '-');
     out += rule + "\n";
     for (const json& group : block.at("groups")) {
         std::string line;

@@ -105,14 +105,30 @@ Text rule_parameters(const AgreedSpecification& s, const Wording& words) {
     return text;
 }
 
+/// What a column of points or an input is that limits rest on, as the tables of a certificate show it; "" where none does.
+std::string role_in_tables(const Certificate& certificate, const std::string& name) {
+    for (const CertifiedTable& table : certificate.tables) {
+        for (std::size_t i = 0; table.layout && i < table.layout->columns.size(); ++i) {
+            if (table.layout->columns[i].name == name && !table.layout->columns[i].role.empty()) {
+                return table.layout->columns[i].role;
+            }
+        }
+    }
+    return "";
+}
+
 /// ±(0.005 % of the reading + 0.0035 % of 100 mV + 2 · 0.0001 mV)
-Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecification& s, const Wording& words) {
+/// \param role  of what the percentage is of: what was computed is said, whatever a data sheet calls it
+Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecification& s, const std::string& role,
+              const Wording& words) {
     const std::string unit = gum::unit_for_people(from.unit.empty() ? s.unit : from.unit);
+    const bool is_set = role == "nominal" || role == "setting" || role == "reference";
     Text sum;
     const auto add = [&](const Text& part) { sum += sum.empty() ? part : " + " + part; };
     const auto number = [&](double v) { return words.number(plain(v)); };
     if (from.percent_of_reading) {
-        add(words.filled("point_table", "percent_of_reading", {{"percent", number(*from.percent_of_reading)}}));
+        add(words.filled("point_table", is_set ? "percent_of_" + role : "percent_of_reading",
+                         {{"percent", number(*from.percent_of_reading)}}));
     }
     if (from.percent_of_range) {
         add(words.filled("point_table", "percent_of_range",
@@ -130,12 +146,21 @@ Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecif
 }
 
 Text limits_of_points(const certificate::PointLimits& limits, const AgreedSpecification& s, bool in_results,
-                      const Wording& words) {
+                      const Certificate& certificate, const Wording& words) {
     Text text;
     for (const certificate::PointLimits::Accuracy& entry : limits.accuracy) {
-        text += text.empty() ? accuracy(entry, s, words) : "; " + accuracy(entry, s, words);
+        const Text one = accuracy(entry, s, role_in_tables(certificate, limits.of), words);
+        text += text.empty() ? one : "; " + one;
     }
-    return text.empty() ? words("point_table", in_results ? "limits_by_points" : "limits_by_points_below") : text;
+    if (text.empty()) {
+        return words("point_table", in_results ? "limits_by_points" : "limits_by_points_below");
+    }
+    if (limits.about.empty()) {
+        return text;
+    }
+    const std::string role = role_in_tables(certificate, limits.about);
+    return words.filled("point_table", "limits_about",
+                        {{"limits", text}, {"value", role.empty() ? Text(limits.about) : words("point_table", role)}});
 }
 
 bool all_are_shown(const std::vector<Decided>& decided) {
@@ -143,9 +168,10 @@ bool all_are_shown(const std::vector<Decided>& decided) {
 }
 
 /// As they were agreed: each is one number, in however many rows it stands and to whatever decimals there.
-Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecification& s, const Wording& words) {
+Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecification& s, const Certificate& certificate,
+                      const Wording& words) {
     if (s.limits) {
-        return limits_of_points(*s.limits, s, all_are_shown(decided), words);
+        return limits_of_points(*s.limits, s, all_are_shown(decided), certificate, words);
     }
     const std::string unit = gum::unit_for_people(s.unit);
     const auto limit = [&](const char* key, const std::optional<double>& agreed) {
@@ -156,10 +182,10 @@ Text tolerance_limits(const std::vector<Decided>& decided, const AgreedSpecifica
     return low.empty() || high.empty() ? low + high : low + "; " + high;
 }
 
-void specification_rows(CertificateBuilder& builder, const Wording& words, const AgreedSpecification& s,
-                        const std::vector<Decided>& decided) {
+void specification_rows(CertificateBuilder& builder, const Wording& words, const Certificate& certificate,
+                        const AgreedSpecification& s, const std::vector<Decided>& decided) {
     Facts rows = {{words("certificate", "specification"), document_of(s)}};
-    add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, words));
+    add_fact(rows, words("certificate", "tolerance"), tolerance_limits(decided, s, certificate, words));
     rows.emplace_back(words("certificate", "decision_rule"), rule_by_name(s.rule.id, words));
     const Facts conditions = conditions_of_rule(s, words);
     rows.insert(rows.end(), conditions.begin(), conditions.end());
@@ -401,7 +427,7 @@ void conformity_section(CertificateBuilder& builder, const Wording& words, const
         if (decided.empty()) {
             continue;
         }
-        specification_rows(builder, words, s, decided);
+        specification_rows(builder, words, certificate, s, decided);
         decision_sentences(builder, words, certificate, decided);
         if (all_are_shown(decided)) {
             builder.paragraph(words("statement", "verdicts_in_tables"));

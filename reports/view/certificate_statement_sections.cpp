@@ -213,13 +213,24 @@ void method_section(CertificateBuilder& builder, const Wording& words, const Cer
 }
 
 /// "0.30 µm (k = 2)", "0.02 mg to 0.1 mg (k = 2)"
-Text headline_uncertainty(const certificate::StandardUsed& s, const Wording& words) {
-    const std::string unit = gum::unit_for_people(s.unit);
-    Text text = stated_number(s.U, unit, words);
-    if (s.U && s.U_to) {
-        text = words.filled("certificate", "from_to", {{"low", text}, {"high", stated_number(s.U_to, unit, words)}});
+Text headline_uncertainty(const std::optional<double>& U, const std::optional<double>& U_to,
+                          const std::optional<double>& k, const std::string& unit_of_job, const Wording& words) {
+    const std::string unit = gum::unit_for_people(unit_of_job);
+    Text text = stated_number(U, unit, words);
+    if (U && U_to) {
+        text = words.filled("certificate", "from_to", {{"low", text}, {"high", stated_number(U_to, unit, words)}});
     }
-    return text.empty() || !s.k ? text : text + " (k\u00A0=\u00A0" + words.number(plain(*s.k)) + ")";
+    return text.empty() || !k ? text : text + " (k\u00A0=\u00A0" + words.number(plain(*k)) + ")";
+}
+
+/// The same of each kind of quantity: "7 µV to 52 µV (k = 2); 5 µA (k = 2)"
+Text headline_uncertainty(const certificate::StandardUsed& s, const Wording& words) {
+    Text text = headline_uncertainty(s.U, s.U_to, s.k, s.unit, words);
+    for (const certificate::StandardUsed::FurtherUncertainty& one : s.further) {
+        const Text further = headline_uncertainty(one.U, one.U_to, one.k, one.unit, words);
+        text += text.empty() ? further : "; " + further;
+    }
+    return text;
 }
 
 void traceability_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {

@@ -135,6 +135,11 @@ inline certificate::CertificateData complete_certificate_data() {
     of_points.limits->arguments = {{.name = "L", .unit = "mm", .of = "L_n"}};
     of_points.limits->expression = "0.1 + 0.001*L";
     d.specifications.push_back(of_points);
+    of_points.id = "of_two_expressions";
+    of_points.limits->expression.clear();
+    of_points.limits->limit_low = "-0.01*L";
+    of_points.limits->limit_high = "0.03*L";
+    d.specifications.push_back(of_points);
     Capability range;
     range.form = "range";
     range.unit = "um";
@@ -163,6 +168,7 @@ inline certificate::CertificateData complete_certificate_data() {
     d.standards.front().evidence = "Comparison report CR-7";
     d.standards.front().conformity_statement_only = true;
     d.standards.front().U_to = 0.05;
+    d.standards.front().further = {{.U = 2e-6, .U_to = 5e-6, .k = 2.0, .unit = "A"}};
     d.persons.authorised_by->authorised_to = "2027-12-31";
     d.persons.performed_by->authorised_from = d.persons.reviewed_by->authorised_from = "2024-01-01";
     d.persons.performed_by->authorised_to = d.persons.reviewed_by->authorised_to = "2027-12-31";

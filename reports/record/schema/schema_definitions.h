@@ -152,6 +152,7 @@ inline constexpr std::tuple k_definitions{
     DefinitionOf<certificate::Dates>{"certificate_dates"},
     DefinitionOf<certificate::Method>{"certificate_method"},
     DefinitionOf<certificate::StandardUsed>{"certificate_standard_used"},
+    DefinitionOf<certificate::StandardUsed::FurtherUncertainty>{"certificate_further_uncertainty"},
     DefinitionOf<certificate::Condition>{"certificate_condition"},
     DefinitionOf<certificate::Persons>{"certificate_persons"},
     DefinitionOf<certificate::Person>{"certificate_person"},

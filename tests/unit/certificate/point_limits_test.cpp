@@ -212,6 +212,35 @@ TEST(PointLimits, AreAnExpression) {
     EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("\"W\""));
 }
 
+/// Limits that follow the nominal value, to both sides as far as was agreed: -1 % and +3 % of it.
+TEST(PointLimits, AreTwoExpressionsOfANominalValue) {
+    const PointTable table = points();
+    AgreedSpecification s = specification("expression");
+    s.limits->arguments = {{.name = "N", .unit = "V", .of = "V"}};
+    s.limits->limit_low = "0.99*N";
+    s.limits->limit_high = "1.03*N";
+    const LimitsAt both = limits_at(s, lookup_at(table, 0));
+    ASSERT_EQ(both.problem, "");
+    EXPECT_NEAR(*both.lower, 0.99 * 0.05, 1e-15);
+    EXPECT_NEAR(*both.upper, 1.03 * 0.05, 1e-15);
+    EXPECT_THAT(limits_at(s, lookup_at(table, 1)).problem, HasSubstr("is not below the upper one")) << "of -10 V";
+    s.limits->limit_low = "N - 0.01*abs(N)";
+    s.limits->limit_high = "N + 0.03*abs(N)";
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 1)).lower, -10.1, 1e-12);
+    EXPECT_NEAR(*limits_at(s, lookup_at(table, 1)).upper, -9.7, 1e-12);
+    s.limits->limit_low = "-0.1";
+    s.limits->limit_high = "0";
+    EXPECT_EQ(limits_at(s, lookup_at(table, 0)).lower, -0.1);
+    EXPECT_EQ(limits_at(s, lookup_at(table, 0)).upper, 0.0) << "0 is a limit";
+    s.limits->limit_low.clear();
+    EXPECT_FALSE(limits_at(s, lookup_at(table, 0)).lower);
+    EXPECT_EQ(limits_at(s, lookup_at(table, 0)).upper, 0.0);
+    s.limits->limit_low = "0";
+    EXPECT_THAT(limits_at(s, lookup_at(table, 0)).problem, HasSubstr("is not below the upper one"));
+    s.limits->limit_low = "ln(-1)";
+    EXPECT_THAT(limits_at(s, lookup_at(table, 0)).problem, HasSubstr("has no value here"));
+}
+
 TEST(PointLimits, SayWhichColumnsTheyNeed) {
     PointLimits limits;
     limits.by = "accuracy";

@@ -197,6 +197,27 @@ TEST(ImportStandard, NoQuantityHoldsRowsOfTwoResults) {
     }
 }
 
+/// Who relies on the accreditation of an issuer has to know what it does not cover.
+TEST(ImportStandard, ValuesOutsideOfTheAccreditationAreTold) {
+    const auto told = [](const std::string& type, const std::string& flags) {
+        std::string list = list_of("e", "0.1 0.2", "\\kelvin", "0.01 0.02");
+        list.insert(list.find("</dcc:quantity>"), "<dcc:measurementMetaData><dcc:metaData refType='" + type + "'>" +
+                                                      flags + "</dcc:metaData></dcc:measurementMetaData>");
+        std::string what;
+        for (const gum::Diagnostic& remark : import_list(list).remarks) {
+            what += remark.code == "GC-DCC-0035" ? remark.what : "";
+        }
+        return what;
+    };
+    const auto flags = [](const std::string& words) { return "<dcc:validXMLList>" + words + "</dcc:validXMLList>"; };
+    EXPECT_THAT(told("basic_isInCMC", flags("true false")),
+                testing::AllOf(testing::StartsWith("1 input is outside"), testing::EndsWith("_2")));
+    EXPECT_THAT(told("other basic_isInCMC", flags("0")), testing::StartsWith("2 inputs are outside"));
+    EXPECT_THAT(told("basic_isInCMC", "<dcc:valid>false</dcc:valid>"), testing::StartsWith("2 inputs are outside"));
+    EXPECT_EQ(told("basic_isInCMC", flags("true")), "");
+    EXPECT_EQ(told("other", flags("false")), "");
+}
+
 TEST(ImportStandard, ResultsBeforeAnAdjustmentAreNoValuesOfTheStandard) {
     const std::string nominal = list_of("basic_nominalValue", "0 50", "\\kelvin", "");
     const ImportedJob imported =

@@ -123,6 +123,14 @@ int decimals_of_width(double w) {
     return std::min(certificate::decimals_of(one_says_it ? one : two), k_most);
 }
 
+/// Whether a rule keeps a distance from the limits, of whatever width: "AL = TL, AU = TU" has none, "AL = TL + M·U" has one
+/// where M is 0, too.
+bool has_guard_band(const ConformityDecision& decision) {
+    const std::string& formula = decision.formula;
+    return decision.guard_band != 0.0 || formula.find("TL ") != std::string::npos ||
+           formula.find("TU ") != std::string::npos;
+}
+
 /// Guard band, acceptance limits and ratio are those of the printed value and U, so that they can be checked by hand
 /// with what stands beside them, and that the printed value is inside of them where the verdict says so.
 /// \param shown  the decision from the printed numbers
@@ -148,7 +156,8 @@ void print(Verdict& verdict, const ConformityDecision& shown, int decimals, bool
     }
     verdict.printed.acceptance_lower = has_lower ? certificate::printed_at_least(*accepted.lower, finest) : "";
     verdict.printed.acceptance_upper = has_upper ? certificate::printed_at_most(*accepted.upper, finest) : "";
-    verdict.printed.guard_band = guarded ? certificate::printed_at_least(shown.guard_band, finest) : "";
+    verdict.printed.guard_band =
+        guarded && has_guard_band(shown) ? certificate::printed_at_least(shown.guard_band, finest) : "";
     verdict.printed.test_uncertainty_ratio =
         shown.test_uncertainty_ratio ? printed_ratio(*shown.test_uncertainty_ratio) : "";
     const auto percent = [](const std::optional<double>& p) {

@@ -268,6 +268,24 @@ TEST(DocumentsAndRecords, DifferInTheWordsThatAreTold) {
 }
 
 // Law: every text, attribute and element of a digital certificate follows from its record, and another one is told.
+/// Who checks a certificate may have other templates than those that it names; everything else is held against the record.
+TEST(DocumentsAndRecords, LetADigitalCertificateNameItsTemplates) {
+    const reports::EvaluationRecord record = example_certificates().front().second;
+    reports::RenderAssets assets = agreement_assets();
+    const std::string plain = reports::render_dcc(record, assets);
+    EXPECT_EQ(changed_templates_of_dcc(plain, "plain.xml"), "");
+    assets.changed_templates = "9e7c1a5b2d3f";
+    const std::string dcc = reports::render_dcc(record, assets);
+    EXPECT_EQ(changed_templates_of_dcc(dcc, "other.xml"), assets.changed_templates);
+    EXPECT_NE(disagreement_of_dcc(dcc, "other.xml", plain), "");
+    EXPECT_EQ(disagreement_of_dcc(dcc, "other.xml", reports::render_dcc(record, assets)), "");
+    for (const std::string no_digest : {"9e7c1a5b2d3", "9e7c1a5b2d3F", "U is 0.10 µm"}) {
+        std::string other = dcc;
+        other.replace(other.find("<dcc:reference>9e7c1a5b2d3f"), 27, "<dcc:reference>" + no_digest);
+        EXPECT_EQ(changed_templates_of_dcc(other, "other.xml"), "") << no_digest;
+    }
+}
+
 TEST(DocumentsAndRecords, TellEveryChangeOfADigitalCertificate) {
     for (const char* const job : {"examples/certificate/end_gauge.json", "examples/everyday/torque_wrench/job.json"}) {
         const EvaluationRecord& record =

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "audit/audit.h"
 #include "audit/budget_outcome.h"
@@ -62,6 +64,53 @@ TEST(SubjectOfRecord, EvaluatesToWhatTheRecordReports) {
     EXPECT_NEAR(outcome.u_c, 0.5, 1e-12);
     EXPECT_NEAR(outcome.U, 1.0, 1e-5) << "k = 2 is t of 95.45 % but for its last digits";
     EXPECT_TRUE(subject.budgets.front().evaluated_here);
+}
+
+/// Tables show the rows of points in an order of their own: groups, and rows that are chosen.
+TEST(SubjectOfRecord, TakesWhatIsCertifiedByTheNameOfThePoint) {
+    std::mt19937_64 drawn(18);
+    for (int trial = 0; trial < 50; ++trial) {
+        reports::EvaluationRecord record = two_rows();
+        const reports::Result sample = record.results.front();
+        record.results.clear();
+        record.certificate.emplace();
+        record.certificate->tables.resize(2);
+        for (certificate::CertifiedTable& table : record.certificate->tables) {
+            table.argument = {.name = "point", .unit = "", .printed_unit = "", .values = {}, .printed = {}};
+            table.columns.push_back({.result = "y", .name = "y", .unit = "um", .printed_unit = "µm", .values = {}});
+        }
+        std::vector<std::size_t> order(6);
+        std::iota(order.begin(), order.end(), 0U);
+        std::shuffle(order.begin(), order.end(), drawn);
+        for (std::size_t p = 0; p < order.size(); ++p) {
+            reports::Result result = sample;
+            result.quantity = "y";
+            result.point = std::to_string(p);
+            result.name = "y[" + result.point + "]";
+            record.results.push_back(result);
+            certificate::CertifiedTable& table = record.certificate->tables[p % 2];
+            certificate::CertifiedValue value;
+            value.U = 1.0 + static_cast<double>(order[p]);
+            value.scope_entry = "S";
+            value.capability = 0.5 + static_cast<double>(order[p]);
+            value.verdict.emplace();
+            value.verdict->verdict = order[p] % 2 == 0 ? "pass" : "fail";
+            value.verdict->upper = 10.0 * static_cast<double>(order[p]);
+            table.argument->printed.push_back(std::to_string(order[p]));
+            table.argument->values.emplace_back();
+            table.columns.front().values.push_back(value);
+        }
+        const AuditSubject subject = subject_of(record, "record.json");
+        ASSERT_EQ(subject.budgets.size(), order.size());
+        for (std::size_t p = 0; p < order.size(); ++p) {
+            const AuditedBudget& budget = subject.budgets[p];
+            ASSERT_TRUE(budget.claims.U);
+            EXPECT_EQ(budget.claims.U->value, 1.0 + static_cast<double>(p)) << budget.name;
+            EXPECT_EQ(budget.capability, 0.5 + static_cast<double>(p)) << budget.name;
+            EXPECT_EQ(budget.claims.verdict, p % 2 == 0 ? "pass" : "fail") << budget.name;
+            EXPECT_EQ(budget.limits.upper, 10.0 * static_cast<double>(p)) << budget.name;
+        }
+    }
 }
 
 TEST(SubjectOfRecord, TakesTheStatementsOfInputsFromTheJob) {

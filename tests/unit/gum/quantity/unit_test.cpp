@@ -348,6 +348,9 @@ TEST(Unit, PrintsForPeopleAndForDocuments) {
     EXPECT_EQ(unit_for_people("s^(-5/2)"), "s^(-5/2)");
     EXPECT_EQ(unit_for_people("J/mol/K"), "J/(mol·K)");
     EXPECT_EQ(unit_for_people("1e-6/K"), "1e-6/K");
+    EXPECT_EQ(unit_for_people("pC/(m/s2)"), "pC·m⁻¹·s²");
+    EXPECT_EQ(unit_for_people("(m/s)^2"), "m²·s⁻²");
+    EXPECT_EQ(unit_for_people("V/(um/(m K))"), "V·µm⁻¹·m·K");
     EXPECT_EQ(unit_in_d_si("V/Hz^(1/2)"), "\\volt\\hertz\\tothe{-0.5}");
     EXPECT_EQ(unit_in_d_si("m^(1/3)"), std::nullopt);
     EXPECT_EQ(unit_in_d_si("um"), "\\micro\\metre");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 
 #include "jobs/input_codes.h"
 #include "tests/support/budget_campaign.h"
+#include "text/numbers.h"
 
 namespace gumcert::jobs {
 namespace {
@@ -208,13 +210,17 @@ TEST(BudgetTables, ShowTheScatterOfReadings) {
     EXPECT_NEAR(s.values[0].value_or(0.0), 2e-4 / std::sqrt(2.0), 1e-18);
 }
 
-/// A display beside the readings, as docs/budget_job.md wants it, takes nothing from them.
-TEST(BudgetTables, ShowTheScatterOfReadingsBesideADisplay) {
-    std::string keys =
-        meter(k_columns, R"j(, "tables": [{"columns": ["reference", "indication", "s(V_x)", "E", "U"]}])j");
-    keys.replace(keys.find(R"j("role": "indication")j"), 0, R"j("resolution": 0.0001, )j");
-    const BudgetJob job = read_budget(keys, k_points);
-    EXPECT_THAT(job.point_columns.back().printed, ElementsAre("0.00014", "0.000071"));
+/// Readings stand beside the step of the display, or beside other components: their scatter is the same.
+TEST(BudgetTables, ShowTheScatterOfReadingsBesideOtherComponents) {
+    for (const std::string beside :
+         {R"j("resolution": 1e-5)j",
+          R"j("components": [{"name": "display", "resolution": 1e-5}, {"name": "zero", "u": 1e-6}])j"}) {
+        std::string keys = meter(k_columns, R"j(, "tables": [{"columns": ["indication", "s(V_x)", "E", "U"]}])j");
+        keys.insert(keys.find(R"j("role": "indication")j"), beside + ", ");
+        const BudgetJob job = read_budget(keys, k_points);
+        ASSERT_EQ(job.tables.size(), 1U);
+        EXPECT_THAT(job.point_columns.back().printed, ElementsAre("0.00014", "0.000071")) << beside;
+    }
 }
 
 TEST(BudgetTables, ShowNoScatterOfWhatHasNoReadings) {
@@ -326,6 +332,31 @@ TEST(BudgetTables, RefuseWhatTheyCannotShow) {
     expect_refusal(tables(R"j([{"where": {"range": "1 V"}}, {}])j"), k_table_incomplete, "a table without rows");
     expect_refusal(tables("[]"), k_wrong_size, "0 tables");
     expect_refusal(k_meter + R"j(, "tables": [{}])j", k_no_statement, "nothing is stated");
+}
+
+/// A weight of 50 g has a mass of 50.00001 g: limits by steps are of nominal values.
+TEST(BudgetTables, TellWhereAMeasuredValuePassesTheEndOfAStep) {
+    const auto codes = [](const std::string& role, double first, double second, double last_step) {
+        const std::string keys = R"j("model": ["E = x - m"],
+            "inputs": {"m": {"unit": "g", "U": 1e-5, "k": 2)j" +
+                                 role + R"j(}, "x": {"unit": "g", "u": 1e-5}},
+            "points": [{"m": )j" +
+                                 text::shortest(first) + R"j(, "x": 50}, {"m": )j" + text::shortest(second) +
+                                 R"j(, "x": 100}],
+            "certificate": {"specifications": [{"id": "s", "results": ["E"], "unit": "mg", "rule": {"id": "DR-01"},
+                "limits": {"by": "steps", "arguments": [{"name": "m", "unit": "g", "of": "m"}],
+                           "steps": [{"up_to": 50, "mpe": 0.5}, {"up_to": )j" +
+                                 text::shortest(last_step) + R"j(, "mpe": 1}]}}]})j";
+        std::set<std::string> all;
+        for (const gum::Diagnostic& told : read_budget(keys).warnings) {
+            all.insert(told.code);
+        }
+        return all.contains("GC-WARN-0016");
+    };
+    EXPECT_TRUE(codes("", 50.00001, 100.0, 200.0));
+    EXPECT_FALSE(codes("", 50.0, 49.99999, 200.0));
+    EXPECT_FALSE(codes("", 51.0, 99.0, 200.0)) << "far behind the end of a step nothing is in doubt";
+    EXPECT_FALSE(codes(R"j(, "role": "nominal")j", 50.00001, 100.0, 200.0)) << "that is what is meant";
 }
 
 TEST(BudgetTables, RefuseAPointWithoutTheLimitsOfItsSpecification) {

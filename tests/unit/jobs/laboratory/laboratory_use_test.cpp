@@ -569,5 +569,58 @@ TEST(LaboratoryUseTest, TheRowOfAStandardSpansTheLinesThatWereUsed) {
     EXPECT_EQ(own.U_to, std::nullopt) << "what the author states is not mixed with the register";
 }
 
+/// Volts say nothing of amperes: a calibrator has a U of each.
+TEST(LaboratoryUseTest, TheRowOfAStandardHasEveryKindOfQuantityThatWasUsed) {
+    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+    json standard = json::parse(test::k_sample_standard);
+    standard["drift"] = {{"model", "none"}, {"reason", "r"}};
+    standard["calibrations"].erase(0);
+    const auto line = [](const char* quantity, const char* unit, double U, double k) {
+        return json{{"quantity", quantity}, {"value", 1.0}, {"unit", unit}, {"U", U}, {"k", k}};
+    };
+    standard["calibrations"][0]["results"] = {line("voltage", "V", 2e-6, 2.0), line("current", "mA", 3e-3, 2.0),
+                                              line("small current", "A", 1e-6, 2.5),
+                                              line("resistance", "ohm", 0.1, 2.0), line("time", "s", 7.0, 2.0)};
+    files["lab/standards/STD-1.json"] = standard.dump();
+    const auto with_rows = [&](const json& stated) {
+        json inputs;
+        for (const auto& [name, unit] : std::map<std::string, std::string>{
+                 {"voltage", "V"}, {"current", "A"}, {"small current", "A"}, {"resistance", "ohm"}}) {
+            inputs[std::string(1, name[0]) + std::to_string(name.size())] = {
+                {"standard", "STD-1"}, {"quantity", name}, {"unit", unit}};
+        }
+        json work = k_work;
+        if (!stated.is_null()) {
+            work["standards"] = {stated};
+        }
+        files["job.json"] = job_of(inputs, work).dump();
+        return MemoryFileSource(files);
+    };
+    const certificate::StandardUsed row = read_budget_job(with_rows({}), "job.json").certificate->standards.at(0);
+    std::map<std::string, std::pair<double, std::optional<double>>> all{{row.unit, {row.U.value_or(0.0), row.U_to}}};
+    for (const certificate::StandardUsed::FurtherUncertainty& one : row.further) {
+        EXPECT_TRUE(all.emplace(one.unit, std::pair{one.U, one.U_to}).second) << one.unit;
+    }
+    ASSERT_EQ(all.size(), 3U) << "what was not used is not among them";
+    EXPECT_EQ(all.at("V"), std::pair(2e-6, std::optional<double>()));
+    EXPECT_EQ(all.at("ohm"), std::pair(0.1, std::optional<double>()));
+    const bool is_in_milliamperes = all.contains("mA");
+    const auto [U, U_to] = all.at(is_in_milliamperes ? "mA" : "A");
+    const double scale = is_in_milliamperes ? 1e-3 : 1.0;
+    EXPECT_NEAR(U * scale, 8e-7, 1e-12) << "1 µA with k = 2.5, stated with k = 2";
+    EXPECT_NEAR(U_to.value_or(0.0) * scale, 3e-6, 1e-12);
+
+    const auto contradictions = [&](double U_of_current) {
+        const json stated{{"identification", "STD-1"},
+                          {"U", 2},
+                          {"k", 2},
+                          {"unit", "uV"},
+                          {"further", {{{"U", U_of_current}, {"k", 2}, {"unit", "uA"}}}}};
+        return register_of_job(with_rows(stated), "job.json").value().contradictions.size();
+    };
+    EXPECT_EQ(contradictions(3.0), 0U);
+    EXPECT_EQ(contradictions(2.0), 1U) << "2e-6 is a U of volts";
+}
+
 }  // namespace
 }  // namespace gumcert::jobs

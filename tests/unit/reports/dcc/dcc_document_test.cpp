@@ -86,6 +86,16 @@ TEST(DccDocument, OfARecordWithoutCertificateDataIsASpecimen) {
     (void)checked(test::sample_two_results_record());
 }
 
+TEST(DccDocument, SaysThatItsTemplatesWereChanged) {
+    RenderAssets own = dcc_assets({"en"});
+    EXPECT_EQ(render_dcc(certified_budget(), own).find("changedTemplates"), std::string::npos);
+    own.changed_templates = "9e7c1a5b2d3f";
+    const std::string document = render_dcc(certified_budget(), own);
+    EXPECT_NE(document.find("<dcc:statement refType=\"gumcert_changedTemplates\">"), std::string::npos);
+    EXPECT_TRUE(contains(texts(document, "dcc:reference"), "9e7c1a5b2d3f"));
+    EXPECT_TRUE(contains(texts(document, "dcc:content"), "changed templates 9e7c1a5b2d3f"));
+}
+
 TEST(DccDocument, HoldsEveryCertifiedNumberAsItIsPrinted) {
     for (const EvaluationRecord& record : {certified_budget(), certified_rotary_table()}) {
         const std::string document = checked(record, {});

@@ -153,6 +153,10 @@ TEST(CertificateStatement, StatesTheRangeOfUOfAStandard) {
     standard.U_to.reset();
     EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
                 HasSubstr("|2\u00A0×\u00A010⁻¹¹\u00A0µm (k\u00A0=\u00A02)|"));
+    standard.further = {{.U = 5.0, .U_to = 8.0, .k = 2.0, .unit = "uA"},
+                        {.U = 0.1, .U_to = {}, .k = {}, .unit = "ohm"}};
+    EXPECT_THAT(text_of(sections_of(record, method_sections), "traceability"),
+                HasSubstr("; 5\u00A0µA to 8\u00A0µA (k\u00A0=\u00A02); 0.1\u00A0Ω|"));
 }
 
 TEST(CertificateStatement, PrintsTheCertifiedTextsUntouched) {
@@ -280,6 +284,47 @@ TEST(CertificateStatement, StatesTheDecisionWithItsInputs) {
     EXPECT_THAT(text, HasSubstr("nothing is claimed between the points"));
     EXPECT_THAT(text_of(sections_of(test::certified_budget_record(), closing_sections), "conformity"),
                 HasSubstr("No statement of conformity was requested."));
+}
+
+/// Limits that were computed from the nominal value are no percentage of a reading, whatever a data sheet calls them.
+TEST(CertificateStatement, SaysWhatAPercentageOfLimitsIsOf) {
+    const auto limits = [](const std::string& role, const std::string& about, const std::string& language) {
+        EvaluationRecord record = of_values({value("normal", "2.00", std::nullopt)});
+        certificate::Certificate& c = *record.certificate;
+        c.data.specifications = {test::sample_specification("axial", "l", -1.0, 1.0, "nm")};
+        certificate::AgreedSpecification& s = c.data.specifications.front();
+        s.lower.reset();
+        s.upper.reset();
+        s.limits = certificate::PointLimits();
+        s.limits->by = "accuracy";
+        s.limits->of = "x";
+        s.limits->about = about;
+        s.limits->accuracy.resize(1);
+        s.limits->accuracy.front().percent_of_reading = 0.5;
+        s.limits->accuracy.front().constant = 2.0;
+        certificate::CertifiedTable& table = c.tables.front();
+        table.columns.front().values.front().verdict = test::sample_verdict(table.columns.front().values.front());
+        table.layout.emplace();
+        table.layout->columns = {{.name = "x",
+                                  .heading = {},
+                                  .role = role,
+                                  .stage = "",
+                                  .unit = "nm",
+                                  .printed_unit = "nm",
+                                  .values = {1.0},
+                                  .printed = {"1"}}};
+        table.layout->shown = {
+            {.show = "value", .of = table.columns.front().result, .heading = {}, .role = "", .stage = ""}};
+        return text_of(sections_of(record, closing_sections, language), "conformity");
+    };
+    EXPECT_THAT(limits("nominal", "", "en"), HasSubstr("=±(0.5 % of the nominal value + 2\u00A0nm)\n"));
+    EXPECT_THAT(limits("setting", "", "de"), HasSubstr("=±(0,5 % von der Einstellung + 2\u00A0nm)\n"));
+    EXPECT_THAT(limits("reference", "", "es"), HasSubstr("=±(0,5 % del valor de referencia + 2\u00A0nm)\n"));
+    EXPECT_THAT(limits("nominal", "", "zh-Hant"), HasSubstr("標稱值的 0.5 %"));
+    EXPECT_THAT(limits("indication", "", "en"), HasSubstr("=±(0.5 % of the reading + 2\u00A0nm)\n"));
+    EXPECT_THAT(limits("", "", "en"), HasSubstr("of the reading"));
+    EXPECT_THAT(limits("nominal", "x", "en"), HasSubstr("+ 2\u00A0nm), about: Nominal value\n"));
+    EXPECT_THAT(limits("nominal", "y", "en"), HasSubstr("+ 2\u00A0nm), about: y\n"));
 }
 
 TEST(CertificateStatement, ListsFindingsOnDraftsOnly) {

@@ -696,6 +696,21 @@ TEST(Certify, NeverDropsASpecificationThatWasAgreedOn) {
     EXPECT_THAT(ids(record), Contains("D05"));
 }
 
+TEST(Certify, PrintsNoGuardBandOfARuleThatHasNone) {
+    for (const char* rule : {"DR-01", "DR-12"}) {
+        const Verdict v = *certified(one_result(9.5, 0.2, "m"), data_with_rule(rule, 9.0, 10.0, "m")).verdict;
+        EXPECT_EQ(v.printed.guard_band, "") << rule;
+        EXPECT_EQ(v.printed.acceptance_lower, "9.00") << rule;
+    }
+    EXPECT_EQ(certified(one_result(9.5, 0.2, "m"), data_with_rule("DR-03", 9.0, 10.0, "m")).verdict->printed.guard_band,
+              "0.20");
+    // M = 0: the rule has a guard band, and it is 0 here.
+    CertificateData data = data_with_rule("DR-09", 0.0, 20.0, "m");
+    data.specifications[0].rule.method = "6";
+    const Verdict wide = *certified(one_result(9.5, 0.2, "m"), data).verdict;
+    EXPECT_EQ(certificate::number_of(wide.printed.guard_band), 0.0) << wide.formula;
+}
+
 TEST(Certify, PrintsNoGuardBandWhereNoValueIsAccepted) {
     const Verdict far = *certified(one_result(50.0, 0.6, "m"), data_with_rule("DR-08", -0.5, 0.5, "m")).verdict;
     EXPECT_EQ(far.verdict, "fail");
