@@ -157,6 +157,13 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                      const std::string& share, const std::string& laboratory, const CommonOptions& common) {
     const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
     ExitCode code = done;
+    if (!certificates && !trust_store.empty()) {
+        refuse_usage("--trust", "without the word dcc", "signatures are looked at in digital certificates",
+                     "gumcert check dcc FILE --trust STORE; leave it out for jobs, records and folders");
+    }
+    if (certificates && !laboratory.empty()) {
+        refuse_usage("--laboratory", "with the word dcc", "a digital certificate is checked by itself", "leave it out");
+    }
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
             app::FileCheck check{.kind = "digital certificate", .findings = {}};

@@ -512,6 +512,14 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     }
     for (const fs::path& file : app::input_files(job, evaluation.record, options.laboratory)) {
         inputs.push_back(file);
+    if (!options.signer.empty() && !app::output_form(format).is_signed) {
+        refuse_usage("--sign", "--format " + format,
+                     "signatures are put into digital certificates and PDF certificates",
+                     "leave it out, or ask for --format pdf or dcc");
+    }
+    if (!options.languages.empty() && !app::output_form(format).with_templates) {
+        refuse_usage("--language", "--format " + format, "a table for programs has no language", "leave it out");
+    }
     }
     write_outputs(files, inputs, at_start);
     report_diagnostics(evaluation.record, common);

@@ -173,6 +173,10 @@ ExitCode run_some(const std::vector<fs::path>& files, const fs::path& templates,
 
 ExitCode self_test(const std::string& output, const std::vector<std::string>& cases, const std::string& language,
                    const std::string& share, const CommonOptions& common) {
+    if (!cases.empty() && !(output.empty() && language.empty())) {
+        refuse_usage(output.empty() ? "--language" : "--output", "beside --case",
+                     "single cases are told on the terminal, and no report is written", "leave one of them out");
+    }
     const fs::path templates = templates_folder(share);
     const fs::path shipped = reference_cases_folder(share);
     const std::vector<fs::path> files = app::case_files(shipped);
