@@ -13,6 +13,7 @@
 
 #include "app/audit_evaluation.h"
 #include "app/audit_files.h"
+#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/output_files.h"
@@ -185,7 +186,8 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
             if (attempt.failure) {
                 unaudited.push_back(
                     {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
-                std::rethrow_exception(attempt.failure);
+                naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
+                           [&] { std::rethrow_exception(attempt.failure); });
             }
             views.push_back(std::move(*attempt.view));
             return attempt.has_critical ? negative_answer : done;

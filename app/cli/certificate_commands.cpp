@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "app/check_file.h"
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/document_identity.h"
@@ -155,8 +157,6 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
 
 ExitCode check_files(const std::vector<std::string>& files, bool certificates, const std::string& trust_store,
                      const std::string& share, const std::string& laboratory, const CommonOptions& common) {
-    const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
-    ExitCode code = done;
     if (!certificates && !trust_store.empty()) {
         refuse_usage("--trust", "without the word dcc", "signatures are looked at in digital certificates",
                      "gumcert check dcc FILE --trust STORE; leave it out for jobs, records and folders");
@@ -164,6 +164,9 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
     if (certificates && !laboratory.empty()) {
         refuse_usage("--laboratory", "with the word dcc", "a digital certificate is checked by itself", "leave it out");
     }
+    const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
+    ExitCode code = done;
+    const bool several = files.size() > 1;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
             app::FileCheck check{.kind = "digital certificate", .findings = {}};
@@ -171,9 +174,14 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = imports::check_certificate(app::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = app::check_file(
-                    file, static_cast<unsigned>(common.threads), templates_folder(share),
-                    [&](const std::string& text) { progress(text); }, laboratory);
+                check = naming_job(file, several, [&] {
+                    return app::check_file(
+                        file, static_cast<unsigned>(common.threads), templates_folder(share),
+                        [&](const std::string& text) { progress(text); }, laboratory);
+                });
+            }
+            if (several) {
+                check.findings = of_job(std::move(check.findings), file);
             }
             return print_check(file, check, common);
         });
