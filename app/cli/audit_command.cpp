@@ -27,6 +27,7 @@
 #include "reports/forms/asset_files.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/wording.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -226,7 +227,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     report_kept(numbers_file(to), common);
     if (!common.quiet) {
         for (const app::OutputFile& file : written) {
-            print_to_stdout("Written: {}\n", file.path.string());
+            print_to_stdout("Written: {}\n", text::one_line(file.path.string()));
         }
     }
     return code;

@@ -22,6 +22,7 @@
 #include "imports/import_standard.h"
 #include "jobs/laboratory/laboratory_folder.h"
 #include "signing/verify.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -71,7 +72,7 @@ void print_verification(const std::string& file, const signing::Verification& ve
         return;
     }
     const bool attachment_alone = verification.signatures.empty() && !verification.attachment_signatures.empty();
-    print_to_stdout("{}: {}\n", file,
+    print_to_stdout("{}: {}\n", text::one_line(file),
                     verification.valid ? "valid"
                     : attachment_alone ? "NOT VALID: the pages are not signed, only what is attached to them"
                     : verification.signatures.empty() ? "not signed"
@@ -105,7 +106,7 @@ ExitCode print_check(const std::string& file, const app::FileCheck& check, const
     print_messages(check.findings, common);
     if (!common.quiet) {
         print_to_stdout(
-            "{}: {}, {}\n", file, check.kind,
+            "{}: {}, {}\n", text::one_line(file), check.kind,
             errors + warnings == 0 ? "nothing found" : fmt::format("errors: {}, warnings: {}", errors, warnings));
     }
     return errors > 0 ? negative_answer : done;
@@ -147,10 +148,10 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
     }
     write_outputs({{output, imported.job}}, inputs, at_start);
     if (!common.quiet) {
-        print_to_stdout("Written: {}\nNext: {} {}\n", output,
+        print_to_stdout("Written: {}\nNext: {} {}\n", text::one_line(output),
                         standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
                                          : "state drift, valid_to and route, gumcert check",
-                        output);
+                        text::one_line(output));
     }
     return imported.negative ? negative_answer : done;
 }

@@ -7,6 +7,7 @@
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/method_library.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -47,10 +48,10 @@ ExitCode init(const std::string& method, const std::string& folder, const std::s
     if (!common.quiet) {
         std::string text = found->title + "\n\nWritten:\n";
         for (const std::filesystem::path& file : written) {
-            text += "  " + file.string() + "\n";
+            text += "  " + text::one_line(file.string()) + "\n";
         }
         write_to_stdout(text + "\nAll data are made up: put yours in their place.\nNext: gumcert run " +
-                        written.front().string() + "\n");
+                        text::one_line(written.front().string()) + "\n");
     }
     return done;
 }

@@ -32,6 +32,7 @@
 #include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -142,7 +143,7 @@ void print_warnings(const Issuer& issuer, const CommonOptions& common) {
 void print_written(const std::vector<app::OutputFile>& files) {
     print_to_stdout("\nWritten:\n");
     for (const app::OutputFile& file : files) {
-        print_to_stdout("  {}\n", file.path.string());
+        print_to_stdout("  {}\n", text::one_line(file.path.string()));
     }
 }
 
@@ -215,7 +216,7 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
         ++counts.at(static_cast<std::size_t>(finding.severity));
     }
     print_to_stdout("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1],
-                    counts[0], where_to_read.string());
+                    counts[0], text::one_line(where_to_read.string()));
 }
 
 /// Documents of a kind of records as they stand in a folder.
@@ -373,7 +374,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     }
     write_outputs({{file, bytes}}, inputs, at_start);
     if (!common.quiet) {
-        print_to_stdout("Written: {}\n", file.string());
+        print_to_stdout("Written: {}\n", text::one_line(file.string()));
     }
     return done;
 }
@@ -490,7 +491,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         print_summary(evaluation.record);
         print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
-        print_to_stdout("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
+        print_to_stdout("Next: gumcert render {} --format pdf{}\n", text::one_line(record_file.string()),
+                        blocked ? " --draft" : "");
     }
     return code;
 }

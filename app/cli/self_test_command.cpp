@@ -221,7 +221,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
         }
         print_to_stdout("SHA-256 of the report: {}\n\nWritten:\n", digest);
         for (const app::OutputFile& file : written) {
-            print_to_stdout("  {}\n", file.path.string());
+            print_to_stdout("  {}\n", text::one_line(file.path.string()));
         }
         print_to_stdout("Next: {}\n",
                         passes ? "keep the report with the validation records of the laboratory, and repeat the test "
