@@ -42,6 +42,7 @@ ExitCode init(const std::string& method, const std::string& folder, const std::s
                      "a method is a folder with a job that runs; gumcert init lists them",
                      nearest.empty() ? "choose one of the list" : "did you mean " + nearest + "?");
     }
+    refuse_stdout("DIR", folder);
     const std::filesystem::path place = folder.empty() ? method : folder;
     (void)begin_outputs({place / found->job}, common);  // nothing that stands there is replaced
     const std::vector<std::filesystem::path> written = app::begin_with(*found, place);

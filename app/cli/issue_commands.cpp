@@ -403,6 +403,7 @@ void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const D
 }
 
 ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& options, const CommonOptions& common) {
+    refuse_stdout("-o", options.output);
     std::vector<fs::path> folders;
     for (const std::string& job : jobs) {
         folders.push_back(folder_of(job, options.output, jobs.size() > 1));

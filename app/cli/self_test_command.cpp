@@ -177,6 +177,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
         refuse_usage(output.empty() ? "--language" : "--output", "beside --case",
                      "single cases are told on the terminal, and no report is written", "leave one of them out");
     }
+    refuse_stdout("-o", output);
     const fs::path templates = templates_folder(share);
     const fs::path shipped = reference_cases_folder(share);
     const std::vector<fs::path> files = app::case_files(shipped);

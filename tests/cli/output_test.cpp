@@ -80,6 +80,35 @@ TEST_F(Output, NamesOfFilesAreOneHonestLine) {
     }
 }
 
+/// Where standard output takes nothing, "-" is no name of a file or folder either.
+TEST_F(Output, StandardOutputIsNoFolderAndNoArchive) {
+    const std::string store = (folder() / "a.archive").string();
+    ASSERT_EQ(gumcert({"archive", "init", "--store", store, "--by", "K"}).code, 0);
+    const auto before = contents_of(folder());
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"run", job_.string(), "-o", "-"},
+                                               {"run", job_.string(), job_.string(), "-o", "-"},
+                                               {"self-test", "-o", "-"},
+                                               {"init", "multimeter", "-"},
+                                               {"archive", "init", "--store", "-", "--by", "K"},
+                                               {"archive", "backup", "--store", store, "--by", "K", "-o", "-"},
+                                               {"archive", "migrate", "--store", store, "--to", "-"},
+                                               {"archive", "affected", "--store", store, "--source", "S", "--since",
+                                                "2026-01-01", "--register", ".", "-o", "-"}}) {
+        const Ended ended = gumcert(arguments, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2) << arguments[0] << ended.err;
+        EXPECT_NE(ended.err.find(" -"), std::string::npos);
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(contents_of(folder()), before) << arguments[0];
+    }
+    // Where it takes one document it gets it, and a name with a folder is a name.
+    EXPECT_EQ(gumcert({"archive", "head", "--store", store, "-o", "-"}).code, 0);
+    EXPECT_EQ(
+        gumcert({"archive", "backup", "--store", store, "--by", "K", "-o", "./-"}, {.working_folder = folder()}).code,
+        0);
+    EXPECT_TRUE(fs::is_regular_file(folder() / "-"));
+}
+
 TEST_F(Output, MissingJobIsAFileTrouble) {
     for (const char* const command : {"run", "evaluate"}) {
         const Message message =
