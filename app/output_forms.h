@@ -47,6 +47,7 @@ struct OutputForm {
     std::string (*render)(Issue& issue);  ///< refuses a record that has no such form (gum::InputError)
     bool with_templates = true;           ///< it is made with templates and wording
     bool is_issued = true;                ///< it goes to customers: findings that block a certificate block it as well
+    bool is_signed = false;               ///< it takes a signature, or has a document with one inside
 };
 
 /// The forms of the program, in the order in which messages list them.

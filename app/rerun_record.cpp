@@ -123,9 +123,8 @@ void add_changes(std::string& all, const RerunRecord& record) {
                "; --format json lists them\n";
     }
     if (const std::size_t others = record.count(ChangeKind::other); others > 0) {
-        all +=
-            "  and " + text::count_of(static_cast<std::int64_t>(others), "place") +
-            " that hold no result of the old record (words, options, audit, what is new); --format json lists them\n";
+        all += "  and " + text::count_of(static_cast<std::int64_t>(others), "place") +
+               " without a result of the old record (words, options, audit, what is new); --format json lists them\n";
     }
 }
 

@@ -400,7 +400,8 @@ void Archive::require_distinct(const LogEntry& entry, const LogRules& rules) {
 }
 
 void Archive::require_known(const std::string& certificate, const std::vector<LogEntry>& entries) {
-    if (entries.empty()) {
+    // Entries of the archive itself have no certificate: "" finds them, and is none.
+    if (certificate.empty() || entries.empty()) {
         refuse_unknown(certificate, store_.name());
     }
 }

@@ -6,6 +6,7 @@
 #include "jobs/json_object.h"
 #include "text/file_guess.h"
 #include "text/lists.h"
+#include "text/utf8.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -65,6 +66,13 @@ std::optional<std::string> read_kind(const JsonDocument& document, ProblemList& 
 }
 
 void require_job_file(const FileSource& source, const std::string& job_file) {
+    if (!text::is_utf8(job_file)) {
+        const std::string shown = text::visible(job_file);
+        ProblemList problems(shown);
+        problems.refuse(k_not_utf8, shown, "the name of the file is not UTF-8",
+                        "the record holds the names of its files, and its texts are UTF-8", "rename the file");
+        throw gum::InputError(problems.refused());
+    }
     if (const auto other = other_file(source.read(job_file))) {
         ProblemList problems(job_file);
         problems.refuse(k_wrong_schema, job_file, "it is " + other->what + ", and no job",
@@ -74,7 +82,6 @@ void require_job_file(const FileSource& source, const std::string& job_file) {
 }
 
 std::string job_kind(const FileSource& source, const std::string& job_file, std::span<const std::string_view> kinds) {
-    require_job_file(source, job_file);
     ProblemList problems(job_file);
     const std::string bytes = source.read(job_file);
     const std::optional<JsonDocument> document = read_json_document(bytes, problems);

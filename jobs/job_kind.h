@@ -34,7 +34,8 @@ inline constexpr std::array<std::string_view, 4> k_job_kinds{k_budget_kind, k_ro
 
 // Who has kinds of jobs that are not among these states the words in `kinds`.
 
-/// \throws InputError    if the file is not a job of this schema
+/// Of a file that require_job_file() lets through.
+/// \throws InputError    if its schema or its kind is another one
 /// \throws StorageError  if it cannot be read
 [[nodiscard]] std::string job_kind(const std::filesystem::path& job_file);
 [[nodiscard]] std::string job_kind(const FileSource& source, const std::string& job_file,
@@ -42,7 +43,7 @@ inline constexpr std::array<std::string_view, 4> k_job_kinds{k_budget_kind, k_ro
 
 /// \throws InputError  GC-INPUT-0027 when the file is recognisably another one that this program knows: a record, data of
 ///                     a certificate or of a laboratory, XML, a PDF, a workbook. The message says what it is, and which
-///                     command reads it
+///                     command reads it; GC-INPUT-0002 when its name is not UTF-8, which its record could not hold
 void require_job_file(const FileSource& source, const std::string& job_file);
 
 /// `schema` and `kind` of a job that is read already; problems go to the list.

@@ -13,6 +13,7 @@
 
 #include "app/audit_evaluation.h"
 #include "app/audit_files.h"
+#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/output_files.h"
@@ -26,6 +27,7 @@
 #include "reports/forms/asset_files.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/wording.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -185,7 +187,8 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
             if (attempt.failure) {
                 unaudited.push_back(
                     {.file = files_to_audit.files[i].file.string(), .because = reason_of(attempt.failure)});
-                std::rethrow_exception(attempt.failure);
+                naming_job(files_to_audit.files[i].file, files_to_audit.files.size() > 1,
+                           [&] { std::rethrow_exception(attempt.failure); });
             }
             views.push_back(std::move(*attempt.view));
             return attempt.has_critical ? negative_answer : done;
@@ -224,7 +227,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     report_kept(numbers_file(to), common);
     if (!common.quiet) {
         for (const app::OutputFile& file : written) {
-            print_to_stdout("Written: {}\n", file.path.string());
+            print_to_stdout("Written: {}\n", text::one_line(file.path.string()));
         }
     }
     return code;

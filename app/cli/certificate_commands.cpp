@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "app/check_file.h"
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/document_identity.h"
@@ -20,6 +22,7 @@
 #include "imports/import_standard.h"
 #include "jobs/laboratory/laboratory_folder.h"
 #include "signing/verify.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -69,7 +72,7 @@ void print_verification(const std::string& file, const signing::Verification& ve
         return;
     }
     const bool attachment_alone = verification.signatures.empty() && !verification.attachment_signatures.empty();
-    print_to_stdout("{}: {}\n", file,
+    print_to_stdout("{}: {}\n", text::one_line(file),
                     verification.valid ? "valid"
                     : attachment_alone ? "NOT VALID: the pages are not signed, only what is attached to them"
                     : verification.signatures.empty() ? "not signed"
@@ -103,7 +106,7 @@ ExitCode print_check(const std::string& file, const app::FileCheck& check, const
     print_messages(check.findings, common);
     if (!common.quiet) {
         print_to_stdout(
-            "{}: {}, {}\n", file, check.kind,
+            "{}: {}, {}\n", text::one_line(file), check.kind,
             errors + warnings == 0 ? "nothing found" : fmt::format("errors: {}, warnings: {}", errors, warnings));
     }
     return errors > 0 ? negative_answer : done;
@@ -145,18 +148,26 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
     }
     write_outputs({{output, imported.job}}, inputs, at_start);
     if (!common.quiet) {
-        print_to_stdout("Written: {}\nNext: {} {}\n", output,
+        print_to_stdout("Written: {}\nNext: {} {}\n", text::one_line(output),
                         standard.empty() ? "keep the inputs that you need, write the model, gumcert run"
                                          : "state drift, valid_to and route, gumcert check",
-                        output);
+                        text::one_line(output));
     }
     return imported.negative ? negative_answer : done;
 }
 
 ExitCode check_files(const std::vector<std::string>& files, bool certificates, const std::string& trust_store,
                      const std::string& share, const std::string& laboratory, const CommonOptions& common) {
+    if (!certificates && !trust_store.empty()) {
+        refuse_usage("--trust", "without the word dcc", "signatures are looked at in digital certificates",
+                     "gumcert check dcc FILE --trust STORE; leave it out for jobs, records and folders");
+    }
+    if (certificates && !laboratory.empty()) {
+        refuse_usage("--laboratory", "with the word dcc", "a digital certificate is checked by itself", "leave it out");
+    }
     const imports::CertificateTrust trust = certificates ? trust_of(trust_store) : imports::CertificateTrust();
     ExitCode code = done;
+    const bool several = files.size() > 1;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
             app::FileCheck check{.kind = "digital certificate", .findings = {}};
@@ -164,9 +175,14 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
                 check.findings = imports::check_certificate(app::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
-                check = app::check_file(
-                    file, static_cast<unsigned>(common.threads), templates_folder(share),
-                    [&](const std::string& text) { progress(text); }, laboratory);
+                check = naming_job(file, several, [&] {
+                    return app::check_file(
+                        file, static_cast<unsigned>(common.threads), templates_folder(share),
+                        [&](const std::string& text) { progress(text); }, laboratory);
+                });
+            }
+            if (several) {
+                check.findings = of_job(std::move(check.findings), file);
             }
             return print_check(file, check, common);
         });

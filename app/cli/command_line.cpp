@@ -639,6 +639,21 @@ std::string said_by_parser(const CLI::ParseError& wrong, std::span<char* const> 
            " has another form than it may have, or is not taken here; words are not shown, because one has a password";
 }
 
+/// Most empty words come of a variable of the shell that is not set. Taken for an option that is not there, such a word would
+/// leave out what was asked for: a signature, a mark, a head to hold the archive against.
+/// \throws gum::UsageError
+void refuse_empty_words(const CLI::App& of_one) {
+    for (const CLI::Option* const option : of_one.get_options()) {
+        for (const std::string& word : option->results()) {
+            if (word.empty()) {
+                refuse_usage(option->get_name(), "is empty",
+                             "an empty word says nothing; many come of a variable of the shell that is not set",
+                             "give what belongs there, or leave it out");
+            }
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*version)(), Arguments& arguments) {
@@ -654,6 +669,8 @@ std::optional<ExitCode> read_command_line(int argc, char** argv, std::string (*v
         print_to_stdout("{}", program->help());
         return done;
     }
+    refuse_empty_words(*program);
+    refuse_empty_words(*program->get_subcommands().front());
     arguments.command = program->get_subcommands().front()->get_name();
     arguments.common.command = arguments.command;
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/method_library.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -41,16 +42,17 @@ ExitCode init(const std::string& method, const std::string& folder, const std::s
                      "a method is a folder with a job that runs; gumcert init lists them",
                      nearest.empty() ? "choose one of the list" : "did you mean " + nearest + "?");
     }
+    refuse_stdout("DIR", folder);
     const std::filesystem::path place = folder.empty() ? method : folder;
     (void)begin_outputs({place / found->job}, common);  // nothing that stands there is replaced
     const std::vector<std::filesystem::path> written = app::begin_with(*found, place);
     if (!common.quiet) {
         std::string text = found->title + "\n\nWritten:\n";
         for (const std::filesystem::path& file : written) {
-            text += "  " + file.string() + "\n";
+            text += "  " + text::one_line(file.string()) + "\n";
         }
         write_to_stdout(text + "\nAll data are made up: put yours in their place.\nNext: gumcert run " +
-                        written.front().string() + "\n");
+                        text::one_line(written.front().string()) + "\n");
     }
     return done;
 }

@@ -15,6 +15,7 @@
 #include "app/check_file.h"
 #include "app/cli/summary.h"
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/evaluate_job.h"
@@ -31,6 +32,7 @@
 #include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -141,7 +143,7 @@ void print_warnings(const Issuer& issuer, const CommonOptions& common) {
 void print_written(const std::vector<app::OutputFile>& files) {
     print_to_stdout("\nWritten:\n");
     for (const app::OutputFile& file : files) {
-        print_to_stdout("  {}\n", file.path.string());
+        print_to_stdout("  {}\n", text::one_line(file.path.string()));
     }
 }
 
@@ -214,7 +216,7 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
         ++counts.at(static_cast<std::size_t>(finding.severity));
     }
     print_to_stdout("Audit: {} critical, {} major, {} minor, {} to know; {}\n", counts[3], counts[2], counts[1],
-                    counts[0], where_to_read.string());
+                    counts[0], text::one_line(where_to_read.string()));
 }
 
 /// Documents of a kind of records as they stand in a folder.
@@ -224,38 +226,6 @@ std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& fold
         files.push_back(folder / name);
     }
     return files;
-}
-
-/// The same, and where it is names the job: of several jobs in one command nobody knows else which one is meant.
-std::vector<gum::Diagnostic> of_job(std::vector<gum::Diagnostic> diagnostics, const fs::path& job) {
-    const std::string path = job.string();
-    const std::string name = job.filename().string();
-    for (gum::Diagnostic& diagnostic : diagnostics) {
-        std::string& where = diagnostic.where;
-        if (where.starts_with(path)) {
-            continue;
-        }
-        if (where.starts_with(name + '#') || where.starts_with(name + ':')) {  // readers name files without folder
-            where.replace(0, name.size(), path);
-        } else {
-            where = where.empty() ? path : path + ", " + where;
-        }
-    }
-    return diagnostics;
-}
-
-/// Work on one of several jobs: what is refused names the job.
-template <class Work>
-bool naming_job(const fs::path& job, const Work& work) {
-    try {
-        return work();
-    } catch (const gum::InputError& error) {
-        throw gum::InputError(of_job(error.diagnostics(), job));
-    } catch (const gum::NoResultError& error) {
-        throw gum::NoResultError(of_job(error.diagnostics(), job));
-    } catch (const gum::StorageError& error) {
-        throw gum::StorageError(of_job(error.diagnostics(), job));
-    }
 }
 
 /// \param inputs   of the command, in addition to the files of the job
@@ -300,7 +270,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         }
         return true;
     };
-    make_or_keep([&] { (void)(several ? naming_job(job, make_documents) : make_documents()); },
+    make_or_keep([&] { (void)naming_job(job, several, make_documents); },
                  [&] {
                      progress.clear();
                      keep_files(files, inputs, at_start, "is the record of this evaluation",
@@ -404,7 +374,7 @@ ExitCode render_record(const std::string& name, const std::string& format, const
     }
     write_outputs({{file, bytes}}, inputs, at_start);
     if (!common.quiet) {
-        print_to_stdout("Written: {}\n", file.string());
+        print_to_stdout("Written: {}\n", text::one_line(file.string()));
     }
     return done;
 }
@@ -425,7 +395,7 @@ void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const D
                     .findings;
             std::erase_if(found, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
             if (!found.empty()) {
-                throw gum::InputError(std::move(found));
+                throw gum::InputError(jobs.size() > 1 ? of_job(std::move(found), job) : std::move(found));
             }
         }
         throw;
@@ -433,6 +403,7 @@ void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const D
 }
 
 ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& options, const CommonOptions& common) {
+    refuse_stdout("-o", options.output);
     std::vector<fs::path> folders;
     for (const std::string& job : jobs) {
         folders.push_back(folder_of(job, options.output, jobs.size() > 1));
@@ -460,11 +431,11 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     ProgressLine progress(!common.quiet);
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const ExitCode one = explained(common, [&] {
-            const auto work = [&] {
-                return run_job(jobs[i], folders[i], inputs, at_start, issuer, options, common, progress,
-                               jobs.size() > 1);
-            };
-            return (jobs.size() > 1 ? naming_job(jobs[i], work) : work()) ? negative_answer : done;
+            const bool several = jobs.size() > 1;
+            const bool is_negative = naming_job(jobs[i], several, [&] {
+                return run_job(jobs[i], folders[i], inputs, at_start, issuer, options, common, progress, several);
+            });
+            return is_negative ? negative_answer : done;
         });
         code = std::max(code, one);
     }
@@ -521,7 +492,8 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         print_summary(evaluation.record);
         print_audit(*evaluation.audit, "gumcert audit " + record_file.string() + " -o audit.html shows them");
         print_written(files);
-        print_to_stdout("Next: gumcert render {} --format pdf{}\n", record_file.string(), blocked ? " --draft" : "");
+        print_to_stdout("Next: gumcert render {} --format pdf{}\n", text::one_line(record_file.string()),
+                        blocked ? " --draft" : "");
     }
     return code;
 }
@@ -542,6 +514,14 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
     if (!options.head.empty() && format != "pdf" && format != "html" && format != "text") {
         refuse_usage("--head", "--format " + format, "certificates as HTML, PDF and text print a head of the archive",
                      "leave it out");
+    }
+    if (!options.signer.empty() && !app::output_form(format).is_signed) {
+        refuse_usage("--sign", "--format " + format,
+                     "signatures are put into digital certificates and PDF certificates",
+                     "leave it out, or ask for --format pdf or dcc");
+    }
+    if (!options.languages.empty() && !app::output_form(format).with_templates) {
+        refuse_usage("--language", "--format " + format, "a table for programs has no language", "leave it out");
     }
     if (to_stdout && several) {
         refuse_usage("-o -", "several records", "standard output takes one document", "render them one by one");

@@ -173,6 +173,11 @@ ExitCode run_some(const std::vector<fs::path>& files, const fs::path& templates,
 
 ExitCode self_test(const std::string& output, const std::vector<std::string>& cases, const std::string& language,
                    const std::string& share, const CommonOptions& common) {
+    if (!cases.empty() && !(output.empty() && language.empty())) {
+        refuse_usage(output.empty() ? "--language" : "--output", "beside --case",
+                     "single cases are told on the terminal, and no report is written", "leave one of them out");
+    }
+    refuse_stdout("-o", output);
     const fs::path templates = templates_folder(share);
     const fs::path shipped = reference_cases_folder(share);
     const std::vector<fs::path> files = app::case_files(shipped);
@@ -217,7 +222,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
         }
         print_to_stdout("SHA-256 of the report: {}\n\nWritten:\n", digest);
         for (const app::OutputFile& file : written) {
-            print_to_stdout("  {}\n", file.path.string());
+            print_to_stdout("  {}\n", text::one_line(file.path.string()));
         }
         print_to_stdout("Next: {}\n",
                         passes ? "keep the report with the validation records of the laboratory, and repeat the test "

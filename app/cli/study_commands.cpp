@@ -14,6 +14,7 @@
 #include "app/unprintable_characters.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
+#include "text/visible_text.h"
 
 namespace gumcert::cli {
 
@@ -110,7 +111,7 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
     write_outputs({{output.file, bytes}}, output.inputs, output.at_start);
     report_kept(numbers_file(output.file), common);
     if (!common.quiet) {
-        print_to_stdout("Written: {}\n", output.file.string());
+        print_to_stdout("Written: {}\n", text::one_line(output.file.string()));
     }
 }
 

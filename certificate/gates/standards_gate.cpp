@@ -12,6 +12,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "text/numbers.h"
+#include "text/visible_text.h"
 
 namespace gumcert::certificate {
 
@@ -26,10 +27,23 @@ std::string named(const StandardUsed& s) {
 
 void identity(FindingList& found, const StandardUsed& s, std::size_t i) {
     const auto where = [&](const char* key) { return place_in("/standards", i, key); };
-    if (!is_identification(s.identification) || !is_identification(s.certificate) || !is_name(s.issuer)) {
-        found.critical("R07-4c", iso_17025("7.8.4.1 c"), where(""),
-                       named(s) + " has no identification, no certificate or no issuer",
-                       "State all three: the statement of traceability rests on them.");
+    // Each by its own place, and with what was given: nobody should look for what is there.
+    struct Member {
+        const char* key;
+        std::string given;
+        bool counts;
+    };
+    for (const Member& member : {Member{"identification", s.identification, is_identification(s.identification)},
+                                 Member{"certificate", s.certificate, is_identification(s.certificate)},
+                                 Member{"issuer", s.issuer.in("en"), is_name(s.issuer)}}) {
+        if (!member.counts) {
+            found.critical("R07-4c", iso_17025("7.8.4.1 c"), where(member.key),
+                           member.given.empty()
+                               ? named(s) + " has no identification, no certificate or no issuer"
+                               : text::in_quotes(member.given) +
+                                     " does not count as the identification, certificate or issuer of " + named(s),
+                           "State all three: the statement of traceability rests on them.");
+        }
     }
     if (!is_name(s.name)) {
         found.major("R07-4c", iso_17025("7.8.4.1 c"), where("name"), "it is not said what " + named(s) + " is",

@@ -315,7 +315,9 @@ bool BudgetInputs::evaluate_components(const Stated& stated, const StatementKeys
             keys.refuse(k_two_statements, key, text::in_quotes(key) + " is given beside \"components\"",
                         "an input is one statement or a sum of components, each with its own statement; readings may "
                         "stand beside them",
-                        "move it into a component");
+                        key != "value" ? "move it into a component"
+                                       : "move it into a component; where it is read anew at each point, give the "
+                                         "components an input of their own, and add the two in the model");
             is_read = false;
         }
     }

@@ -1,5 +1,6 @@
 // The command line itself: help, version, refused usage, the form of messages.
 #include <regex>
+#include <set>
 
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
@@ -107,6 +108,116 @@ TEST_F(WrongCommandLine, IsRefusedAndNothingIsWritten) {
         EXPECT_TRUE(is_message_line(lines[0])) << lines[0];
         EXPECT_TRUE(lines[0].ends_with("[GC-USAGE-0001]")) << lines[0];
         EXPECT_EQ(contents_of(folder()), before);
+    }
+}
+
+/// A variable of the shell that is not set must not leave out a signature, a mark or a head: of every command, each option
+/// with a value and each word.
+TEST_F(WrongCommandLine, AnEmptyWordIsNoOptionThatIsNotThere) {
+    const std::map<std::string, std::vector<std::string>> words{{"run", {"job.json"}},
+                                                                {"evaluate", {"job.json"}},
+                                                                {"compare", {"job.json"}},
+                                                                {"render", {"record.json"}},
+                                                                {"import", {"dcc", "c.xml"}},
+                                                                {"check", {"job.json"}},
+                                                                {"audit", {"job.json"}},
+                                                                {"verify", {"c.xml"}},
+                                                                {"archive", {"list"}},
+                                                                {"simulate", {"job.json"}},
+                                                                {"plan", {"job.json"}},
+                                                                {"laboratory", {"."}},
+                                                                {"self-test", {}},
+                                                                {"rerun", {"record.json"}},
+                                                                {"init", {"multimeter"}},
+                                                                {"explain", {"GC-RANK"}},
+                                                                {"fonts", {}},
+                                                                {"limits", {}}};
+    const auto before = contents_of(folder());
+    const auto expect_refused = [&](const std::vector<std::string>& arguments, const std::string& name) {
+        const Ended ended = gumcert(arguments, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2) << arguments[0] << " " << name;
+        EXPECT_NE(ended.err.find(name), std::string::npos) << arguments[0] << " " << name << ended.err;
+        EXPECT_TRUE(ended.err.ends_with("[GC-USAGE-0001]\n")) << ended.err;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(contents_of(folder()), before);
+    };
+    const std::vector<std::string> help = lines_of(gumcert({"--help"}).out);
+    std::size_t options = 0;
+    std::set<std::string> common;
+    for (auto line = std::find(help.begin(), help.end(), "Subcommands:") + 1; !line->empty(); ++line) {
+        std::smatch of_command;
+        if (!std::regex_search(*line, of_command, std::regex("^  ([a-z-]+) "))) {
+            continue;
+        }
+        const std::string command = of_command[1];
+        ASSERT_TRUE(words.contains(command)) << command;
+        std::vector<std::string> base{command};
+        base.insert(base.end(), words.at(command).begin(), words.at(command).end());
+        for (const std::string& text : lines_of(gumcert({command, "--help"}).out)) {
+            std::smatch of_option;
+            if (!std::regex_search(text, of_option, std::regex("^ +(-[a-z],)?(--[a-z-]+)[ :][A-Z]"))) {
+                continue;
+            }
+            const std::string option = of_option[2];
+            const bool everywhere = option == "--threads" || option.ends_with("-limit") || option == "--refusal-log";
+            if (everywhere && !common.insert(option).second) {
+                continue;
+            }
+            std::vector<std::string> arguments = base;
+            for (const auto& [needed, value] : {std::pair("--format", "text"), std::pair("--trust", "t.pem")}) {
+                const bool is_needed = (command == "render" && needed == std::string("--format")) ||
+                                       (command == "verify" && needed == std::string("--trust"));
+                if (is_needed && option != needed) {
+                    arguments.insert(arguments.end(), {needed, value});
+                }
+            }
+            arguments.insert(arguments.end(), {option, ""});
+            expect_refused(arguments, option);
+            ++options;
+        }
+    }
+    EXPECT_GT(options, 60U) << "the help is not read";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> positional{
+        {{"run", ""}, "JOB"},
+        {{"run", "job.json", ""}, "JOB"},
+        {{"evaluate", ""}, "JOB"},
+        {{"check", ""}, "FILE"},
+        {{"rerun", ""}, "RECORD"},
+        {{"explain", ""}, "CODE"},
+        {{"init", "multimeter", ""}, "DIR"},
+        {{"import", "dcc", ""}, "FILE"},
+        {{"archive", "show", "", "--store", "s"}, "NAME"},
+        {{"archive", "review", "", "--store", "s", "--by", "B"}, "NAME"}};
+    for (const auto& [arguments, name] : positional) {
+        expect_refused(arguments, name);
+    }
+}
+
+/// What an option asks for is done, or it is said that it is not.
+TEST_F(WrongCommandLine, AnOptionThatSaysNothingIsRefused) {
+    for (const char* const form : {"html", "text", "csv", "report", "report-html", "label", "label-svg"}) {
+        const Ended ended =
+            gumcert({"render", "record.json", "--format", form, "--sign", "signer.json"}, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2) << form;
+        EXPECT_NE(ended.err.find("--sign"), std::string::npos) << ended.err;
+    }
+    for (const char* const form : {"pdf", "dcc"}) {  // what is wrong here is the record
+        EXPECT_NE(
+            gumcert({"render", "record.json", "--format", form, "--sign", "signer.json"}, {.working_folder = folder()})
+                .code,
+            2)
+            << form;
+    }
+    const std::vector<std::pair<std::vector<std::string>, std::string>> others{
+        {{"render", "record.json", "--format", "csv", "--language", "de"}, "--language"},
+        {{"check", "job/job.json", "--trust", "t.pem"}, "--trust"},
+        {{"check", "dcc", "c.xml", "--laboratory", "."}, "--laboratory"},
+        {{"self-test", "--case", "gum-h1-end-gauge", "-o", "out"}, "--output"},
+        {{"self-test", "--case", "gum-h1-end-gauge", "--language", "de"}, "--language"}};
+    for (const auto& [arguments, option] : others) {
+        const Ended ended = gumcert(arguments, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2) << option;
+        EXPECT_NE(ended.err.find(option), std::string::npos) << ended.err;
     }
 }
 

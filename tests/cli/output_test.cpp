@@ -49,6 +49,66 @@ TEST_F(Output, PlaceThatCannotBeWrittenIsToldBeforeAnythingIsComputed) {
     }
 }
 
+/// A name of a file is one line on a terminal that does nothing: no command prints what such a name tells the terminal to do,
+/// or a line of its own.
+TEST_F(Output, NamesOfFilesAreOneHonestLine) {
+    const fs::path odd = folder() / "a\x1b[31m\nb: valid";
+    write_bytes(
+        odd / "job.json",
+        R"({"schema": "gumcert/job/1", "kind": "budget", "model": ["y = x"], "inputs": {"x": {"value": 1, "u": 0.1}}})");
+    const std::string job = (odd / "job.json").string();
+    const std::string record = (odd / "record.json").string();
+    const std::string share = GUMCERT_SOURCE_DIR;
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"evaluate", job, "-o", record, "--share", share},
+             {"render", record, "--format", "dcc", "-o", (odd / "c.xml").string(), "--share", share},
+             {"check", job, record, "--share", share},
+             {"check", "dcc", (odd / "c.xml").string()},
+             {"import", "dcc", (odd / "c.xml").string(), "-o", (odd / "i.json").string()},
+             {"audit", job, "-o", (odd / "a.json").string(), "--share", share},
+             {"rerun", record, "--share", share},
+             {"init", "multimeter", (odd / "m").string(), "--share", share}}) {
+        const Ended ended = gumcert(arguments);
+        EXPECT_LE(ended.code, 1) << arguments[0] << ended.err;
+        EXPECT_NE(ended.out, "") << arguments[0];
+        for (const std::string& told : {ended.out, ended.err}) {
+            EXPECT_EQ(told.find('\x1b'), std::string::npos) << arguments[0] << told;
+            for (const std::string& line : lines_of(told)) {
+                EXPECT_FALSE(line.starts_with("b: valid")) << arguments[0] << told;
+            }
+        }
+    }
+}
+
+/// Where standard output takes nothing, "-" is no name of a file or folder either.
+TEST_F(Output, StandardOutputIsNoFolderAndNoArchive) {
+    const std::string store = (folder() / "a.archive").string();
+    ASSERT_EQ(gumcert({"archive", "init", "--store", store, "--by", "K"}).code, 0);
+    const auto before = contents_of(folder());
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"run", job_.string(), "-o", "-"},
+                                               {"run", job_.string(), job_.string(), "-o", "-"},
+                                               {"self-test", "-o", "-"},
+                                               {"init", "multimeter", "-"},
+                                               {"archive", "init", "--store", "-", "--by", "K"},
+                                               {"archive", "backup", "--store", store, "--by", "K", "-o", "-"},
+                                               {"archive", "migrate", "--store", store, "--to", "-"},
+                                               {"archive", "affected", "--store", store, "--source", "S", "--since",
+                                                "2026-01-01", "--register", ".", "-o", "-"}}) {
+        const Ended ended = gumcert(arguments, {.working_folder = folder()});
+        EXPECT_EQ(ended.code, 2) << arguments[0] << ended.err;
+        EXPECT_NE(ended.err.find(" -"), std::string::npos);
+        EXPECT_EQ(ended.out, "");
+        EXPECT_EQ(contents_of(folder()), before) << arguments[0];
+    }
+    // Where it takes one document it gets it, and a name with a folder is a name.
+    EXPECT_EQ(gumcert({"archive", "head", "--store", store, "-o", "-"}).code, 0);
+    EXPECT_EQ(
+        gumcert({"archive", "backup", "--store", store, "--by", "K", "-o", "./-"}, {.working_folder = folder()}).code,
+        0);
+    EXPECT_TRUE(fs::is_regular_file(folder() / "-"));
+}
+
 TEST_F(Output, MissingJobIsAFileTrouble) {
     for (const char* const command : {"run", "evaluate"}) {
         const Message message =

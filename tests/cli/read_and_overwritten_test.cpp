@@ -208,7 +208,7 @@ TEST_F(ReadAndOverwritten, NothingThatIsReadIsOverwritten) {
         EXPECT_EQ(codes(ended).front(), "GC-STORE-0004") << name;
     }
     for (const char* name : {"record.json", "s.json", "key.pem", "chain.pem", "words.txt", "new/../key.pem"}) {
-        const Ended ended = gumcert({"render", at + "record.json", "--format", "text", "--sign", at + "s.json", "-o",
+        const Ended ended = gumcert({"render", at + "record.json", "--format", "dcc", "--sign", at + "s.json", "-o",
                                      at + name, "--share", GUMCERT_SOURCE_DIR, "--json-messages"});
         EXPECT_GE(ended.code, 2) << name;
         EXPECT_LE(ended.code, 5) << name;

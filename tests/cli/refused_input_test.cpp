@@ -348,5 +348,48 @@ TEST_F(RefusedInput, WindowsFilesGiveTheSameNumbers) {
     EXPECT_NE(windows["job"]["files"], original["job"]["files"]);
 }
 
+/// Of several files in one command nobody knows which one "job.json#/foo" is in: the place has the folder then, whichever
+/// command reads them.
+TEST_F(RefusedInput, SeveralJobsAreNamedWithTheirFolders) {
+    const fs::path table = folder() / "c" / "job.json";
+    for (const char* const name : {"a", "b"}) {
+        write_bytes(folder() / name / "job.json",
+                    R"({"schema": "gumcert/job/1", "kind": "budget", "foo": 1, "model": ["y = x"],)"
+                    R"( "inputs": {"x": {"value": 1, "u": 0.1}}})");
+    }
+    write_bytes(table, R"({"schema": "gumcert/job/1", "kind": "budget", "model": ["y = x"], "inputs": {"x": {}},)"
+                       R"( "points": {"file": "p.csv"}})");
+    write_bytes(folder() / "c" / "p.csv", "x,x.u\n1,much\n");
+    const std::vector<std::string> jobs{"a/job.json", "b/job.json", "c/job.json"};
+    for (const std::string command : {"run", "check", "audit"}) {
+        std::vector<std::string> words{command, "--json-messages", "--share", GUMCERT_SOURCE_DIR};
+        if (command == "run") {  // their folders of outputs have one name
+            for (const std::string& job : jobs) {
+                fs::copy_file(folder() / job, (folder() / job).parent_path() / (job.substr(0, 1) + ".json"),
+                              fs::copy_options::overwrite_existing);
+                words.push_back(job.substr(0, 1) + "/" + job.substr(0, 1) + ".json");
+            }
+        } else {
+            words.insert(words.end(), jobs.begin(), jobs.end());
+        }
+        const std::vector<std::string> named(words.end() - 3, words.end());
+        std::vector<std::string> where;
+        for (const Message& message : json_messages(gumcert(words, {.working_folder = folder()}))) {
+            where.push_back(message.where);
+        }
+        ASSERT_EQ(where.size(), 3U) << command;
+        EXPECT_TRUE(where[0].starts_with(named[0] + "#/foo")) << command << ": " << where[0];
+        EXPECT_TRUE(where[1].starts_with(named[1] + "#/foo")) << command << ": " << where[1];
+        EXPECT_TRUE(where[2].starts_with(named[2] + ", p.csv:2:")) << command << ": " << where[2];
+    }
+    // One alone is named as its folder has it.
+    for (const std::string command : {"run", "check", "audit", "evaluate"}) {
+        const std::vector<Message> alone =
+            json_messages(gumcert({command, jobs[0], "--json-messages"}, {.working_folder = folder()}));
+        ASSERT_EQ(alone.size(), 1U) << command;
+        EXPECT_TRUE(alone[0].where.starts_with("job.json#/foo")) << command << ": " << alone[0].where;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::cli

@@ -275,6 +275,19 @@ class Tree(PlantedTree):
                 self.plant(test, "")
                 self.expect(self.scan(), 0)
 
+    def test_headers_around_the_domain_are_listed_where_they_have_no_test(self):
+        header, listed, test = "app/a.h", "tests/lint/untested_headers.txt", "tests/unit/app/a_test.cpp"
+        self.plant(header, "int f();\n")
+        self.expect(self.scan(), 1, f"{header}:1: declares functions, and there is no {test}")
+        self.plant(listed, header + "\n")
+        self.expect(self.scan(), 0)
+        self.plant(test, "")
+        self.expect(self.scan(), 1, f"take it off {listed}")
+        self.plant(listed, "app/b.h\n")
+        self.expect(self.scan(), 1, "app/b.h:1: is not there any more")
+        self.plant(listed, "")
+        self.expect(self.scan(), 0)
+
     def test_headers_that_need_no_test_by_their_name(self):
         for path, text in [
                 ("gum/data.h", "struct Data {\n    double a = f(1);  ///< g(a);\n    bool both() const { return a > 0; }\n"
@@ -285,7 +298,9 @@ class Tree(PlantedTree):
                 ("gum/templates.h", "template <class A>\nvoid describe(A& a) {\n    a(1);\n}\n"),
                 ("gum/private.h", "int f();\n"),
                 ("jobs/reader.h", "int f();\n"),
-                ("reports/view.h", "int f();\n")]:
+                ("reports/view.h", "int f();\n"),
+                ("templates/view.h", "int f();\n"),
+                ("tests/lint/untested_headers.txt", "jobs/reader.h\nreports/view.h\n")]:
             self.plant(path, text)
         self.plant("cmake/gumcert_layers.cmake", "set(GUMCERT_PRIVATE_HEADERS gum/private.h\n    gum/b.h)\n")
         self.expect(self.scan(), 0, "0 breaches")

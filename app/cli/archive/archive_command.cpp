@@ -11,6 +11,7 @@
 #include "app/cli/archive/proof.h"
 #include "app/cli/archive/whole_archive.h"
 #include "app/cli/terminal/clock.h"
+#include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/terminal.h"
 #include "app/laboratory_overview.h"
 #include "text/utf8.h"
@@ -121,6 +122,13 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                      "name a new file, or an empty database as postgresql://…");
     }
     const std::string_view name = action.name;
+    if (name == "backup" || name == "affected") {
+        refuse_stdout("-o", o.output);
+    }
+    if (name == "init") {
+        refuse_stdout("--store", o.store);
+    }
+    refuse_stdout("--to", o.to);
     // A blank is no reason, of whatever width it is.
     bool says_nothing = true;
     for (std::size_t at = 0; at < o.why.size() && says_nothing;) {

@@ -9,6 +9,15 @@
 
 namespace gumcert::cli {
 
+void refuse_stdout(const std::string& option, const std::string& place) {
+    if (place == "-") {
+        refuse_usage(
+            option + " -", "what is written here cannot go to standard output",
+            "standard output takes one document of evaluate, render, audit, import, plan, simulate, or archive",
+            "name a place; ./- is one with this name");
+    }
+}
+
 app::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outputs, const CommonOptions& common) {
     std::error_code error;
     const std::filesystem::path temporary = std::filesystem::temp_directory_path(error);

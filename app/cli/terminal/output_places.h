@@ -10,6 +10,12 @@
 
 namespace gumcert::cli {
 
+/// Where - is no place: of several files, of a file that is opened again, of a folder. Taken for a name it would become a
+/// file or folder that no other command can easily name.
+/// \param option  that names the place, "-o"
+/// \throws gum::UsageError  where the place is standard output
+void refuse_stdout(const std::string& option, const std::string& place);
+
 /// Before a command reads anything: brings the folders of its outputs into order, where a program was interrupted
 /// there, and says so. Removes temporary folders of programs that were killed.
 /// \return how the outputs are now, for write_outputs()

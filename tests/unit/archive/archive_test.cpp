@@ -52,6 +52,28 @@ protected:
 };
 TYPED_TEST_SUITE(ArchiveLaws, test::BothStores);
 
+/// Entries of the archive itself (its begin, its settings, its backups) have no certificate: the number "" is none, whatever
+/// is asked of it.
+TYPED_TEST(ArchiveLaws, HasNoCertificateWithoutANumber) {
+    (void)this->issued();
+    (void)this->archive_->change_settings({.four_eyes = false, .numbering = "EX-YYYY-###"},
+                                          this->by("K. Keeper", "one person"));
+    const Head before = this->archive_->head();
+    const std::vector<std::function<void()>> asked{
+        [&] { (void)this->archive_->life(""); },
+        [&] { (void)this->archive_->history(""); },
+        [&] { (void)this->archive_->record_of(""); },
+        [&] { (void)this->archive_->take_amendment_number("", this->by("A. Author")); },
+        [&] { (void)this->archive_->advance("", "reviewed", this->by("R. Reviewer")); },
+        [&] { (void)this->archive_->advance("", "authorised", this->by("R. Reviewer")); },
+        [&] { (void)this->archive_->advance("", "issued", this->by("R. Reviewer")); },
+        [&] { (void)this->archive_->advance("", "withdrawn", this->by("R. Reviewer", "no reason")); }};
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        EXPECT_EQ(code_of(asked[i]), "GC-ARCHIVE-0026") << i;
+    }
+    EXPECT_EQ(this->archive_->head(), before) << "nothing is written";
+}
+
 TYPED_TEST(ArchiveLaws, LeadsACertificateThroughItsLife) {
     const std::string number = this->issued();
     EXPECT_EQ(number, "EX-2026-001");

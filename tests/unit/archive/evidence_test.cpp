@@ -76,6 +76,7 @@ TEST_F(EvidenceOfCertificates, IsSoundForEveryCertificate) {
 
 TEST_F(EvidenceOfCertificates, IsOneOfACertificateInTheArchive) {
     EXPECT_EQ(code_of([&] { (void)evidence_of(*store_, "nothing"); }), "GC-ARCHIVE-0026");
+    EXPECT_EQ(code_of([&] { (void)evidence_of(*store_, ""); }), "GC-ARCHIVE-0026") << "entries of the archive itself";
 }
 
 TEST_F(EvidenceOfCertificates, ShowsWhatWasChanged) {

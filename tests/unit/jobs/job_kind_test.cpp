@@ -78,5 +78,23 @@ TEST(JobKinds, OfAFileThatIsNoJobSaysWhatItIs) {
     }
 }
 
+/// The record holds the names of its files, and its texts are UTF-8: told before anything is evaluated.
+TEST(JobKinds, OfAFileWhoseNameIsNotUtf8IsRefused) {
+    const std::string job = R"({"schema": "gumcert/job/1", "kind": "budget"})";
+    for (const std::string name : {"x\xff.json", "\xe4.json", "\xc3"}) {
+        try {
+            require_job_file(MemoryFileSource(std::map<std::string, std::string>{{name, job}}), name);
+            FAIL() << "not refused";
+        } catch (const gum::InputError& refused) {
+            ASSERT_EQ(refused.diagnostics().size(), 1U);
+            EXPECT_EQ(refused.diagnostics().front().code, "GC-INPUT-0002");
+            EXPECT_THAT(refused.diagnostics().front().where, HasSubstr("\\x{"));
+        }
+    }
+    for (const std::string name : {"\u00e4.json", "\u8f49\u53f0.json", "a b.json"}) {
+        EXPECT_NO_THROW(require_job_file(MemoryFileSource(std::map<std::string, std::string>{{name, job}}), name));
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::jobs

@@ -370,7 +370,7 @@ TEST_F(PdfAttack, ASecondSignature) {
     const std::string plain = plain_pdf();
     inside.processMemoryFile("plain", plain.data(), plain.size());
     inside.getRoot().replaceKey("/Extra", inside.makeIndirectObject(QPDFObjectHandle::parse(body)));
-    const Bytes both = sign_pdf(written(inside), *laboratory_.signer, k_signing_time);
+    const Bytes both = sign_pdf(gumcert::test::written_pdf(inside), *laboratory_.signer, k_signing_time);
     EXPECT_FALSE(verify(both).valid);
 }
 
@@ -459,7 +459,7 @@ TEST_F(PdfAttack, ManySignaturesAndAttachmentsAreNotAWayToKeepTheCheckBusy) {
         QPDFEmbeddedFileDocumentHelper(pdf).replaceEmbeddedFile(
             name, QPDFFileSpecObjectHelper::createFileSpec(pdf, name, stream));
     }
-    const Bytes many = sign_pdf(written(pdf), *laboratory_.signer, k_signing_time);
+    const Bytes many = sign_pdf(gumcert::test::written_pdf(pdf), *laboratory_.signer, k_signing_time);
     EXPECT_EQ(error_of(many), "GC-SIGN-0145");
     EXPECT_LT(verify(many).attachment_signatures.size(), 20U);
 }
@@ -475,7 +475,7 @@ TEST_F(PdfAttack, NothingIsPrintedWhateverTheFileIs) {
     const std::string document = "<?xml version=\"1.0\" encoding=\"UTF-16\"?><x>";
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
-    EXPECT_NE(error_of(written(pdf)), "valid");
+    EXPECT_NE(error_of(gumcert::test::written_pdf(pdf)), "valid");
     EXPECT_NE(error_of(document + std::string(4000, '\xD8') + "</x>"), "valid");
     EXPECT_NE(error_of("<?xml version=\"1.0\" encoding=\"UTF-8\"?><x>\xFF\xFE</x>"), "valid");
     EXPECT_NE(error_of(replaced(dcc_, "2001/10/xml-exc-c14n#", "2000/09/xmldsig#base64")), "valid");

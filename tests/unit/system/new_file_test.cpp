@@ -1,43 +1,23 @@
 #include "system/new_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "tests/support/empty_folder.h"
+#include "tests/support/file_content.h"
 
 namespace gumcert::system {
 namespace {
 
 namespace fs = std::filesystem;
 
-class NewFileTest : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ = fs::path(::testing::TempDir()) / ("new_file_" + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    [[nodiscard]] std::vector<std::string> names() const {
-        std::vector<std::string> all;
-        for (const fs::directory_entry& one : fs::directory_iterator(folder_)) {
-            all.push_back(one.path().filename().string());
-        }
-        std::sort(all.begin(), all.end());
-        return all;
-    }
-    static std::string bytes_of(const fs::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    }
+using test::file_content;
 
-    fs::path folder_;
-};
+class NewFileTest : public test::EmptyFolder {};
 
 TEST_F(NewFileTest, IsThereWholeOrNotAtAll) {
     {
@@ -50,7 +30,7 @@ TEST_F(NewFileTest, IsThereWholeOrNotAtAll) {
     {
         NewFile file(folder_ / "a");
         std::ofstream(file.part()) << "whole";
-        file.put_in_place([&] { told = bytes_of(folder_ / "a") == "whole"; });
+        file.put_in_place([&] { told = file_content(folder_ / "a") == "whole"; });
     }
     EXPECT_TRUE(told);
     EXPECT_EQ(names(), std::vector<std::string>{"a"});
@@ -66,7 +46,7 @@ TEST_F(NewFileTest, ReplacesNothing) {
     } catch (const std::system_error& error) {
         EXPECT_EQ(error.code(), std::errc::file_exists);
     }
-    EXPECT_EQ(bytes_of(folder_ / "a"), "of another");
+    EXPECT_EQ(file_content(folder_ / "a"), "of another");
 }
 
 TEST_F(NewFileTest, NeedsItsFolder) {

@@ -4,44 +4,26 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "tests/support/empty_folder.h"
+#include "tests/support/file_content.h"
 
 namespace gumcert::system {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WholeFoldersTest : public ::testing::Test {
-protected:
-    void SetUp() override {
-        folder_ = fs::path(::testing::TempDir()) / ("whole_folders_" + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    [[nodiscard]] static std::string bytes_of(const fs::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    }
-    [[nodiscard]] std::vector<std::string> names() const {
-        std::vector<std::string> all;
-        for (const fs::directory_entry& one : fs::directory_iterator(folder_)) {
-            all.push_back(one.path().filename().string());
-        }
-        std::sort(all.begin(), all.end());
-        return all;
-    }
-    fs::path folder_;
-};
+using test::file_content;
+
+class WholeFoldersTest : public test::EmptyFolder {};
 
 using Names = std::vector<std::string>;
 
@@ -57,15 +39,15 @@ TEST_F(WholeFoldersTest, AppearTogetherWithAllFiles) {
         Names told;
         folders.put_in_place([&](const std::string& name) { told.push_back(name); });
         EXPECT_EQ(told, (Names{"a", "b"}));
-        EXPECT_EQ(bytes_of(deep / "a" / "x"), "1");
-        EXPECT_EQ(bytes_of(deep / "a" / "sub" / "z"), "3");
+        EXPECT_EQ(file_content(deep / "a" / "x"), "1");
+        EXPECT_EQ(file_content(deep / "a" / "sub" / "z"), "3");
         EXPECT_TRUE(fs::is_regular_file(deep / "a" / "sub" / "deeper" / "y"));
-        EXPECT_EQ(bytes_of(deep / "b" / "x"), std::string("\0\n", 2));
+        EXPECT_EQ(file_content(deep / "b" / "x"), std::string("\0\n", 2));
         folders.fill("c", {{"x", "later"}});
         folders.put_in_place();
         folders.fill("d", {{"x", "never"}});
     }
-    EXPECT_EQ(bytes_of(deep / "c" / "x"), "later");
+    EXPECT_EQ(file_content(deep / "c" / "x"), "later");
     folder_ = deep;
     EXPECT_EQ(names(), (Names{"a", "b", "c"})) << "nothing else is left";
     folder_ = deep.parent_path().parent_path();
@@ -96,9 +78,9 @@ TEST_F(WholeFoldersTest, ReplaceNothing) {
     } catch (const std::system_error& error) {
         EXPECT_EQ(error.code(), std::errc::file_exists);
     }
-    EXPECT_EQ(bytes_of(folder_ / "a" / "x"), "1");
+    EXPECT_EQ(file_content(folder_ / "a" / "x"), "1");
     EXPECT_TRUE(fs::is_empty(folder_ / "b"));
-    EXPECT_EQ(bytes_of(folder_ / "c"), "mine");
+    EXPECT_EQ(file_content(folder_ / "c"), "mine");
     EXPECT_THROW(folders.fill("d", {{"x", "1"}, {"x", "2"}}), std::system_error) << "a file twice";
     EXPECT_THROW(folders.fill("e", {{"x", "1"}, {"x/y", "2"}}), std::system_error) << "a file that is a folder";
     EXPECT_THROW(WholeFolders("/proc/nowhere").fill("a", {{"x", "1"}}), std::system_error);
@@ -124,7 +106,7 @@ TEST_F(WholeFoldersTest, AreFilledBySeveralThreads) {
     const Names all = names();
     EXPECT_EQ(all.size(), static_cast<std::size_t>(k_threads * k_folders) + 1U) << "and the temporary one";
     for (const std::string& name : all) {
-        EXPECT_EQ(bytes_of(folder_ / name / "sub" / "x"), name.starts_with("gumcert-work-") ? "" : name);
+        EXPECT_EQ(file_content(folder_ / name / "sub" / "x"), name.starts_with("gumcert-work-") ? "" : name);
     }
 }
 
@@ -166,8 +148,8 @@ TEST_F(WholeFoldersTest, AreWholeAfterAKill) {
         (void)remove_dead_folders(own);
         for (const fs::directory_entry& one : fs::directory_iterator(own)) {
             ++placed;
-            EXPECT_EQ(bytes_of(one.path() / "x"), text) << one.path();
-            EXPECT_EQ(bytes_of(one.path() / "sub" / "y"), text) << one.path();
+            EXPECT_EQ(file_content(one.path() / "x"), text) << one.path();
+            EXPECT_EQ(file_content(one.path() / "sub" / "y"), text) << one.path();
         }
     }
     EXPECT_GT(placed, 0);

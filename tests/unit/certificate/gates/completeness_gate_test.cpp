@@ -90,7 +90,7 @@ std::vector<Spoilt> missing_items() {
         {"standards", [](Certificate& c) { c.data.standards.clear(); }, "R07-4c", iso("7.8.4.1 c"), k_critical,
          "/standards"},
         {"certificate of a standard", [](Certificate& c) { c.data.standards[0].certificate.clear(); }, "R07-4c",
-         iso("7.8.4.1 c"), k_critical, "/standards/0"},
+         iso("7.8.4.1 c"), k_critical, "/standards/0/certificate"},
         {"adjustment", [](Certificate& c) { c.data.adjustment.reset(); }, "R07-4d", iso("7.8.4.1 d"), k_critical,
          "/adjustment"},
         {"as found", [](Certificate& c) { c.data.adjustment->adjusted = true; }, "R07-4d", iso("7.8.4.1 d"), k_critical,

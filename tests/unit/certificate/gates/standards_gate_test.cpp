@@ -76,6 +76,29 @@ TEST(StandardsGate, FindsAStandardThatIsWorseThanTheResults) {
     EXPECT_THAT(ids(standard_findings(c)), testing::ElementsAre("T07"));
 }
 
+/// Each of the three is told at its own place, with what was given: nobody looks for what is there.
+TEST(StandardsGate, TellsWhichMemberOfAStandardSaysNothing) {
+    using Member = std::string StandardUsed::*;
+    for (const auto& [key, member] : {std::pair<const char*, Member>{"identification", &StandardUsed::identification},
+                                      std::pair<const char*, Member>{"certificate", &StandardUsed::certificate}}) {
+        for (const std::string given : {"", "n/a", "0000"}) {
+            const Finding found = after([&](CertificateData&, StandardUsed& s) { s.*member = given; });
+            expect_finding(found, "R07-4c", clause_of_standard("7.8.4.1 c"), FindingSeverity::critical,
+                           std::string("/standards/0/") + key);
+            EXPECT_EQ(found.what.find('"' + given + "\" does not count") == 0, !given.empty()) << found.what;
+        }
+    }
+    const Finding of_issuer = after([](CertificateData&, StandardUsed& s) { s.issuer = "Lab Z"; });
+    expect_finding(of_issuer, "R07-4c", clause_of_standard("7.8.4.1 c"), FindingSeverity::critical,
+                   "/standards/0/issuer");
+    EXPECT_TRUE(of_issuer.what.starts_with("\"Lab Z\" does not count as")) << of_issuer.what;
+    Certificate nothing = passed_certificate();
+    nothing.data.standards[0].identification.clear();
+    nothing.data.standards[0].certificate.clear();
+    nothing.data.standards[0].issuer = "";
+    EXPECT_THAT(ids(standard_findings(nothing)), testing::ElementsAre("R07-4c", "R07-4c", "R07-4c"));
+}
+
 TEST(StandardsGate, WantsANameOfTheStandard) {
     expect_finding(after([](CertificateData&, StandardUsed& s) { s.name = "standard"; }), "R07-4c",
                    clause_of_standard("7.8.4.1 c"), k_major, "/standards/0/name");

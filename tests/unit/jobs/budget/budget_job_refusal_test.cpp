@@ -167,6 +167,8 @@ const std::vector<BadBudget>& bad_budgets() {
          code(k_unit_does_not_fit), at_x + "/specification", "\"Y\" in A"},
         {"components_and_u", x(R"j({"u": 1, "components": [{"name": "a", "u": 1}]})j"), code(k_two_statements),
          at_x + "/u", "beside \"components\""},
+        {"components_and_value", x(R"j({"value": 1, "components": [{"name": "a", "u": 1}]})j"), code(k_two_statements),
+         at_x + "/value", "give the components an input of their own, and add the two in the model"},
         {"component_twice", x(R"j({"components": [{"name": "a", "u": 1}, {"name": "a", "u": 1}]})j"),
          code(k_name_of_two), at_x + "/components/1/name", "a second component \"a\""},
         {"component_nested", x(R"j({"components": [{"name": "a", "u": 1, "components": []}]})j"), code(k_unknown_key),

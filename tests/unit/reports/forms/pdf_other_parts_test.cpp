@@ -6,26 +6,15 @@
 #include <utility>
 
 #include "reports/forms/qpdf_objects.h"
+#include "tests/support/written_pdf.h"
 
 namespace gumcert::reports {
 namespace {
 
-std::string written(QPDF& pdf) {
-    QPDFWriter writer(pdf);
-    writer.setOutputMemory();
-    writer.setStaticID(true);
-    writer.write();
-    const auto buffer = writer.getBufferSharedPointer();
-    return {reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()};
-}
-
 /// A PDF of one page with entries of its own in the catalog and in the page.
 std::string pdf_with_parts(const std::string& of_catalog, const std::string& of_page) {
     QPDF pdf;
-    pdf.emptyPDF();
-    auto page = QPDFObjectHandle::parse("<< /Type /Page /MediaBox [0 0 595 842] /Resources << >> >>");
-    page.replaceKey("/Contents", QPDFObjectHandle::newStream(&pdf, "0 0 100 100 re S"));
-    pdf.addPage(pdf.makeIndirectObject(page), false);
+    test::begin_with_page(pdf, "0 0 100 100 re S");
     const auto add = [&](QPDFObjectHandle to, const std::string& entries) {
         for (const auto& [key, value] : QPDFObjectHandle::parse(&pdf, "<< " + entries + " >>").getDictAsMap()) {
             to.replaceKey(key, value);
@@ -33,7 +22,7 @@ std::string pdf_with_parts(const std::string& of_catalog, const std::string& of_
     };
     add(pdf.getRoot(), of_catalog);
     add(pdf.getAllPages().front(), of_page);
-    return written(pdf);
+    return test::written_pdf(pdf);
 }
 
 TEST(PdfOtherParts, OfAPlainDocumentAreNone) {
@@ -99,7 +88,7 @@ std::string pdf_with_object(const std::string& object, bool in_outlines) {
         QPDFObjectHandle first = pdf.getAllPages().front();
         first.getKey("/Resources").replaceKey("/Properties", made);
     }
-    return written(pdf);
+    return test::written_pdf(pdf);
 }
 
 // Law: an action that does more than to go somewhere is found in whatever it stands, at whatever depth; the kinds are those of
@@ -152,7 +141,7 @@ std::string pdf_with_file(bool with_name, bool with_type, const std::string& ent
         QPDFObjectHandle part = entry == "/Resources" ? first.getKey("/Resources") : pdf.getRoot();
         part.replaceKey("/AF", list);
     }
-    return written(pdf);
+    return test::written_pdf(pdf);
 }
 
 // Law: every attached file is one of those with a name, of which the contents are compared.
