@@ -60,8 +60,7 @@ bool is_refuted_by_audit(const Evaluation& evaluation) {
         return false;  // the scores of a comparison are its answer
     }
     // A measurement that is compared with a reference has its own result; what rules N say of its scores is no fault of it.
-    const std::vector<certificate::Finding> critical = critical_findings(*evaluation.audit, audit::all_rules());
-    return std::any_of(critical.begin(), critical.end(),
+    return std::any_of(evaluation.critical_of_audit.begin(), evaluation.critical_of_audit.end(),
                        [](const certificate::Finding& found) { return !found.id.starts_with("audit-N"); });
 }
 
@@ -82,8 +81,9 @@ void audit_evaluation(Evaluation& evaluation, const std::string& job_file) {
     }
     auto report = std::make_shared<audit::AuditReport>(audit::audit(std::move(subject), rules));
     evaluation.record.audit_json = reports::audit_as_json(audit_view(std::span(report.get(), 1)));
+    evaluation.critical_of_audit = critical_findings(*report, rules);
     if (evaluation.record.certificate) {
-        certificate::add_findings(*evaluation.record.certificate, critical_findings(*report, rules));
+        certificate::add_findings(*evaluation.record.certificate, evaluation.critical_of_audit);
         evaluation.blocked = evaluation.record.certificate->blocked;
     }
     evaluation.audit = std::move(report);

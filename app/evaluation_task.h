@@ -53,6 +53,8 @@ struct Evaluation {
     std::function<void(audit::AuditSubject&)> add_nested_budgets = {};
     /// What an assessor would remark; set by evaluate_job().
     std::shared_ptr<const audit::AuditReport> audit = {};
+    /// What the audit alone found critical, beside the gates of a certificate, and nobody accepts; set with `audit`.
+    std::vector<certificate::Finding> critical_of_audit = {};
     std::vector<certificate::Waiver> waivers = {};  ///< of a job whose record is no certificate
 };
 

@@ -174,9 +174,9 @@ void look_again(const AuditSubject& subject, std::span<const Rule> rules, std::v
     }
 }
 
-/// Where columns of numbers were not understood, what does not follow from the others may follow from these: it is asked, and
+/// Where columns of numbers, or cells of rows, were not understood, what does not follow from the others may follow from these: it is asked, and
 /// nobody is accused of a grave error.
-void limit_by_unread_columns(AuditFinding& finding, const AuditSubject& subject) {
+void limit_by_what_is_unread(AuditFinding& finding, const AuditSubject& subject) {
     const bool needs_all_columns = finding.rule == "S01" || finding.rule == "K01" || finding.rule == "K09";
     if (!needs_all_columns || finding.budgets.empty()) {
         return;
@@ -185,7 +185,11 @@ void limit_by_unread_columns(AuditFinding& finding, const AuditSubject& subject)
     for (const std::string& head : unread) {
         finding.evidence.push_back(say("the column {head} has numbers that were not read", text::in_quotes(head)));
     }
-    if (!unread.empty()) {
+    const std::vector<std::string>& cells = subject.budgets[finding.budgets.front()].unread_cells;
+    for (const std::string& words : cells) {
+        finding.evidence.push_back(say("{words} stands where a number should, and was not read", words));
+    }
+    if (!unread.empty() || !cells.empty()) {
         finding.severity = std::min(finding.severity, FindingSeverity::major);
     }
 }
@@ -387,7 +391,7 @@ AuditReport audit(AuditSubject subject, std::span<const Rule> rules) {
         if (finding.effect && finding.effect_on_score && finding.effect->budget == finding.effect_on_score->budget) {
             finding.effect_on_score.reset();
         }
-        limit_by_unread_columns(finding, subject);
+        limit_by_what_is_unread(finding, subject);
         // A term that is not there has no size that could be corrected: told is how large it would have to be to be
         // seen.
         if (finding.contribution_missing && !finding.budgets.empty()) {

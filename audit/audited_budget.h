@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,6 +134,9 @@ struct RowCorrelation {
     double r = 0.0;
 };
 
+/// k for a ν_eff; nothing where nobody can tell.
+using FactorOfNu = std::function<std::optional<double>(double nu_eff)>;
+
 /// How a budget comes from u_c to U.
 struct CoverageRule {
     enum class Kind {
@@ -147,6 +152,9 @@ struct CoverageRule {
     /// Of a budget that this program evaluated: each copy of it takes k as the evaluation would, t_p(ν_eff) or, where that
     /// of the convolution is more than 1 % away from it, the latter (ADR 0014, 0025), whichever `kind` the result has.
     bool chosen_anew = false;
+    /// Of `fixed`: the cell of k computes with ν_eff, and not as t_p(ν_eff): k of a table, or 2 from some ν_eff on. `k` is
+    /// what it shows; of a corrected budget k is what the cell would show.
+    std::shared_ptr<const FactorOfNu> k_of_nu = {};
 };
 
 /// The value that a result is compared with, in the unit of the result.
@@ -213,7 +221,8 @@ struct ComputedClaims {
 struct AuditedBudget {
     std::string name;  ///< of the result
     std::string unit;
-    std::string place;  ///< of the table
+    std::string place;       ///< of the table
+    std::string title = {};  ///< of a table: the line of words above its heads
     std::string equation;
     std::string method;  ///< id of the method's checklist; "" where none is known
     std::vector<AuditedRow> rows;
@@ -256,6 +265,8 @@ struct AuditedBudget {
     std::optional<StatedMonteCarlo> monte_carlo;
     /// Of a table: heads of columns of numbers that nobody understood. What does not follow may follow from them.
     std::vector<std::string> unread_columns = {};
+    /// Of a table: words in cells of rows where a number of the sum should stand. A line may have slipped by a column.
+    std::vector<std::string> unread_cells = {};
     /// Correlation coefficients that it states, and nobody knows of which rows.
     std::vector<double> unread_correlations = {};
     std::optional<double> physical_minimum;  ///< no value of the quantity lies below: 0 of a form error

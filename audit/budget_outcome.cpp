@@ -153,7 +153,7 @@ bool is_convolution(const AuditedBudget& budget, const CoverageRule& coverage, d
 
 double coverage_factor_of(const AuditedBudget& budget, const CoverageRule& coverage, double u_c, double nu) {
     if (coverage.kind == CoverageRule::Kind::fixed) {
-        return coverage.k;
+        return coverage.k_of_nu ? (*coverage.k_of_nu)(nu).value_or(coverage.k) : coverage.k;
     }
     // With correlations t_p(ν_eff) is taken.
     if (budget.correlations.empty() && coverage.chosen_anew) {

@@ -305,6 +305,64 @@ std::string method_in_title(std::string_view title) {
     return "";
 }
 
+bool names_material_measure(std::string_view title) {
+    const WordLine words(title);
+    const std::string method = method_in_title(title);
+    const bool is_of_instrument =
+        !method.empty() && method != "weights" && method != "end_gauge_comparison" && method != "cmm_fixture";
+    return !is_of_instrument &&
+           words.has_any({"weight ",
+                          "weights ",
+                          "gewicht",
+                          "mass standard",
+                          "massenormal",
+                          "gauge block",
+                          "gage block",
+                          "endmass",
+                          "parallelendmass",
+                          "*endmass",
+                          "length bar",
+                          "ring gauge",
+                          "plug gauge",
+                          "setting ring",
+                          "setting rod",
+                          "thread gauge",
+                          "lehrring",
+                          "lehrdorn",
+                          "einstellring",
+                          "einstellmass",
+                          "einstellstuck",
+                          "einstellnormal",
+                          "grenzlehre",
+                          "standard resistor",
+                          "normalwiderstand",
+                          "standard capacitor",
+                          "normalkondensator",
+                          "attenuator",
+                          "dampfungsglied",
+                          "termination",
+                          "reference material",
+                          "referenzmaterial",
+                          "line scale",
+                          "glass scale",
+                          "glasmassstab",
+                          "ball plate",
+                          "kugelplatte",
+                          "angle block",
+                          "winkelendmass",
+                          "surface plate",
+                          "optical flat",
+                          "planglas",
+                          "gas mixture",
+                          "gasgemisch",
+                          "volumetric flask",
+                          "messkolben"}) &&
+           !words.has_any({"balance", "*waage",     "comparator", "komparator", "instrument", "*messgerat",
+                           "meter ",  "meters ",    "indicator",  "calibrator", "kalibrator", "bridge",
+                           "brucke",  "microscope", "mikroskop",  "machine",    "maschine",   "scanner",
+                           "with ",   "mit ",       "using "});
+}
+
 bool is_scatter_of_readings(const AuditedRow& row) {
     switch (row.contributor) {
         case temperature:

@@ -46,6 +46,10 @@ struct MethodChecklist {
 /// Id of the method that a title names, in English or German: "Calibration of micrometers"; "" where it names none.
 [[nodiscard]] std::string method_in_title(std::string_view title);
 
+/// Whether a title names a material measure, in English or German: a weight, a gauge, a resistor. It shows nothing, so that it
+/// has no resolution (VIM 3.6). False where it names an instrument as well, or one of the checklists of instruments.
+[[nodiscard]] bool names_material_measure(std::string_view title);
+
 /// Whether a row holds the scatter of readings, or a pooled one: that is repeatability, whatever it is called. Not where
 /// its words say that a condition was read.
 [[nodiscard]] bool is_scatter_of_readings(const AuditedRow& row);

@@ -246,6 +246,14 @@ ClaimCheck explained_claims(const AuditedBudget& budget) {
             return check;
         }
     }
+    // A sheet that computes k with ν_eff otherwise than t_p(ν_eff) is taken at its own formula.
+    if (budget.coverage.kind == CoverageRule::Kind::fixed && budget.coverage.k_of_nu) {
+        const Interval k = allowed_k(budget, budget.coverage, allowed.nu_eff);
+        if (gives_k(k) && gives_U(k)) {
+            take(budget.coverage, k);
+            return check;
+        }
+    }
     std::optional<CoverageRule> nearest;  // of those that give k and U, the one that gives k best
     double distance = 0.0;
     for (const CoverageRule& rule : student) {

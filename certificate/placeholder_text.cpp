@@ -128,6 +128,17 @@ const WordList k_verbs(
     U"wants wanted keeps kept needs needed failed broke stopped leaks leaked arrived came "
     U"akzeptiert akzeptierte verlangt verlangte wunscht wunschte wuenscht lehnt lehnte fiel kam bleibt blieb "
     U"acepta acepto solicita solicito pide pidio rechaza rechazo fallo llego llegaron queda quedo ");
+/// That something is agreed on, without who did or why.
+const WordList k_consent(
+    U" agreed accepted approved permitted allowed confirmed vereinbart akzeptiert genehmigt abgestimmt erlaubt "
+    U"zugelassen bestatigt acordado acordada aceptado aceptada aprobado aprobada permitido permitida confirmado ");
+/// Who may agree.
+const WordList k_parties(
+    U" customer client supplier manufacturer issuer person body assessor management manager head owner director "
+    U"everybody "
+    U"kunde kundin auftraggeber lieferant hersteller leitung leiter leiterin inhaber begutachter besteller "
+    U"cliente proveedor fabricante direccion director responsable emisor evaluador laboratory labor laboratorium "
+    U"laboratorio ");
 /// Words in the number of a document that is not issued yet.
 const WordList k_of_a_draft(
     U" draft drafts entwurf vorabzug vorlaufig vorlaeufig borrador preliminar provisional preliminary preview sample "
@@ -336,6 +347,17 @@ std::size_t telling_words(std::string_view text) {
         }
     }
     return telling.size();
+}
+
+bool is_consent_of_nobody(std::string_view text) {
+    std::vector<std::u32string> words;
+    for (const std::u32string& word : words_of(text)) {
+        const bool number = std::all_of(word.begin(), word.end(), is_digit);
+        if (word.size() > 1 && !number && !k_particles.has(word) && !k_auxiliaries.has(word)) {
+            words.push_back(word);
+        }
+    }
+    return words.size() == 2 && k_consent.has(words.back()) && !k_parties.has(words.front());
 }
 
 bool is_sentence_of_fields(std::string_view text) {

@@ -35,6 +35,8 @@ namespace gumcert::certificate {
 /// Whether the identification of a method describes what is usual only: "in-house", "wie üblich", "by hand".
 [[nodiscard]] bool describes_the_usual(std::string_view text);
 
+/// Whether a text says that a thing is agreed on, and neither by whom nor why: "Divisor agreed."
+[[nodiscard]] bool is_consent_of_nobody(std::string_view text);
 /// Whether names of fields beside one word that tells something make a sentence: "The device was dead.", "Customer accepts it."
 /// Of four words or with a verb; a word for a sample or a draft tells nothing here.
 [[nodiscard]] bool is_sentence_of_fields(std::string_view text);

@@ -151,7 +151,7 @@ bool is_statement(const std::string& text) {
     const bool without_spaces = std::any_of(letters.begin(), letters.end(), is_ideograph);
     // Chinese and Japanese set no spaces between words.
     const bool several_words = words_of(text).size() > 1 || std::all_of(letters.begin(), letters.end(), is_ideograph);
-    return is_stated(text) && several_words && weight(letters) >= k_least_weight &&
+    return is_stated(text) && several_words && !is_consent_of_nobody(text) && weight(letters) >= k_least_weight &&
            different.size() >= k_least_different &&
            (without_spaces || telling_words(text) >= k_least_telling || is_sentence_of_fields(text));
 }

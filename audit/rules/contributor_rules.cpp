@@ -108,7 +108,10 @@ std::vector<RequiredContributor> asked_of(const AuditedBudget& budget) {
                                            return std::any_of(required.by.begin(), required.by.end(),
                                                               [&](Contributor by) { return asks(of_method, by); });
                                        });
-        if (!other_rule && !named) {
+        // A weight or a gauge shows nothing that could have a resolution.
+        const bool is_of_display = asks(required, Contributor::item_resolution) &&
+                                   (names_material_measure(budget.title) || names_material_measure(budget.name));
+        if (!other_rule && !named && !is_of_display) {
             asked.push_back(required);
         }
     }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -207,8 +208,7 @@ double probability_of(const AuditedBudget& budget) {
 bool has_fixed_k_of_few(const AuditedBudget& budget, const BudgetOutcome& outcome) {
     constexpr double k_enough = 20.0, k_least = 0.5;
     return budget.coverage.kind == CoverageRule::Kind::fixed && outcome.nu_eff < k_enough &&
-           outcome.nu_eff >= k_least &&
-           gum::coverage_factor(probability_of(budget), outcome.nu_eff) > 1.01 * budget.coverage.k;
+           outcome.nu_eff >= k_least && gum::coverage_factor(probability_of(budget), outcome.nu_eff) > 1.01 * outcome.k;
 }
 
 /// K02
@@ -220,11 +220,11 @@ void fixed_k_of_few(const AuditSubject& subject, FindingCollector& findings) {
         const double p = probability_of(budget), k = gum::coverage_factor(p, outcome.nu_eff);
         AuditFinding finding = finding_of(subject, b,
                                           say("k = {k:number} is fixed although ν_eff is only {nu_eff:number}",
-                                              in_words(budget.coverage.k), in_words(outcome.nu_eff)));
+                                              in_words(outcome.k), in_words(outcome.nu_eff)));
         finding.evidence = {say("p = {p:number} %", text::significant(100.0 * p, 4)), equals("t_p(ν_eff)", in_words(k)),
                             equals("u_c", in_words(outcome.u_c, budget.unit))};
         finding.expected = equals("k", in_words(k));
-        finding.actual = equals("k", in_words(budget.coverage.k));
+        finding.actual = equals("k", in_words(outcome.k));
         finding.correct = [p](AuditedBudget& corrected) {
             corrected.coverage.kind = CoverageRule::Kind::student_t;
             corrected.coverage.probability = p;
@@ -353,6 +353,56 @@ double least_k_without_rows(const std::string& distribution, double p) {
     return is_rectangular ? std::numbers::sqrt3 * p : std::numbers::sqrt2 * std::sin(0.5 * std::numbers::pi * p);
 }
 
+const Correction k_by_convolution = [](AuditedBudget& budget) {
+    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
+        budget.coverage.probability = probability_of(budget);
+    }
+    budget.coverage.kind = CoverageRule::Kind::convolution;
+};
+
+/// What all rows together are beside a rectangular one, where they are at most 0.3 of it; nothing where none dominates.
+std::optional<double> rest_of_rectangular(const AuditedBudget& budget) {
+    constexpr double k_rest = 0.3;
+    const auto dominant = std::max_element(
+        budget.rows.begin(), budget.rows.end(),
+        [](const AuditedRow& a, const AuditedRow& c) { return contribution_of(a) < contribution_of(c); });
+    if (dominant == budget.rows.end() || dominant->shape != Shape::rectangular || !budget.correlations.empty()) {
+        return std::nullopt;
+    }
+    const double largest = contribution_of(*dominant);
+    double variance = budget.correlation_variance;
+    for (const AuditedRow& row : budget.rows) {
+        variance += &row == &*dominant ? 0.0 : contribution_of(row) * contribution_of(row);
+    }
+    const double rest = std::sqrt(std::max(0.0, variance));
+    return largest > 0.0 && rest <= k_rest * largest ? std::optional(rest / largest) : std::nullopt;
+}
+
+/// The smallest k that p can have by the rows: that of the distribution of their sum, where a row that states no distribution
+/// is taken as a rectangular one. Nothing where the rows are correlated, so that nobody knows it.
+std::optional<double> least_k_of_rows(const AuditedBudget& budget, double p) {
+    if (!budget.correlations.empty() || budget.correlation_variance != 0.0) {
+        return std::nullopt;
+    }
+    AuditedBudget narrow = budget;
+    for (AuditedRow& row : narrow.rows) {
+        const bool is_open = row.shape == Shape::not_stated && !row.type_a.value_or(false);
+        if ((is_open && !std::isfinite(row.used_nu)) || row.shape == Shape::trapezoidal || row.shape == Shape::other) {
+            row.shape = Shape::rectangular;
+        }
+        row.used_nu = std::numeric_limits<double>::infinity();  // fewer degrees of freedom make k larger
+    }
+    narrow.k_over_rows = 1.0;
+    if (rest_of_rectangular(narrow)) {
+        return std::numbers::sqrt3 * p;  // 1.65 is taken where one rectangular row dominates (EA-4/02, S9)
+    }
+    try {
+        return evaluate(narrow, {.kind = CoverageRule::Kind::convolution, .probability = p}).k;
+    } catch (const gum::DiagnosedError&) {
+        return std::nullopt;
+    }
+}
+
 /// K03
 void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
     for_each_foreign_outcome(subject, [&](std::size_t b, const AuditedBudget& budget, const BudgetOutcome&) {
@@ -394,12 +444,16 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         // that the rows, or the document, leave open.
         const double most =
             fewest >= 1.0 ? std::max(least, gum::coverage_factor(*words.p, fewest)) : std::max(least, k);
-        // A sum that a rectangular contribution dominates has a k below that of the normal distribution, 1.65 at 95 %.
-        const bool narrow_shape = budget.coverage.kind == CoverageRule::Kind::convolution || k < 1.75;
-        const double least_of_all = budget.rows.empty() ? least_k_without_rows(budget.claims.distribution, *words.p)
-                                    : narrow_shape      ? 0.0
-                                                        : least;
-        if (k < 0.99 * least_of_all || k > 1.06 * most) {
+        // A sum that a rectangular contribution dominates has a k below that of the normal distribution, 1.65 at 95 %; the rows
+        // say whether one does. "1.83" is printed for 1.84. One end alone of an interval has another k.
+        constexpr double k_printed = 0.99;
+        const bool is_one_sided = mentions(text::in_small_letters(sentence), {"one-sided", "one sided", "einseitig"});
+        const bool has_rows = !budget.rows.empty();
+        const double least_of_all = !has_rows               ? least_k_without_rows(budget.claims.distribution, *words.p)
+                                    : k < k_printed * least ? least_k_of_rows(budget, *words.p).value_or(0.0)
+                                                            : 0.0;
+        const bool is_small = !is_one_sided && k < k_printed * least_of_all;
+        if (is_small || k > 1.06 * most) {
             AuditFinding finding =
                 finding_of(subject, b,
                            with_sentence(say("k = {k:number} and p = {p:number} % do not belong together", in_words(k),
@@ -412,6 +466,20 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
                                    ? say("k = {least:number} to {most:number}", in_words(least), in_words(most))
                                    : equals("k", in_words(least));
             finding.actual = equals("k", in_words(k));
+            // p is the promise, and a k below it makes U too small; of 1.96, 2, 2.58 or 3, which laboratories take for another p, and
+            // of a k that is too large, nobody knows whether p or k was meant.
+            constexpr double k_for_all[] = {1.96, 2.0, 2.576, 3.0};
+            const bool is_of_other_p = std::any_of(std::begin(k_for_all), std::end(k_for_all),
+                                                   [k](double usual) { return is_about(k, usual, 0.005); });
+            if (is_small && has_rows && !is_of_other_p) {
+                finding.correct = [p = *words.p](AuditedBudget& corrected) {
+                    const bool is_dominated = rest_of_rectangular(corrected).has_value();
+                    corrected.coverage = {
+                        .kind = is_dominated ? CoverageRule::Kind::convolution : CoverageRule::Kind::student_t,
+                        .probability = p};
+                    corrected.k_over_rows = 1.0;
+                };
+            }
             findings.add(std::move(finding));
         }
     });
@@ -450,31 +518,6 @@ std::optional<double> semi_range(const AuditedRow& row) {
         default:
             return std::nullopt;
     }
-}
-
-const Correction k_by_convolution = [](AuditedBudget& budget) {
-    if (budget.coverage.kind == CoverageRule::Kind::fixed) {
-        budget.coverage.probability = probability_of(budget);
-    }
-    budget.coverage.kind = CoverageRule::Kind::convolution;
-};
-
-/// What all rows together are beside a rectangular one, where they are at most 0.3 of it; nothing where none dominates.
-std::optional<double> rest_of_rectangular(const AuditedBudget& budget) {
-    constexpr double k_rest = 0.3;
-    const auto dominant = std::max_element(
-        budget.rows.begin(), budget.rows.end(),
-        [](const AuditedRow& a, const AuditedRow& c) { return contribution_of(a) < contribution_of(c); });
-    if (dominant == budget.rows.end() || dominant->shape != Shape::rectangular || !budget.correlations.empty()) {
-        return std::nullopt;
-    }
-    const double largest = contribution_of(*dominant);
-    double variance = budget.correlation_variance;
-    for (const AuditedRow& row : budget.rows) {
-        variance += &row == &*dominant ? 0.0 : contribution_of(row) * contribution_of(row);
-    }
-    const double rest = std::sqrt(std::max(0.0, variance));
-    return largest > 0.0 && rest <= k_rest * largest ? std::optional(rest / largest) : std::nullopt;
 }
 
 /// K04
@@ -671,11 +714,11 @@ std::vector<Rule> coverage_rules() {
         {.id = "K03",
          .title = "Coverage factor, probability and sentence do not agree",
          .clause = {.text = "ILAC-P14:09/2020, 5.2", .verified = false},
-         .policy = fixed,
          .severity = major,
          .needs = {Need::claims},
-         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together, "
-                      "by the distribution that is stated: without rows and without one, k from √3 p on is open",
+         .detection = "the stated k is not the one that was used, by more than 1 %; or k and p do not belong together: "
+                      "k below that of the distribution of the sum of the rows by more than 1 %; without rows by the "
+                      "distribution that is stated, and without one, k from √3 p on is open",
          .correction = "State the k that was used, and the probability that belongs to it.",
          .question = "Which coverage factor was used, and which probability is meant?",
          .examine = k_and_sentence},

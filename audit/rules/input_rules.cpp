@@ -321,6 +321,16 @@ void specification_without_evidence(const AuditSubject& subject, FindingCollecto
     });
 }
 
+/// Whether a row divides the sum of several equal U, and its words say so: "two weights, U = 0.05 mg each". Of standards that
+/// are correlated with r = 1 the uncertainties add up (JCGM 100:2008, 5.2.2, note 1).
+bool is_of_several(const AuditedRow& row, double U) {
+    constexpr double k_most = 20.0;
+    const double times = row.stated ? std::abs(row.stated->value) / U : 0.0;
+    return times > 1.5 && times <= k_most && is_about(times, std::round(times)) &&
+           mentions(row, {" each", "both ", "two ", "three ", " je ", "jeweils", "beide", "zwei ", "drei ", "cada ",
+                          "2 x ", "2 × ", "2×", "2x", "added linearly", "linear addiert"});
+}
+
 /// U13
 void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findings) {
     static const std::array<NamedRatio, 5> k_ratios = {{
@@ -344,7 +354,7 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
         if (!other_divisor && !u_differs(row, U / k, 0.01, left_open(row, U) / k)) {
             return;
         }
-        if (columns_divide_by(row, k) && !is_slip_of(row, U)) {
+        if (columns_divide_by(row, k) && (!is_slip_of(row, U) || is_of_several(row, U))) {
             return;
         }
         const NamedRatio* ratio = named(k_ratios, row, U);
@@ -373,7 +383,11 @@ void certificate_by_wrong_k(const AuditSubject& subject, FindingCollector& findi
 void certificate_without_k(const AuditSubject& subject, FindingCollector& findings) {
     for_each_row(subject, [&findings](const RowAt& at) {
         const AuditedRow& row = at.is;
-        if (row.origin != Origin::certificate || row.certificate_k || row.certificate_probability || row.divisor) {
+        // What a table takes as limits has the divisor of its distribution, and needs no k (JCGM 100:2008, 4.3.7).
+        const bool has_limits = row.shape == Shape::rectangular || row.shape == Shape::triangular ||
+                                row.shape == Shape::arcsine || row.shape == Shape::trapezoidal;
+        if (row.origin != Origin::certificate || row.certificate_k || row.certificate_probability || row.divisor ||
+            has_limits) {
             return;
         }
         const bool halved = row.origin_value && is_about(row.used_u, 0.5 * *row.origin_value);
@@ -743,7 +757,7 @@ std::vector<Rule> type_b_rules() {
          .policy = fixed,
          .severity = major,
          .needs = {Need::rows},
-         .detection = "a row that comes from a certificate, without k, p or a divisor",
+         .detection = "a row that comes from a certificate, without k, p, a divisor or a distribution with limits",
          .correction = "Record k (or p and ν_eff) of the certificate.",
          .question = "Which coverage factor does the certificate state?",
          .examine = certificate_without_k},

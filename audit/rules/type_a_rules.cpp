@@ -141,6 +141,17 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
         if (is_of_more) {
             return;
         }
+        // s of n readings about their mean has ν = n − 1 (JCGM 100:2008, 4.2.6): n itself is how many they are.
+        if (*n >= 2 && at.is.nu && at.is.used_nu == static_cast<double>(*n)) {
+            AuditFinding finding = finding_at(
+                at, "ν", say("ν is the number of readings, {count:number}; s has one less", std::to_string(*n)));
+            finding.evidence = {equals("n", std::to_string(*n)), equals("ν", nu_in_words(at.is.used_nu))};
+            finding.expected = equals("ν", std::to_string(*n - 1));
+            finding.actual = equals("ν", nu_in_words(at.is.used_nu));
+            finding.correct = set_degrees_of_freedom(at.row, static_cast<double>(*n - 1));
+            findings.add(std::move(finding));
+            return;
+        }
         const bool has_nu = *n >= 2 && std::isfinite(at.is.used_nu);
         const std::optional<double> missing_k = has_nu ? k_of_few(at.of) : std::nullopt;
         if (has_nu && !missing_k) {
@@ -211,11 +222,17 @@ public:
     [[nodiscard]] bool is_called_that_of_the_mean() const {
         const std::string text = text_of_row(row_);
         return say_one_of({"of the mean ", "of mean ", "of the average", "of the arithmetic mean", "standard error",
-                           "s mean ", "sem ", "des mittelwert", "des mittels ", "des arithmetischen mittel",
+                           "sem ", "des mittelwert", "des mittels ", "des arithmetischen mittel",
                            "mittelwertabweichung", "standardfehler", "esdm ", "sdom ", "sdm ", "de la media ",
                            "del promedio"}) ||
-               mentions(text, {"/√", "/ √", "/sqrt", "/ sqrt", "/wurzel", "/ wurzel", "divided by √", "divided by sqrt",
-                               "already divided", "geteilt durch √", "bereits geteilt"});
+               // "s; mean of 6 readings" names two numbers: s, and how many readings make the mean.
+               std::any_of(words_.begin(), words_.end(),
+                           [](const WordLine& words) {
+                               return words.has_word("s mean", {"of ", "value of "});
+                           }) ||
+               mentions(text,
+                        {"s_mean", "s(mean", "/√", "/ √", "/sqrt", "/ sqrt", "/wurzel", "/ wurzel", "divided by √",
+                         "divided by sqrt", "already divided", "geteilt durch √", "bereits geteilt"});
     }
 
 private:
@@ -557,7 +574,7 @@ std::vector<Rule> type_a_rules() {
          .severity = minor,
          .needs = {Need::readings},
          .detection = "a Type A row from fewer than 10 readings, without bounds and a pooled estimate; from 2 readings "
-                      "on, and with ν and k that account for it, only to be known",
+                      "on, and with ν and k that account for it, only to be known; ν that is n itself",
          .correction = "Use a pooled estimate of s, or state ν = n − 1 and take k from it.",
          .question =
              "A standard deviation of so few readings is itself uncertain. Is there a pooled estimate from earlier "

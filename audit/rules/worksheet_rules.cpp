@@ -3,10 +3,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
@@ -363,6 +366,76 @@ void tell_texts(const WorksheetView& view, const ReadCells& cells, const SheetFo
     }
 }
 
+/// Standard deviation of readings about their mean with the divisor n, and how many they are; nothing where the formula reads
+/// other than two numbers or more in one range.
+struct DeviationByN {
+    double s = 0.0, n = 0.0;
+};
+std::optional<DeviationByN> deviation_by_n_of(const WorksheetView& view, const SheetFormula& formula) {
+    constexpr std::size_t k_most = 1000;
+    const std::vector<workbook::Area> areas = view.areas_read(formula.cell);
+    std::vector<double> values;
+    const bool reads_one =
+        !areas.empty() && std::all_of(areas.begin(), areas.end(), [&areas](const workbook::Area& area) {
+            return area.sheet == areas.front().sheet && area.range == areas.front().range;
+        });
+    if (!reads_one || view.count_of_read(formula.cell, k_most) == k_most) {
+        return std::nullopt;
+    }
+    const workbook::CellRange& range = areas.front().range;
+    for (std::uint32_t row = range.first.row; row <= range.last.row; ++row) {
+        for (std::uint32_t column = range.first.column; column <= range.last.column; ++column) {
+            const CellValue value =
+                view.value({.sheet = areas.front().sheet, .address = {.row = row, .column = column}});
+            if (value.kind == CellKind::number) {
+                values.push_back(value.number);
+            }
+        }
+    }
+    if (values.size() < 2) {
+        return std::nullopt;
+    }
+    const auto n = static_cast<double>(values.size());
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += (value - mean) * (value - mean);
+    }
+    return DeviationByN{.s = std::sqrt(sum / n), .n = n};
+}
+
+/// W04: the scatter of readings about their own mean is that of n − 1 (JCGM 100:2008, 4.2.2); STDEV.P divides by n. Over
+/// √(n − 1) it is s/√n, and right.
+void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
+    const std::optional<StatedNumber>& number = at.is.stated ? at.is.stated : at.is.u;
+    const SheetFormula* maker = number ? view.maker_of(number->place) : nullptr;
+    if (maker == nullptr || !calls(maker->formula, {"STDEV.P", "STDEVP", "STDEVPA", "VAR.P", "VARP", "VARPA"})) {
+        return;
+    }
+    const std::optional<DeviationByN> spread = deviation_by_n_of(view, *maker);
+    const CellValue made = view.value(maker->cell);
+    if (!spread || made.kind != CellKind::number || !(made.number > 0.0)) {
+        return;
+    }
+    constexpr double k_same = 1e-6;
+    const double over = spread->s / made.number;  // what the formula divides by
+    const bool by_n = is_about(over, 1.0, k_same) || is_about(over, std::sqrt(spread->n), k_same);
+    const bool is_put_right = is_about(over, 1.0, k_same) && at.is.divisor &&
+                              is_about(at.is.divisor->value, std::sqrt(spread->n - 1.0), 1e-3);
+    if (!by_n || is_put_right) {
+        return;
+    }
+    AuditFinding finding = finding_at(
+        at, number->place,
+        say("the deviations of {count:number} readings from their own mean are divided by n, and not by n − 1",
+            text::shortest(spread->n)));
+    finding.evidence = {say_number(text_of(view, *maker)), equals("n", text::shortest(spread->n))};
+    finding.expected = say("STDEV.S, which divides by n − 1");
+    finding.actual = say("STDEV.P, which divides by n");
+    finding.correct = scale_u(at.row, std::sqrt(spread->n / (spread->n - 1.0)));
+    findings.add(std::move(finding));
+}
+
 void count_of_readings(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
     ReadCells cells(*view);
@@ -415,6 +488,7 @@ void count_of_readings(const AuditSubject& subject, FindingCollector& findings) 
         finding.correct = both(scale_u(at.row, std::sqrt(*n / numbers)), set_degrees_of_freedom(at.row, numbers - 1.0));
         findings.add(std::move(finding));
     });
+    for_each_row(subject, [&](const RowAt& at) { deviation_by_n(*view, at, findings); });
     tell_limit(cells, findings);
 }
 
@@ -966,6 +1040,8 @@ void time_units(const AuditSubject& subject, FindingCollector& findings) {
 struct CellsOfTables {
     std::set<std::pair<std::size_t, std::uint32_t>> rows;
     std::set<CellPlace> numbers;
+    /// Contributions of rows that a sum, which follows from all rows, takes from their other cells: √SUMPRODUCT(u²; c²).
+    std::set<CellPlace> shown_alone;
 };
 CellsOfTables cells_of_tables(const WorksheetView& view, const AuditSubject& subject) {
     CellsOfTables cells;
@@ -979,6 +1055,13 @@ CellsOfTables cells_of_tables(const WorksheetView& view, const AuditSubject& sub
                 cells.numbers.insert(*cell);
             }
         }
+        const std::optional<CellPlace> contribution = view.cell_at(place_of(at.is.contribution));
+        const std::optional<CellPlace> u = view.cell_at(place_of(at.is.u)),
+                                       stated = view.cell_at(place_of(at.is.stated));
+        if (contribution && at.is.in_sum && at.of.u_c_over_rows == 1.0 &&
+            ((u && view.stands_under_results(*u)) || (stated && view.stands_under_results(*stated)))) {
+            cells.shown_alone.insert(*contribution);
+        }
     });
     return cells;
 }
@@ -989,7 +1072,7 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
     const CellsOfTables tables = cells_of_tables(*view, subject);
     for (const SheetFormula& formula : view->formulas()) {
         const bool visible = view->workbook().sheets[formula.cell.sheet].state == workbook::SheetState::visible;
-        if (!visible || view->stands_under_results(formula.cell) ||
+        if (!visible || view->stands_under_results(formula.cell) || tables.shown_alone.contains(formula.cell) ||
             !std::binary_search(unread.begin(), unread.end(), formula.cell)) {
             continue;
         }
@@ -1062,7 +1145,8 @@ std::vector<Rule> worksheet_rules() {
          .title = "Numbers of readings differ",
          .clause = {.text = "JCGM 100:2008, 4.2.3", .verified = true},
          .needs = {Need::workbook},
-         .detection = "text among readings; n of the divisor is not the number of readings in the range",
+         .detection = "text among readings; n of the divisor is not the number of readings in the range; STDEV.P of "
+                      "readings about their own mean, unless √(n − 1) divides it",
          .correction = "Correct the reading, and divide by the root of the number of readings that count.",
          .question = "How many readings were taken, and which of them count?",
          .examine = count_of_readings},

@@ -36,6 +36,9 @@ constexpr std::array k_column_words = {
     Word{U"contributor", quantity},
     Word{U"sourceofuncertainty", quantity},
     Word{U"uncertaintysource", quantity},
+    Word{U"uncertaintycontributor", quantity},
+    Word{U"errorsource", quantity},
+    Word{U"variable", quantity},
     Word{U"grosse", quantity},
     Word{U"große", quantity},
     Word{U"grose", quantity},
@@ -47,6 +50,10 @@ constexpr std::array k_column_words = {
     Word{U"komponente", quantity},
     Word{U"unsicherheitskomponente", quantity},
     Word{U"unsicherheitsquelle", quantity},
+    Word{U"unsicherheitseinfluss", quantity},
+    Word{U"fehlerquelle", quantity},
+    Word{U"einfluss", quantity},
+    Word{U"ursache", quantity},
     Word{U"bezeichnung", quantity},
     Word{U"estimate", estimate},
     Word{U"bestestimate", estimate},
@@ -76,6 +83,9 @@ constexpr std::array k_column_words = {
     Word{U"halbweite", stated},
     Word{U"halbbreite", stated},
     Word{U"grenze", stated},
+    Word{U"grenzwert", stated},
+    Word{U"fehlergrenze", stated},
+    Word{U"fehlergrenzen", stated},
     Word{U"unsicherheit", stated},
     Word{U"erweitertemessunsicherheit", stated},
     Word{U"erweiterteunsicherheit", stated},
@@ -112,6 +122,7 @@ constexpr std::array k_column_words = {
     Word{U"uk", Column::u},  // U/k
     Word{U"ui", Column::u},
     Word{U"uxi", Column::u},
+    Word{U"wi", Column::u},  // relative, of ISO 376
     Word{U"ux", Column::u},
     Word{U"standarduncertainty", Column::u},
     Word{U"standarduncertaintyu", Column::u},
@@ -145,6 +156,8 @@ constexpr std::array k_column_words = {
     Word{U"uncertaintycontribution", contribution},
     Word{U"uncertaintycontributionuiy", contribution},
     Word{U"contributiontou", contribution},
+    Word{U"contributiontouc", contribution},
+    Word{U"beitragzurunsicherheit", contribution},
     Word{U"contrib", contribution},
     Word{U"uncertaintycontrib", contribution},
     Word{U"productcu", contribution},
@@ -216,6 +229,10 @@ constexpr std::array k_statement_words = {
     Word{U"kombiniertestandardmessunsicherheit", Statement::u_c},
     Word{U"kombinierteunsicherheit", Statement::u_c},
     Word{U"standardmessunsicherheit", Statement::u_c},
+    Word{U"standarduncertainty", Statement::u_c},
+    Word{U"standardunsicherheit", Statement::u_c},
+    Word{U"wc", Statement::u_c},
+    Word{U"quadraticsum", Statement::u_c},
     Word{U"nueff", Statement::nu_eff},
     Word{U"veff", Statement::nu_eff},
     Word{U"effectivedegreesoffreedom", Statement::nu_eff},
@@ -570,8 +587,67 @@ bool is_unused_column(std::string_view head) {
     return false;
 }
 
+namespace {
+
+/// A number with a unit in a head, behind a space, a bracket or "@".
+struct PointOfHead {
+    std::size_t at = std::string_view::npos;  ///< where it begins
+    std::string text;                         ///< "10 V"
+};
+PointOfHead point_of(std::string_view head) {
+    for (std::size_t at = head.find_first_of("0123456789"); at != std::string_view::npos && at > 0;
+         at = head.find_first_of("0123456789", head.find_first_not_of("0123456789.,", at))) {
+        const char before = head[at - 1];
+        const std::string_view part = head.substr(at, head.find_first_of(")],;", at) - at);
+        const std::optional<LeadingNumber> number = before == ' ' || before == '(' || before == '[' || before == '@'
+                                                        ? read_leading_number(part, "", Percent::unit)
+                                                        : std::nullopt;
+        const std::string unit =
+            number ? unit_in_rest(number->rest.substr(0, number->rest.find(" in "))) : std::string();
+        if (!unit.empty() && known_unit(unit)) {
+            return {.at = at, .text = number->number.text + " " + unit};
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string point_in_head(std::string_view head) {
+    return point_of(head).text;
+}
+
+std::optional<Column> relative_column_of(std::string_view head) {
+    head = trimmed(head);
+    const std::optional<gum::Unit> unit = known_unit(unit_in_head(std::string(head)));
+    if (!unit || !unit->dimension().is_one()) {
+        return std::nullopt;
+    }
+    for (const std::string_view word :
+         {"relative ", "Relative ", "rel. ", "Rel. ", "relativer ", "Relativer ", "relat. ", "Relat. "}) {
+        if (head.starts_with(word)) {
+            return column_of(head.substr(word.size()));
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<Column> column_of(std::string_view head) {
     head = trimmed(head);
+    // "u bei 10 V", "Contribution 10 V": of one of several points beside each other.
+    if (const std::size_t at = point_of(head).at; at != std::string_view::npos && head[at - 1] != '(') {
+        std::string_view name = trimmed(head.substr(0, at));
+        for (const std::string_view word : {" at", " bei", " for", " für", " @", "@", " en", " a"}) {
+            if (name.ends_with(word)) {
+                name = trimmed(name.substr(0, name.size() - word.size()));
+                break;
+            }
+        }
+        const std::optional<Column> column = column_of(name);
+        if (column == Column::u || column == Column::contribution) {
+            return column;
+        }
+    }
     // "Value ± kPa", "ui(P) ± kPa": the layout of M3003, where ± says that the column has uncertainties, and what follows is
     // their unit. What is headed "Value" there is divided; it is no estimate.
     constexpr std::string_view k_plus_minus = "±";
@@ -628,8 +704,8 @@ std::optional<NamedStatement> whole_statement(std::string_view name) {
     const std::string_view short_name = trimmed(without_brackets(name));
     for (std::string_view text = name;; text = short_name) {
         std::optional<NamedStatement> named;
-        if (text == "U" || text == "U(y)") {
-            named = NamedStatement{.statement = Statement::U, .may_be_quantity = text == "U"};
+        if (text == "U" || text == "U(y)" || text == "W") {  // W is a relative U (ISO 376)
+            named = NamedStatement{.statement = Statement::U, .may_be_quantity = text != "U(y)"};
         } else if (text == "k") {
             named = NamedStatement{.statement = Statement::k, .may_be_quantity = true};
         } else if (text == "u" || text == "u(y)") {

@@ -29,6 +29,12 @@ inline constexpr int k_columns = 13;
 /// "Contribution / nm", "Beitrag in µm", "Quantity X_i", "Sensitivity dT/dx".
 [[nodiscard]] std::optional<Column> column_of(std::string_view head);
 
+/// The point that a head is of, "10 V" of "u (10 V)", "u bei 10 V" and "Contribution 10 V"; "" where it has no number with a unit.
+[[nodiscard]] std::string point_in_head(std::string_view head);
+/// The column of relative uncertainties that a head names, with the unit of a part: "Relative standard uncertainty (%)", "rel.
+/// Standardunsicherheit in ppm". Without such a unit, a part of a value would be taken for the value's own unit.
+[[nodiscard]] std::optional<Column> relative_column_of(std::string_view head);
+
 /// Whether a head that names none of these columns is known all the same: shares, squares, numbers of rows.
 [[nodiscard]] bool is_unused_column(std::string_view head);
 

@@ -92,6 +92,8 @@ public:
     }
     /// Whether the row has a number of which nobody can know the decimal sign.
     [[nodiscard]] bool has_open_number() const { return has_open_; }
+    /// Places and words of cells in which a number of the sum should stand.
+    [[nodiscard]] const std::vector<std::string>& unread() const { return unread_; }
 
 private:
     [[nodiscard]] const Cell* at(Column column) const {
@@ -117,6 +119,9 @@ private:
             if (!says_nothing(held)) {
                 not_read_.push_back(say("{cell}: {text} is no number; what is meant?", sheet_.place(cell->address),
                                         text::in_quotes(held)));
+                if (column != Column::estimate && column != Column::nu) {
+                    unread_.push_back(sheet_.place(cell->address) + " (" + text::in_quotes(held) + ")");
+                }
             }
             return std::nullopt;
         }
@@ -173,6 +178,7 @@ private:
     const std::vector<const Cell*>& row_;
     std::vector<Sentence>& not_read_;
     bool has_open_ = false;
+    std::vector<std::string> unread_;
 };
 
 /// Reads one sheet, or a part of it, from top to bottom.
@@ -182,7 +188,10 @@ public:
     TableReader(const SheetView& sheet, std::string name, ForeignTables& tables, std::vector<std::string>& titles)
         : sheet_(sheet), name_(std::move(name)), tables_(tables), titles_(titles) {}
 
-    void read(const SheetView::Rows& rows) {
+    void read(const TablePart& part) {
+        const SheetView::Rows& rows = part.rows;
+        rows_ = &rows;
+        point_ = part.point;
         std::uint32_t last = 0;
         for (const auto& [number, row] : rows) {
             if (number > last + 2) {
@@ -209,11 +218,19 @@ private:
             finish();
             statements_ = std::move(above);
             heads_ = std::move(heads);
+            take_value_for_stated(number);
+            take_u_for_contribution(number);
             for (const Cell* cell : heads_->second) {
+                const std::string held = sheet_.words(*cell);
+                const std::optional<Column> column = column_of(held);
                 tables_.not_read.push_back(
-                    say("{cell}: the column {head} is not read, as another one of the table has its "
-                        "meaning",
-                        sheet_.place(cell->address), text::in_quotes(sheet_.words(*cell))));
+                    column == Column::u || column == Column::contribution
+                        ? say("{cell}: the column {head} is NOT audited, as another one of the table has its meaning; "
+                              "give it "
+                              "a table of its own, or name in each such head the point that it is of: \"u (10 V)\"",
+                              sheet_.place(cell->address), text::in_quotes(held))
+                        : say("{cell}: the column {head} is not read, as another one of the table has its meaning",
+                              sheet_.place(cell->address), text::in_quotes(held)));
             }
             in_rows_ = is_near_ = true;
             constexpr std::uint32_t k_near = 2;  // lines
@@ -252,6 +269,12 @@ private:
         AuditedRow read = reader.read(units);
         is_unusable_ = is_unusable_ || reader.has_open_number();
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
+            constexpr std::size_t k_most_told = 4;
+            for (const std::string& words : reader.unread()) {
+                if (budget_.unread_cells.size() < k_most_told) {
+                    budget_.unread_cells.push_back(words);
+                }
+            }
             budget_.rows.push_back(std::move(read));
             units_.push_back(std::move(units));
             last_constants_.clear();
@@ -259,6 +282,104 @@ private:
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
+    }
+
+    /// The number of a row below some heads in a column.
+    [[nodiscard]] std::optional<StatedNumber> number_below(const SheetView::Row& row, Column column) const {
+        const auto head = heads_->columns.find(column);
+        const Cell* cell = head == heads_->columns.end() ? nullptr : cell_in(row, head->second);
+        std::optional<NumberWithUnit> read = cell == nullptr ? std::nullopt : sheet_.number_with_unit(*cell);
+        return read && !read->is_open ? std::optional(std::move(read->number)) : std::nullopt;
+    }
+    /// Looks at the rows between a line of heads and the next one.
+    template <typename Look>
+    void each_row_below(std::uint32_t line, const Look& look) const {
+        for (auto at = rows_->upper_bound(line); at != rows_->end() && at->first <= line + k_most_rows; ++at) {
+            if (heads_of(sheet_, at->second)) {
+                return;
+            }
+            look(at->second);
+        }
+    }
+    /// A column has another meaning than its head names first.
+    void rename_column(Column from, Column to) {
+        const auto move = [from, to](auto& map) {
+            if (const auto found = map.find(from); found != map.end()) {
+                map[to] = found->second;
+                map.erase(from);
+            }
+        };
+        move(heads_->columns);
+        move(heads_->units);
+        move(heads_->unit_columns);
+    }
+    /// "Value" beside a column of divisors is what is divided, where u of most rows is the quotient: the layout of UKAS M3003,
+    /// without its ±.
+    void take_value_for_stated(std::uint32_t line) {
+        const auto has = [this](Column column) { return heads_->columns.contains(column); };
+        if (has(Column::stated) || !has(Column::estimate) || !has(Column::divisor)) {
+            return;
+        }
+        std::size_t quotients = 0, others = 0;
+        each_row_below(line, [&](const SheetView::Row& row) {
+            const std::optional<StatedNumber> value = number_below(row, Column::estimate),
+                                              divisor = number_below(row, Column::divisor),
+                                              c = number_below(row, Column::sensitivity);
+            std::optional<StatedNumber> u = number_below(row, Column::u);
+            u = u ? u : number_below(row, Column::contribution);
+            if (!value || !divisor || !u || !(divisor->value > 0.0) || !(std::abs(u->value) > 0.0)) {
+                return;
+            }
+            constexpr double k_digits = 0.01;  // relative, of the divisor
+            const double part = std::abs(value->value) / divisor->value, size = std::abs(u->value);
+            const double weighted = c ? part * std::abs(c->value) : part;
+            const double left_open = printed_half_step(*u) + k_digits * size;
+            const bool is_quotient = std::abs(size - part) <= left_open || std::abs(size - weighted) <= left_open;
+            ++(is_quotient ? quotients : others);
+        });
+        if (quotients > 1 && quotients > 2 * others) {
+            rename_column(Column::estimate, Column::stated);
+        }
+    }
+    /// A column headed "u_i" or "Standard uncertainty", without one of contributions beside it, holds u(x_i) or |c_i| u(x_i): what
+    /// its rows divide, and their coefficients, tell which.
+    void take_u_for_contribution(std::uint32_t line) {
+        const auto has = [this](Column column) { return heads_->columns.contains(column); };
+        if (!has(Column::u) || has(Column::contribution) || !has(Column::sensitivity) || !has(Column::stated)) {
+            return;
+        }
+        std::size_t with_coefficient = 0, without = 0;
+        each_row_below(line, [&](const SheetView::Row& row) {
+            const std::optional<StatedNumber> u = number_below(row, Column::u),
+                                              stated = number_below(row, Column::stated),
+                                              c = number_below(row, Column::sensitivity),
+                                              divided_by = number_below(row, Column::divisor);
+            const auto distribution = heads_->columns.find(Column::distribution);
+            const Cell* shape = distribution == heads_->columns.end() ? nullptr : cell_in(row, distribution->second);
+            const double divisor = divided_by         ? divided_by->value
+                                   : shape != nullptr ? divisor_of_shape(shape_of(sheet_.words(*shape)))
+                                                      : 0.0;
+            if (!u || !stated || !c || !(divisor > 0.0)) {
+                return;
+            }
+            constexpr double k_digits = 0.01;  // relative, of the divisor and the coefficient
+            const double part = std::abs(stated->value) / divisor, weighted = std::abs(c->value) * part;
+            const double left_open = printed_half_step(*u) + k_digits * std::abs(u->value);
+            const bool is_weighted = std::abs(std::abs(u->value) - weighted) <= left_open,
+                       is_part = std::abs(std::abs(u->value) - part) <= left_open;
+            with_coefficient += is_weighted && !is_part ? 1U : 0U;
+            without += is_part && !is_weighted ? 1U : 0U;
+        });
+        if (with_coefficient > without) {
+            rename_column(Column::u, Column::contribution);
+        }
+    }
+    /// √3, √6 or √2 of a distribution with bounds; 0 of others.
+    [[nodiscard]] static double divisor_of_shape(Shape shape) {
+        return shape == Shape::rectangular  ? std::sqrt(3.0)
+               : shape == Shape::triangular ? std::sqrt(6.0)
+               : shape == Shape::arcsine    ? std::sqrt(2.0)
+                                            : 0.0;
     }
 
     [[nodiscard]] std::vector<const Cell*> cells_with_words(const SheetView::Row& row) const {
@@ -634,6 +755,7 @@ private:
                     budget_.place, std::to_string(k_most_rows)));
         } else if (heads_ && (!budget_.rows.empty() || is_unusable_)) {
             budget_.name = name_;
+            budget_.title = title_;
             settle_constants();
             tell_unknown_columns();
             settle_last_row();
@@ -673,6 +795,7 @@ private:
             }
             settle_contributions(budget_);
             note_unexplained(budget_);
+            budget_.name += point_.empty() ? "" : ", " + point_;
             tables_.budgets.push_back(std::move(budget_));
             titles_.push_back(title_);
         }
@@ -754,8 +877,11 @@ private:
                 amount->number.place, text::in_quotes(amount->number.text)));
     }
 
-    static bool has_columns_of_a_row(const AuditedRow& row) {
-        return row.stated || row.divisor || row.sensitivity || !row.shape_text.empty() || row.type_a;
+    /// \param but_normal  that u_c of a sum is normal, the layout of UKAS M3003 says in the line of the result
+    static bool has_columns_of_a_row(const AuditedRow& row, bool but_normal = false) {
+        const bool is_normal = row.shape == Shape::normal || row.shape == Shape::student_t;
+        return row.stated || row.divisor || row.sensitivity || row.type_a ||
+               (!row.shape_text.empty() && !(but_normal && is_normal));
     }
     /// Whether rows that add up to this have the u_c or the U that is stated; nothing where neither is.
     [[nodiscard]] std::optional<bool> gives_statements(const Interval& sum) const {
@@ -794,9 +920,10 @@ private:
         while (budget_.rows.size() >= k_least && is_lone_number(budget_.rows.back()) && is_no_row()) {
             drop_last_row();
         }
-        if (budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back())) {
+        if (budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back(), true)) {
             return;
         }
+        const bool is_called_normal = has_columns_of_a_row(budget_.rows.back());
         const AuditedRow& last = budget_.rows.back();
         const bool by_u = !last.contribution;
         const std::optional<StatedNumber>& amount = by_u ? last.u : last.contribution;
@@ -817,8 +944,10 @@ private:
             }
             return;
         }
-        const bool is_distinct = std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
-                                             [](const AuditedRow& row) { return has_columns_of_a_row(row); });
+        const bool is_distinct =
+            std::all_of(budget_.rows.begin(), budget_.rows.end() - 1, [is_called_normal](const AuditedRow& row) {
+                return is_called_normal ? row.stated || row.divisor || row.sensitivity : has_columns_of_a_row(row);
+            });
         const bool is_sum = seen(*amount, 1.0).meets(*above);
         const std::optional<bool> with = gives_statements(*all), without = gives_statements(*above);
         const bool is_stated = with.has_value();
@@ -909,7 +1038,7 @@ private:
                 result.unit = of_head->second;
             }
         }
-        state_claims(budget_, statements_, of_contributions, one_of_rows(), tables_.not_read);
+        state_claims(budget_, statements_, of_contributions, unit_of_rows(), tables_.not_read);
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
@@ -931,20 +1060,29 @@ private:
         read_comment(row);
         complete_row(row);
     }
-    /// "1" where all rows that are added as they are state it: the result is of dimension one then, and has no unit to show.
-    [[nodiscard]] std::string one_of_rows() const {
-        bool any = false;
+    /// The unit that all rows state which are added as they are: what is added up has one unit, and the result has it. "1" where all
+    /// are of dimension one, whatever their coefficients.
+    [[nodiscard]] std::string unit_of_rows() const {
+        const auto is_one = [](const std::string& unit) { return unit == "1" || unit == "-" || unit == "–"; };
+        if (!budget_.rows.empty() && std::all_of(budget_.rows.begin(), budget_.rows.end(),
+                                                 [&is_one](const AuditedRow& row) { return is_one(row.unit); })) {
+            return "1";
+        }
+        std::optional<std::string> shared;
         for (const AuditedRow& row : budget_.rows) {
             const bool as_it_is = !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
-            if (as_it_is && row.unit != "1" && row.unit != "-" && row.unit != "–") {
+            const std::string unit = is_one(row.unit) ? "1" : row.unit;
+            if (as_it_is && (unit.empty() || (shared && *shared != unit))) {
                 return "";
             }
-            any = any || as_it_is;
+            shared = as_it_is ? unit : shared;
         }
-        return any ? "1" : "";
+        return shared.value_or("");
     }
 
     const SheetView& sheet_;
+    const SheetView::Rows* rows_ = nullptr;  ///< that are read
+    std::string point_;                      ///< of a table of several, that they are of
     std::string name_;
     ForeignTables& tables_;
     std::optional<Heads> heads_;
@@ -989,6 +1127,44 @@ void tell_apart(std::vector<AuditedBudget>& budgets, const std::vector<std::stri
     add([&budgets](std::size_t i) { return budgets[i].place; });
 }
 
+/// What the points of one table have in common is said once.
+void tell_once(std::vector<Sentence>& sentences, std::size_t from) {
+    constexpr std::size_t k_most = 500;  // of so many nobody reads all
+    if (sentences.size() - from > k_most) {
+        return;
+    }
+    for (std::size_t i = from; i < sentences.size(); ++i) {
+        const auto at = sentences.begin() + static_cast<std::ptrdiff_t>(i);
+        sentences.erase(std::remove(at + 1, sentences.end(), Sentence(*at)), sentences.end());
+    }
+}
+
+/// Says what of the heads of a sheet without a table is known, and what is missing.
+void tell_nearest_heads(const SheetView& sheet, std::vector<Sentence>& not_read) {
+    constexpr std::size_t k_most = 6;
+    const std::optional<NearestHeads> heads = nearest_heads(sheet);
+    if (!heads) {
+        return;
+    }
+    const std::string place = sheet.place({.row = heads->row, .column = heads->column});
+    const auto quoted = [](const std::vector<std::string>& texts) {
+        std::vector<std::string> all;
+        std::transform(texts.begin(), texts.end(), std::back_inserter(all),
+                       [](const std::string& text) { return text::in_quotes(text); });
+        return listed(sentences_of(all), k_most);
+    };
+    not_read.push_back(
+        heads->has_quantity
+            ? say("{cell}: nearest to such heads; known are {known}; none names u, the contributions, or what "
+                  "is divided and by what",
+                  place, quoted(heads->known))
+            : say("{cell}: nearest to such heads; known are {known}; none names the quantities", place,
+                  quoted(heads->known)));
+    if (!heads->unknown.empty()) {
+        not_read.push_back(say("{cell}: not known are {heads}", place, quoted(heads->unknown)));
+    }
+}
+
 }  // namespace
 
 ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation,
@@ -1002,9 +1178,19 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         }
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
-        for (const SheetView::Rows& rows : parts_of(sheet)) {
-            TableReader(sheet, name, tables, titles).read(rows);
+        const std::size_t before = tables.budgets.size(), told = tables.not_read.size();
+        const auto read = [&](const SheetView& view) {
+            for (const TablePart& part : parts_of(view)) {
+                TableReader(view, name, tables, titles).read(part);
+            }
+        };
+        read(sheet);
+        if (tables.budgets.size() == before && tables.not_read.size() == told) {
+            if (const std::optional<TurnedBlock> block = turned_block(sheet)) {
+                read(SheetView(workbook, evaluation, i, sign, block));
+            }
         }
+        tell_once(tables.not_read, told);
     }
     tell_apart(tables.budgets, titles);
     if (tables.budgets.empty() && !tables.has_unusable) {
@@ -1014,6 +1200,11 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
                 "columns so, "
                 "in English or German",
                 file));
+        for (std::size_t i = 0; i < workbook.sheets.size(); ++i) {
+            if (workbook.sheets[i].state == workbook::SheetState::visible) {
+                tell_nearest_heads(SheetView(workbook, evaluation, i, sign), tables.not_read);
+            }
+        }
     }
     return tables;
 }

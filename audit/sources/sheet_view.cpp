@@ -76,21 +76,72 @@ DecimalSign decimal_sign_of(const workbook::Workbook& workbook) {
 }
 
 SheetView::SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet,
-                     DecimalSign sign)
+                     DecimalSign sign, const std::optional<TurnedBlock>& turned)
     : workbook_(workbook),
       evaluation_(evaluation),
+      turned_(turned),
       sheet_(sheet),
       sign_(sign),
       name_(workbook::quoted_sheet(workbook.sheets[sheet].name)) {
-    for (const Cell& cell : workbook.sheets[sheet].cells) {
+    if (turned_) {
+        turn();
+    }
+    for (const Cell& cell : turned_ ? turned_cells_ : workbook.sheets[sheet].cells) {
         rows_[cell.address.row].push_back(&cell);
     }
+}
+
+namespace {
+
+/// Lines below a turned block are no lines of its table: they keep their columns, and stand apart from it.
+constexpr std::uint32_t k_apart = 3;
+
+}  // namespace
+
+void SheetView::turn() {
+    const auto& [first, last] = *turned_;
+    const std::uint32_t width = last.column - first.column + 1;
+    bool has_corner = false;
+    for (const Cell& cell : workbook_.sheets[sheet_].cells) {
+        Cell copy = cell;
+        const workbook::CellAddress at = cell.address;
+        if (at.row > last.row) {
+            copy.address.row = at.row - last.row - 1 + first.row + width + k_apart;
+        } else if (at.row >= first.row) {
+            if (at.column < first.column || at.column > last.column) {
+                continue;
+            }
+            has_corner = has_corner || at == first;
+            copy.address = {.row = first.row + (at.column - first.column), .column = 1 + (at.row - first.row)};
+        }
+        turned_cells_.push_back(std::move(copy));
+    }
+    if (!has_corner) {
+        Cell corner;
+        corner.address = {.row = first.row, .column = 1};
+        corner.value = {.kind = CellKind::text, .text = "quantity"};
+        turned_cells_.push_back(std::move(corner));
+    }
+    std::sort(turned_cells_.begin(), turned_cells_.end(),
+              [](const Cell& a, const Cell& b) { return a.address < b.address; });
+}
+
+workbook::CellAddress SheetView::in_file(const workbook::CellAddress& address) const {
+    if (!turned_ || address.row < turned_->first.row) {
+        return address;
+    }
+    const auto& [first, last] = *turned_;
+    const std::uint32_t width = last.column - first.column + 1, line = address.row - first.row;
+    if (line < width) {
+        return {.row = first.row + address.column - 1, .column = first.column + line};
+    }
+    return {.row = last.row + 1 + line - std::min(line, width + k_apart), .column = address.column};
 }
 
 CellValue SheetView::value(const Cell& cell) const {
     if (cell.formula_kind != workbook::FormulaKind::none) {
         const workbook::EvaluatedCell* evaluated =
-            workbook::find_evaluated(evaluation_, workbook_, sheet_, cell.address);
+            workbook::find_evaluated(evaluation_, workbook_, sheet_, in_file(cell.address));
         if (evaluated != nullptr && evaluated->state != workbook::EvaluationState::not_evaluated) {
             return evaluated->value;
         }

@@ -31,19 +31,28 @@ struct NumberWithUnit {
 /// nothing. Between columns that commas separate, a number without quotes has no comma: it has a point, if any sign.
 [[nodiscard]] DecimalSign decimal_sign_of(const workbook::Workbook& workbook);
 
+/// A block of a sheet that is read with rows and columns changed: its heads stand below each other in its first column, and
+/// each further column is a row of the table. Where its first cell is blank, the others of that row are the quantities.
+struct TurnedBlock {
+    workbook::CellAddress first, last;
+};
+
 /// The cells of a sheet row by row, with the values that formulas give.
 class SheetView {
 public:
     using Row = std::vector<const workbook::Cell*>;
     using Rows = std::map<std::uint32_t, Row>;
 
-    /// \param sign  of the file
+    /// \param sign    of the file
+    /// \param turned  what of it is read as a table with its rows in columns
     SheetView(const workbook::Workbook& workbook, const workbook::Evaluation& evaluation, std::size_t sheet,
-              DecimalSign sign);
+              DecimalSign sign, const std::optional<TurnedBlock>& turned = std::nullopt);
+    SheetView(const SheetView&) = delete;
+    SheetView& operator=(const SheetView&) = delete;
 
     [[nodiscard]] const Rows& rows() const { return rows_; }
     [[nodiscard]] std::string place(const workbook::CellAddress& address) const {
-        return name_ + "!" + workbook::a1_text(address);
+        return name_ + "!" + workbook::a1_text(in_file(address));
     }
     /// What the cell shows: of a formula the value that we computed, where we did.
     [[nodiscard]] workbook::CellValue value(const workbook::Cell& cell) const;
@@ -62,8 +71,15 @@ public:
     [[nodiscard]] bool has_formulas() const { return !evaluation_.cells.empty(); }
 
 private:
+    /// Copies of all cells with the addresses that they have where a block is turned.
+    void turn();
+    /// Where a cell stands in the file.
+    [[nodiscard]] workbook::CellAddress in_file(const workbook::CellAddress& address) const;
+
     const workbook::Workbook& workbook_;
     const workbook::Evaluation& evaluation_;
+    std::optional<TurnedBlock> turned_;
+    std::vector<workbook::Cell> turned_cells_;
     std::size_t sheet_;
     DecimalSign sign_;
     std::string name_;  ///< of the sheet, as formulas write it

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -54,6 +57,109 @@ void keep_unknown_of_table(Heads& heads, const SheetView::Row& row) {
     });
 }
 
+/// What is taken for a head where no other one is: relative uncertainties in place of u, and the first column of the table as
+/// its quantities, where u or contributions and what they come from are headed beside it.
+void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
+    const auto has = [&heads](Column column) { return heads.columns.contains(column); };
+    const auto take = [&heads](Column column, const Cell* cell, const std::string& unit) {
+        heads.columns.emplace(column, cell->address.column);
+        heads.units[column] = unit;
+        heads.all_units[cell->address.column] = unit;
+        std::erase(heads.unknown, cell);
+    };
+    if (!has(Column::u) && !has(Column::contribution)) {
+        const std::vector<const Cell*> unknown = heads.unknown;
+        for (const Cell* cell : unknown) {
+            const std::string held = sheet.words(*cell);
+            const std::optional<Column> column = relative_column_of(held);
+            if (column && (*column == Column::u || *column == Column::contribution) && !has(*column)) {
+                take(*column, cell, unit_in_head(held));
+            }
+        }
+    }
+    const bool is_budget = (has(Column::u) || has(Column::contribution)) &&
+                           (has(Column::divisor) || has(Column::distribution) || has(Column::sensitivity));
+    if (has(Column::quantity) || !is_budget) {
+        return;
+    }
+    for (const Cell* cell : row) {
+        const CellValue held = sheet.value(*cell);
+        if (held.kind != CellKind::text) {
+            return;
+        }
+        const auto source = heads.columns.find(Column::source);
+        if (source != heads.columns.end() && source->second == cell->address.column) {
+            heads.columns.erase(source);
+            take(Column::quantity, cell, "");
+            return;
+        }
+        if (std::find(heads.unknown.begin(), heads.unknown.end(), cell) != heads.unknown.end()) {
+            take(Column::quantity, cell, "");
+            return;
+        }
+        if (!is_unused_column(held.text)) {
+            return;  // "No." may stand before the quantities, a column of numbers may not
+        }
+    }
+}
+
+/// Of a row of heads: the columns of each of several points, in the order of the points; empty where it has one point, or nobody can
+/// tell which.
+struct PointColumns {
+    std::vector<std::string> points;
+    std::vector<std::set<std::uint32_t>> columns;
+};
+PointColumns points_beside(const SheetView& sheet, const SheetView::Row& row) {
+    std::map<Column, std::vector<const Cell*>> heads;
+    for (const Cell* cell : row) {
+        const CellValue held = sheet.value(*cell);
+        const std::optional<Column> column = held.kind == CellKind::text ? column_of(held.text) : std::nullopt;
+        if (column && (*column == Column::u || *column == Column::contribution || *column == Column::stated)) {
+            heads[*column].push_back(cell);
+        }
+    }
+    PointColumns beside;
+    for (const Column column : {Column::u, Column::contribution, Column::stated}) {
+        const std::vector<const Cell*>& cells = heads[column];
+        if (cells.size() < 2) {
+            continue;
+        }
+        std::vector<std::string> points;
+        for (const Cell* cell : cells) {
+            points.push_back(point_in_head(sheet.words(*cell)));
+        }
+        const std::set<std::string> different(points.begin(), points.end());
+        if (different.size() != points.size() || different.contains("") ||
+            (!beside.points.empty() && beside.points != points) ||
+            (beside.points.empty() && column == Column::stated)) {
+            return {};
+        }
+        beside.points = points;
+        beside.columns.resize(points.size());
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            beside.columns[i].insert(cells[i]->address.column);
+        }
+    }
+    return beside;
+}
+
+/// Rows of a table as one of several points has them.
+Rows rows_of_point(const Rows& rows, const PointColumns& beside, std::size_t point) {
+    Rows kept;
+    for (const auto& [number, row] : rows) {
+        for (const Cell* cell : row) {
+            bool is_of_other = false;
+            for (std::size_t i = 0; i < beside.columns.size(); ++i) {
+                is_of_other = is_of_other || (i != point && beside.columns[i].contains(cell->address.column));
+            }
+            if (!is_of_other) {
+                kept[number].push_back(cell);
+            }
+        }
+    }
+    return kept;
+}
+
 }  // namespace
 
 bool has_numbers_with_units(Column column) {
@@ -98,6 +204,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
             heads.unit_columns.emplace(*column, position);
         }
     }
+    take_relative_and_first(sheet, row, heads);
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };
     const bool uncertainty = has(Column::u) || has(Column::stated) || has(Column::contribution);
     // "name | limit" heads many tables: what is divided needs a third column, as that of the divisors.
@@ -109,22 +216,26 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     return heads;
 }
 
-std::vector<SheetView::Rows> parts_of(const SheetView& sheet) {
+std::vector<TablePart> parts_of(const SheetView& sheet) {
     const Rows& rows = sheet.rows();
     std::vector<std::uint32_t> heads;  // rows
     std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
+    std::map<std::uint32_t, PointColumns> points;
     for (const auto& [number, row] : rows) {
         if (heads_of(sheet, row)) {
             heads.push_back(number);
             if (std::vector<std::uint32_t> columns = further_tables(sheet, row); !columns.empty()) {
                 beside.emplace(number, std::move(columns));
+            } else if (PointColumns of_points = points_beside(sheet, row); !of_points.points.empty()) {
+                points.emplace(number, std::move(of_points));
             }
         }
     }
-    if (beside.empty()) {
-        return {rows};
+    std::vector<TablePart> parts;
+    if (beside.empty() && points.empty()) {
+        parts.push_back({.rows = rows});
+        return parts;
     }
-    std::vector<Rows> parts;
     for (std::size_t i = 0; i < heads.size(); ++i) {
         const auto first = i == 0 ? rows.begin() : rows.find(heads[i]);
         const auto last = i + 1 == heads.size() ? rows.end() : rows.find(heads[i + 1]);
@@ -138,11 +249,99 @@ std::vector<SheetView::Rows> parts_of(const SheetView& sheet) {
                 tables[static_cast<std::size_t>(start - starts.begin())][at->first].push_back(cell);
             }
         }
+        if (const auto of_points = points.find(heads[i]); of_points != points.end()) {
+            for (std::size_t point = 0; point < of_points->second.points.size(); ++point) {
+                parts.push_back({.rows = rows_of_point(tables.front(), of_points->second, point),
+                                 .point = of_points->second.points[point]});
+            }
+            continue;
+        }
         for (Rows& table : tables) {
-            parts.push_back(std::move(table));
+            parts.push_back({.rows = std::move(table)});
         }
     }
     return parts;
+}
+
+namespace {
+
+/// Cells with anything to the right of a column.
+std::size_t filled_behind(const SheetView& sheet, const SheetView::Row& row, std::uint32_t column) {
+    return static_cast<std::size_t>(std::count_if(row.begin(), row.end(), [&](const Cell* cell) {
+        return cell->address.column > column && !sheet.words(*cell).empty();
+    }));
+}
+
+/// Whether a line is a head of a turned table: it has something for most of its quantities, or is one that may be blank.
+bool is_turned_head(const std::string& text, Column column, std::size_t filled, std::size_t quantities) {
+    const std::optional<Statement> statement = statement_of(text);
+    const bool is_statement = statement == Statement::nu_eff || statement == Statement::k ||
+                              (statement == Statement::u_c && column != Column::u);
+    const bool may_be_blank = column == Column::comment || column == Column::source || column == Column::nu;
+    return !is_statement && (5 * filled >= 3 * quantities || (may_be_blank && filled > 0));
+}
+
+}  // namespace
+
+std::optional<TurnedBlock> turned_block(const SheetView& sheet) {
+    constexpr std::uint32_t k_most_columns_before = 10;
+    constexpr std::size_t k_least_quantities = 2, k_least_heads = 3;
+    const Rows& rows = sheet.rows();
+    for (std::uint32_t column = 1; column <= k_most_columns_before; ++column) {
+        for (auto names = rows.begin(); names != rows.end(); ++names) {
+            const Cell* corner = cell_in(names->second, column);
+            const std::string held = corner == nullptr ? "" : sheet.words(*corner);
+            const std::size_t quantities = filled_behind(sheet, names->second, column);
+            if ((!held.empty() && column_of(held) != Column::quantity) || quantities < k_least_quantities) {
+                continue;
+            }
+            std::set<Column> heads = {Column::quantity};
+            std::uint32_t last = names->first, width = names->second.back()->address.column;
+            for (auto line = std::next(names); line != rows.end() && line->first == last + 1; ++line) {
+                const Cell* cell = cell_in(line->second, column);
+                const std::string text = cell == nullptr ? "" : sheet.words(*cell);
+                const std::optional<Column> of = column_of(text);
+                if (!of || !is_turned_head(text, *of, filled_behind(sheet, line->second, column), quantities) ||
+                    !heads.insert(*of).second) {
+                    break;
+                }
+                last = line->first;
+                width = std::max(width, line->second.back()->address.column);
+            }
+            const bool has_u = heads.contains(Column::u) || heads.contains(Column::contribution);
+            const bool is_divided = heads.contains(Column::stated) && heads.contains(Column::divisor);
+            // Under a blank corner, value, unit and u may be those of results.
+            const bool is_of_budget = heads.contains(Column::divisor) || heads.contains(Column::distribution) ||
+                                      heads.contains(Column::sensitivity) || heads.contains(Column::contribution) ||
+                                      heads.contains(Column::type);
+            if (heads.size() >= k_least_heads && (has_u || is_divided) && (!held.empty() || is_of_budget)) {
+                return TurnedBlock{.first = {.row = names->first, .column = column},
+                                   .last = {.row = last, .column = width}};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<NearestHeads> nearest_heads(const SheetView& sheet) {
+    constexpr std::size_t k_least = 2;
+    std::optional<NearestHeads> nearest;
+    for (const auto& [number, row] : sheet.rows()) {
+        NearestHeads heads{.row = number, .column = row.front()->address.column, .known = {}, .unknown = {}};
+        for (const Cell* cell : row) {
+            const CellValue held = sheet.value(*cell);
+            if (held.kind != CellKind::text || held.text.empty()) {
+                continue;
+            }
+            const std::optional<Column> column = column_of(held.text);
+            (column ? heads.known : heads.unknown).push_back(held.text);
+            heads.has_quantity = heads.has_quantity || column == Column::quantity;
+        }
+        if (heads.known.size() >= k_least && (!nearest || heads.known.size() > nearest->known.size())) {
+            nearest = std::move(heads);
+        }
+    }
+    return nearest;
 }
 
 }  // namespace gumcert::audit

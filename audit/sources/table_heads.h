@@ -28,8 +28,27 @@ struct Heads {
 /// The heads of a table, where a row has them; nothing of other rows.
 [[nodiscard]] std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row);
 
+/// Rows of a sheet that are read together.
+struct TablePart {
+    SheetView::Rows rows;
+    std::string point = {};  ///< "10 V": of a table of several points, what its columns are of
+};
 /// The rows of a sheet in parts that are read one after the other: all of them, unless tables stand beside each other. Then
-/// each table has its own columns, from the statements above it to those below.
-[[nodiscard]] std::vector<SheetView::Rows> parts_of(const SheetView& sheet);
+/// each table has its own columns, from the statements above it to those below. A table that has u, or the contributions, of
+/// several points beside each other, "u (1 V)" and "u (10 V)", is a table of each point: with its columns, and those that the
+/// points share.
+[[nodiscard]] std::vector<TablePart> parts_of(const SheetView& sheet);
+
+/// A table with its rows in columns: heads below each other, which name the quantities, one of u, the contributions, or what is
+/// divided and by what. Nothing where a sheet has none, or heads in rows as well.
+[[nodiscard]] std::optional<TurnedBlock> turned_block(const SheetView& sheet);
+
+/// Of a sheet without a table that could be read: the row of it that comes nearest to heads.
+struct NearestHeads {
+    std::uint32_t row = 0, column = 0;
+    std::vector<std::string> known, unknown;  ///< texts of its cells
+    bool has_quantity = false;
+};
+[[nodiscard]] std::optional<NearestHeads> nearest_heads(const SheetView& sheet);
 
 }  // namespace gumcert::audit

@@ -1,19 +1,24 @@
 #include "audit/sources/workbook_subject.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "audit/audited_workbook.h"
+#include "audit/budget_outcome.h"
 #include "audit/claims.h"
 #include "audit/sources/budget_words.h"
 #include "audit/sources/foreign_table.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::audit {
 namespace {
@@ -110,6 +115,101 @@ void count_readings(AuditedBudget& budget, const AuditedWorkbook& held) {
     }
 }
 
+/// The cell of k of a workbook, computed for other ν_eff than its own.
+class FactorCell {
+public:
+    /// \param under  the cells on which k stands, with it
+    FactorCell(const workbook::Workbook& of, std::span<const CellPlace> under, CellPlace nu, CellPlace k)
+        : nu_(nu), k_(k), workbook_(of) {
+        for (std::size_t i = 0; i < workbook_.sheets.size(); ++i) {
+            std::erase_if(workbook_.sheets[i].cells, [&](const workbook::Cell& cell) {
+                return !std::binary_search(under.begin(), under.end(), CellPlace{.sheet = i, .address = cell.address});
+            });
+        }
+        for (workbook::Cell& cell : workbook_.sheets[nu.sheet].cells) {
+            if (cell.address == nu.address) {
+                cell.formula.clear();
+                cell.formula_kind = workbook::FormulaKind::none;
+            }
+        }
+    }
+
+    [[nodiscard]] std::optional<double> at(double nu_eff) {
+        constexpr double k_infinite = 1e9;  // spreadsheets know no infinity
+        const double nu = std::min(nu_eff, k_infinite);
+        const std::lock_guard lock(mutex_);
+        if (const auto found = known_.find(nu); found != known_.end()) {
+            return found->second;
+        }
+        for (workbook::Cell& cell : workbook_.sheets[nu_.sheet].cells) {
+            if (cell.address == nu_.address) {
+                cell.value = {.kind = workbook::CellKind::number, .number = nu, .text = ""};
+            }
+        }
+        const workbook::Evaluation evaluation = workbook::evaluate_workbook(workbook_);
+        const workbook::EvaluatedCell* k = workbook::find_evaluated(evaluation, workbook_, k_.sheet, k_.address);
+        const bool is_number = k != nullptr && k->state == workbook::EvaluationState::evaluated &&
+                               k->value.kind == workbook::CellKind::number && k->value.number > 0.0;
+        return known_.emplace(nu, is_number ? std::optional(k->value.number) : std::nullopt).first->second;
+    }
+
+private:
+    CellPlace nu_, k_;
+    workbook::Workbook workbook_;
+    std::map<double, std::optional<double>> known_;
+    std::mutex mutex_;
+};
+
+/// Whether the cell of k gives what t_p(ν_eff) gives, ν_eff as it is or cut, as far as spreadsheets round it.
+bool is_student_factor(FactorCell& cell, double probability) {
+    constexpr double k_some_nu[] = {2.5, 4.2, 7.6, 15.5, 19.7, 30.6, 75.5, 300.5, 1e5};
+    constexpr double k_two_decimals = 0.0051;
+    for (const double p : {probability, 0.9545, 0.95}) {
+        for (const bool truncate : {false, true}) {
+            const CoverageRule rule{.kind = CoverageRule::Kind::student_t, .probability = p, .truncate = truncate};
+            if (std::all_of(std::begin(k_some_nu), std::end(k_some_nu), [&](double nu) {
+                    const std::optional<double> k = cell.at(nu);
+                    return k && std::abs(*k - student_factors(rule, {nu, nu}).low) <= k_two_decimals;
+                })) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Where the cell of k is no t_p(ν_eff), what it gives for another ν_eff is asked of itself.
+void take_factor_of_sheet(AuditedBudget& budget, const AuditedWorkbook& held, const std::vector<CellPlace>& under) {
+    constexpr std::size_t k_most_cells = 2000;  // a table of t is small
+    const Claims& claims = budget.claims;
+    const std::optional<CellPlace> nu = claims.nu_eff ? held.cell_at(claims.nu_eff->place) : std::nullopt,
+                                   k = claims.k ? held.cell_at(claims.k->place) : std::nullopt;
+    if (!nu || !k || *nu == *k || under.size() > k_most_cells || budget.k_over_rows != 1.0 ||
+        budget.U_over_k_u_c != 1.0 || !std::binary_search(under.begin(), under.end(), *nu)) {
+        return;
+    }
+    std::vector<CellPlace> cells = under;
+    cells.insert(std::upper_bound(cells.begin(), cells.end(), *k), *k);
+    const auto cell = std::make_shared<FactorCell>(held.workbook, cells, *nu, *k);
+    try {
+        constexpr double k_same = 1e-3;
+        const std::optional<double> of_rows = cell->at(evaluate(budget).nu_eff);
+        if (!of_rows || std::abs(*of_rows - claims.k->value) > k_same * claims.k->value ||
+            (budget.coverage.kind == CoverageRule::Kind::student_t &&
+             is_student_factor(*cell, budget.coverage.probability))) {
+            return;
+        }
+    } catch (const gum::DiagnosedError&) {
+        return;  // the budget gives no outcome
+    }
+    budget.coverage = {
+        .kind = CoverageRule::Kind::fixed,
+        .k = claims.k->value,
+        .probability = budget.coverage.probability,
+        .k_of_nu = std::make_shared<const FactorOfNu>([cell](double nu_eff) { return cell->at(nu_eff); })};
+    note_claims_beyond_rows(budget);
+}
+
 /// The cell of k computes with ν_eff, or with the degrees of freedom of a row: then k is none of the numbers that stand for
 /// all budgets, also where it shows one of them.
 /// \param under  the cells on which k stands, in order
@@ -121,9 +221,11 @@ void mark_k_of_nu(AuditedBudget& budget, const AuditedWorkbook& held, const std:
     budget.claims.k_follows_nu =
         reads(budget.claims.nu_eff) ||
         std::any_of(budget.rows.begin(), budget.rows.end(), [&reads](const AuditedRow& row) { return reads(row.nu); });
-    if (budget.claims.k_follows_nu) {
-        note_claims_beyond_rows(budget);
+    if (!budget.claims.k_follows_nu) {
+        return;
     }
+    note_claims_beyond_rows(budget);
+    take_factor_of_sheet(budget, held, under);
 }
 
 void mark_factors(std::vector<AuditedBudget>& budgets, const AuditedWorkbook& held) {

@@ -286,7 +286,7 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     view.method = printable(audit::method_in_words(budget.method));
     view.capability = plain_number(budget.capability);
     view.capability_number = budget.capability;
-    view.coverage = name_of(budget.coverage.kind);
+    view.coverage = budget.coverage.k_of_nu ? "of_sheet" : name_of(budget.coverage.kind);
     if (budget.coverage.kind == audit::CoverageRule::Kind::fixed) {
         view.stated_k = typed_or_rounded(budget.coverage.k, 6, k_digits);
     } else {

@@ -91,7 +91,7 @@ struct ContributorView {
 struct AuditedResultView {
     std::string name, unit, place, equation, method;
     std::string capability;                      ///< U of the scope here; "" none is known
-    std::string coverage;                        ///< "fixed", "student_t", "convolution"
+    std::string coverage;                        ///< "fixed", "student_t", "convolution", "of_sheet"
     std::string coverage_probability, stated_k;  ///< of the rule of coverage; one of both
     std::string lower_limit, upper_limit, reference_name, reference_value, reference_U;
     PrintedOutcome claimed, recomputed, audited;

@@ -135,8 +135,8 @@ std::string AuditWords::clause(const AuditFindingView& finding) const {
 
 std::string AuditWords::coverage(const AuditedResultView& result) const {
     const std::string name = wording_("audit_coverage", result.coverage).first();
-    return name + (result.coverage == "fixed" ? ", k = " + number(result.stated_k)
-                                              : ", " + number(result.coverage_probability) + " %");
+    const bool is_stated = result.coverage == "fixed" || result.coverage == "of_sheet";
+    return name + (is_stated ? ", k = " + number(result.stated_k) : ", " + number(result.coverage_probability) + " %");
 }
 
 std::string AuditWords::method(const AuditedFileView& file, const AuditedResultView& result) const {

@@ -112,7 +112,7 @@ TEST(StatedText, TakesPlainSentencesAsReasons) {
                              "The certificate of the manufacturer expired.",
                              "Device failed during warm-up.",
                              "The laboratory moved to another building.",
-                             "Divisor agreed.",
+                             "The divisor was agreed with the customer.",
                              "Das Gerät war defekt.",
                              "Keine, das Gerät war bei Eingang defekt.",
                              "Gerät ohne Anzeige angeliefert.",

@@ -1,6 +1,7 @@
 // For rules of worksheets: sheets with formulas that fire, and what must not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -313,6 +314,126 @@ TEST(WorksheetFindings, W14LeavesSharesAlone) {
         EXPECT_EQ(unused(head), 0U) << head;
     }
     EXPECT_GE(unused("correction"), 1U);
+}
+
+/// The readings stand in I2 to I6; k, u_c and the cells of the repeatability as given.
+AuditReport with_readings(const std::string& s, const std::string& divisor, const std::string& nu, const std::string& k,
+                          const std::string& u_c, const std::string& comment = "s; mean of 5 readings") {
+    test::Contents contents = {{"A1", "quantity"},
+                               {"B1", "U or a"},
+                               {"C1", "divisor"},
+                               {"D1", "distribution"},
+                               {"E1", "u"},
+                               {"F1", "c"},
+                               {"G1", "contribution"},
+                               {"H1", "nu"},
+                               {"J1", "comment"},
+                               {"A2", "standard"},
+                               {"B2", "0.6"},
+                               {"C2", "2"},
+                               {"D2", "normal"},
+                               {"E2", "=B2/C2"},
+                               {"F2", "1"},
+                               {"G2", "=E2*F2"},
+                               {"I2", "1"},
+                               {"A3", "repeatability"},
+                               {"B3", s},
+                               {"C3", divisor},
+                               {"D3", "normal"},
+                               {"E3", "=B3/C3"},
+                               {"F3", "1"},
+                               {"G3", "=E3*F3"},
+                               {"H3", nu},
+                               {"I3", "3"},
+                               {"J3", comment},
+                               {"I4", "2"},
+                               {"I5", "5"},
+                               {"I6", "4"},
+                               {"L2", "1"},
+                               {"M2", "13.97"},
+                               {"L3", "2"},
+                               {"M3", "4.53"},
+                               {"L4", "5"},
+                               {"M4", "2.65"},
+                               {"L5", "8"},
+                               {"M5", "2.37"},
+                               {"L6", "20"},
+                               {"M6", "2.13"},
+                               {"A9", "u_c"},
+                               {"B9", u_c},
+                               {"A10", "nu_eff"},
+                               {"B10", "=B9^4/(G3^4/H3)"},
+                               {"A11", "k"},
+                               {"B11", k},
+                               {"A12", "U"},
+                               {"B12", "=B9*B11"}};
+    std::sort(contents.begin(), contents.end(), [](const auto& a, const auto& b) {
+        return *workbook::read_a1(a.first) < *workbook::read_a1(b.first);  // row by row
+    });
+    return audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules());
+}
+constexpr const char* k_sum = "=SQRT(SUMSQ(G2:G3))";
+
+/// The law: a k that a sheet computes with ν_eff, by a table or by parts, is for every corrected budget what the sheet would show.
+TEST(WorksheetFindings, AKOfTheSheetIsAskedOfTheSheet) {
+    const double s = std::sqrt(2.5), u_c = std::sqrt(0.09 + 0.5), nu = 4.0 * std::pow(u_c, 4) / 0.25;
+    for (const auto& [k, right] :
+         std::vector<std::pair<std::string, double>>{{"=VLOOKUP(B10,L2:M6,2,TRUE)", 2.65},
+                                                     {"=INDEX(M2:M6,MATCH(B10,L2:L6,1))", 2.65},
+                                                     {"=IF(B10>5,2,T.INV.2T(0.0455,B10))", 2.0},
+                                                     {"=IF(B10<5,3,IF(B10<7,2.4,2))", 2.4}}) {
+        // Undivided, ν_eff is 4.3; divided by √5, it is 5.6.
+        const AuditReport report = with_readings("=STDEV.S(I2:I6)", "1", "4", k, k_sum);
+        ASSERT_EQ(of_rule(report, "U03").size(), 1U) << k;
+        const AuditedResult& result = report.results.at(0);
+        EXPECT_NEAR(result.claimed.u_c, std::sqrt(0.09 + s * s), 1e-9);
+        EXPECT_NEAR(result.audited.nu_eff, nu, 1e-6);
+        EXPECT_NEAR(of_rule(report, "U03")[0].effect->alone.k, right, 1e-9) << k;
+        EXPECT_TRUE(report.subject.budgets.at(0).coverage.k_of_nu) << k;
+    }
+    // t_p(ν_eff), rounded or cut, is the t-distribution, and a number that is typed stays.
+    for (const char* const k : {"=T.INV.2T(0.0455,B10)", "=ROUND(T.INV.2T(0.05,INT(B10)),2)", "2"}) {
+        EXPECT_FALSE(with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "4", k, k_sum).subject.budgets.at(0).coverage.k_of_nu)
+            << k;
+    }
+}
+
+TEST(WorksheetFindings, W04SeesDeviationsDividedByN) {
+    const double s = std::sqrt(2.5), right = std::sqrt(0.09 + s * s / 5.0);
+    for (const auto& [formula, divisor] : test::Contents{
+             {"=STDEV.P(I2:I6)", "=SQRT(5)"}, {"=STDEVP(I2:I6)/SQRT(5)", "1"}, {"=SQRT(VAR.P(I2:I6))", "=SQRT(5)"}}) {
+        const AuditReport report = with_readings(formula, divisor, "4", "2", k_sum);
+        const std::vector<AuditFinding> found = of_rule(report, "W04");
+        ASSERT_EQ(found.size(), 1U) << formula;
+        ASSERT_TRUE(found[0].effect);
+        EXPECT_NEAR(found[0].effect->alone.u_c, right, 1e-9) << formula;
+    }
+    for (const auto& [formula, divisor] : test::Contents{{"=STDEV.S(I2:I6)", "=SQRT(5)"},
+                                                         {"=STDEV.P(I2:I6)", "=SQRT(5-1)"},
+                                                         {"=STDEV.P(I2:I6)/SQRT(COUNT(I2:I6)-1)", "1"},
+                                                         {"=SQRT(DEVSQ(I2:I6)/20)", "1"}}) {
+        const AuditReport report = with_readings(formula, divisor, "4", "2", k_sum, "");
+        EXPECT_TRUE(of_rule(report, "W04").empty()) << formula;
+        EXPECT_NEAR(report.results.at(0).audited.u_c, right, 1e-9) << formula;
+    }
+}
+
+TEST(WorksheetFindings, NuIsOneLessThanTheReadings) {
+    const AuditReport report = with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "5", "=T.INV.2T(0.0455,B10)", k_sum);
+    const std::vector<AuditFinding> found = of_rule(report, "U02");
+    ASSERT_EQ(found.size(), 1U);
+    ASSERT_TRUE(found[0].effect);
+    EXPECT_NEAR(found[0].effect->alone.nu_eff, found[0].effect->claimed.nu_eff * 0.8, 1e-9);
+    EXPECT_FALSE(of_rule(with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "4", "2", k_sum), "U02")[0].effect);
+}
+
+TEST(WorksheetFindings, ContributionsMayBeShownAlone) {
+    const auto unused = [](const std::string& u_c) {
+        return of_rule(with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "4", "2", u_c), "W14").size();
+    };
+    EXPECT_EQ(unused("=SQRT(SUMPRODUCT(E2:E3^2,F2:F3^2))"), 0U);
+    EXPECT_EQ(unused("=SQRT((E2*F2)^2+(E3*F3)^2)"), 0U);
+    EXPECT_EQ(unused(k_sum), 0U);
 }
 
 }  // namespace

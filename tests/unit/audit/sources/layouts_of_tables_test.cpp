@@ -1,0 +1,295 @@
+// Sound budgets in the layouts that other laboratories use, and the same with an error planted. The law: a layout accuses
+// nobody, and hides no error.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/workbook_subject.h"
+#include "text/numbers.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+AuditReport report_on(const std::string& table) {
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+std::string accused_of(const AuditReport& report) {
+    std::string all;
+    for (const AuditFinding& finding : report.findings) {
+        if (finding.severity == FindingSeverity::critical || finding.severity == FindingSeverity::major) {
+            all += finding.rule + " " + finding.where + ": " + finding.what.english() + "\n";
+        }
+    }
+    return all;
+}
+bool tells(const AuditReport& report, const std::string& text) {
+    return std::any_of(
+        report.subject.not_read.begin(), report.subject.not_read.end(),
+        [&text](const Sentence& sentence) { return sentence.english().find(text) != std::string::npos; });
+}
+bool finds(const AuditReport& report, std::string_view rule) {
+    return std::any_of(report.findings.begin(), report.findings.end(),
+                       [rule](const AuditFinding& finding) { return finding.rule == rule; });
+}
+
+/// One row of a thermometer's budget; its contribution is in millikelvin.
+struct Source {
+    std::string name;
+    double value;
+    std::string unit, distribution, divisor_text;
+    double divisor, coefficient;
+    std::string coefficient_text, nu;
+};
+const std::vector<Source> k_sources = {
+    {"Reference thermometer (certificate 24-118: U = 10 mK, k = 2)", 10.0, "mK", "normal", "2", 2.0, 1.0, "1", ""},
+    {"Drift of the reference", 5.0, "mK", "rectangular", "1.7321", std::sqrt(3.0), 1.0, "1", ""},
+    {"Homogeneity of the bath", 12.0, "mK", "rectangular", "1.7321", std::sqrt(3.0), 1.0, "1", ""},
+    {"Bridge", 2.0, "mΩ", "rectangular", "1.7321", std::sqrt(3.0), 2.6, "2.6 mK/mΩ", ""},
+    {"Resolution of the item", 0.5, "mK", "rectangular", "1.7321", std::sqrt(3.0), 1.0, "1", ""},
+    {"Repeatability", 1.8, "mK", "normal", "1", 1.0, 1.0, "1", "9"},
+    {"Reproducibility", 2.0, "mK", "normal", "1", 1.0, 1.0, "1", "12"},
+};
+double u_c_of(const std::vector<Source>& sources) {
+    double variance = 0.0;
+    for (const Source& one : sources) {
+        const double part = one.value / one.divisor * one.coefficient;
+        variance += part * part;
+    }
+    return std::sqrt(variance);
+}
+/// \param head     of the column of contributions
+/// \param combined  name and distribution of the line of u_c
+std::string written(const std::vector<Source>& sources, const std::string& head, const std::string& combined,
+                    double u_c) {
+    std::string table = "Component,Value ±,Unit,Distribution,Divisor,c_i,\"" + head + "\",nu\n";
+    for (const Source& one : sources) {
+        table += "\"" + one.name + "\"," + text::shortest(one.value) + "," + one.unit + "," + one.distribution + "," +
+                 one.divisor_text + "," + one.coefficient_text + "," +
+                 text::significant(one.value / one.divisor * one.coefficient, 3) + "," + one.nu + "\n";
+    }
+    return table + combined + ",,," + text::significant(u_c, 3) + ",> 1000\n" +
+           "Expanded uncertainty,,mK,Normal (k = 2),2,," + text::significant(2.0 * u_c, 2) +
+           ",\ncoverage probability,95.45 %\n";
+}
+
+TEST(LayoutsOfTables, AColumnHoldsWhatItsNumbersAre) {
+    const double u_c = u_c_of(k_sources);
+    for (const char* const head : {"u_i (mK)", "u_i in mK", "Standard uncertainty (mK)", "u (mK)", "u_i(y) (mK)",
+                                   "Contribution / mK", "Standardunsicherheit in mK"}) {
+        for (const char* const combined :
+             {"Combined standard uncertainty,,mK,Normal", "Standard uncertainty,,mK,Normal",
+              "Standardunsicherheit,,mK,", "u_c,,mK,Normal", "Result,,mK,Normal"}) {
+            const AuditReport sound = report_on(written(k_sources, head, combined, u_c));
+            ASSERT_EQ(sound.results.size(), 1U) << head << combined;
+            EXPECT_EQ(accused_of(sound), "") << head << combined;
+            EXPECT_NEAR(sound.results[0].audited.u_c, u_c, 0.002 * u_c) << head << combined;
+            EXPECT_EQ(sound.results[0].unit, "mK");
+            // A row left out of the sum is found, with the U that is right.
+            std::vector<Source> fewer = k_sources;
+            fewer.erase(fewer.begin() + 2);
+            if (std::string_view(combined).starts_with("Result")) {
+                continue;  // which of the two it is has to be asked
+            }
+            const AuditReport planted = report_on(written(k_sources, head, combined, u_c_of(fewer)));
+            EXPECT_TRUE(finds(planted, "K01")) << head << combined;
+            ASSERT_EQ(planted.results.size(), 1U);
+            EXPECT_NEAR(planted.results[0].audited.U, 2.0 * u_c, 0.004 * u_c) << head << combined;
+        }
+    }
+}
+
+TEST(LayoutsOfTables, AStandardUncertaintyWithoutCoefficientStaysOne) {
+    // u(x_i), of which nobody has formed |c| u: read with the coefficient.
+    std::string table = "Component,Value ±,Unit,Distribution,Divisor,c_i,u_i,nu\n";
+    for (const Source& one : k_sources) {
+        table += "\"" + one.name + "\"," + text::shortest(one.value) + "," + one.unit + "," + one.distribution + "," +
+                 one.divisor_text + "," + one.coefficient_text + "," + text::significant(one.value / one.divisor, 3) +
+                 "," + one.nu + "\n";
+    }
+    const double u_c = u_c_of(k_sources);
+    const AuditReport report = report_on(table + "u_c,mK," + text::significant(u_c, 3) + "\nk,,2\nU,mK," +
+                                         text::significant(2.0 * u_c, 2) + "\ncoverage probability,,95.45 %\n");
+    EXPECT_EQ(accused_of(report), "");
+    EXPECT_NEAR(report.results.at(0).audited.u_c, u_c, 0.002 * u_c);
+}
+
+TEST(LayoutsOfTables, TheUnitOfRowsThatAreAddedIsThatOfTheResult) {
+    for (const char* const unit : {"N m", "1", "dB", "µV/V"}) {
+        const AuditReport report =
+            report_on("Component,Value ±,Unit,Distribution,Divisor,c,u_i\nReference,0.020," + std::string(unit) +
+                      ",normal,2,1,0.010\nDrift of the reference,0.010," + unit +
+                      ",rectangular,1.732,1,0.0058\nResolution of the item,0.005," + unit +
+                      ",rectangular,1.732,1,0.0029\nu_c,,,,,,0.0119\nk,2\nU,,,,,,0.024\n");
+        EXPECT_FALSE(finds(report, "R05")) << unit;
+    }
+    // EA-4/02, S6: all factors are of dimension one, whatever their coefficients.
+    EXPECT_FALSE(
+        finds(report_on("Quantity,Estimate,Unit,u,Distribution,c,Contribution\nK_S,0.957,1,0.0055,normal,0.972,"
+                        "0.00535\nM,1.000,1,0.0200,U-shaped,0.933,0.0187\np,0.976,1,0.0032,normal,0.956,"
+                        "0.00306\nK_X,0.933,,,,,0.0197\nU,0.039\nk,2\n"),
+              "R05"));
+    // Rows without units, or in several, say nothing of the result.
+    EXPECT_TRUE(
+        finds(report_on("Component,u\nReference,0.01\nDrift,0.02\nResolution,0.03\nu_c,0.037\nk,2\nU,0.075\n"), "R05"));
+}
+
+TEST(LayoutsOfTables, APointOfSeveralIsABudgetOfItsOwn) {
+    const auto table = [](const std::string& U_100) {
+        return "Source of uncertainty,Distribution,Divisor,u (1 V) in µV,u bei 10 V in µV,u at 100 V in µV\n"
+               "Calibrator,normal,2,1.5,12,150\nDrift of the calibrator,rectangular,1.732,0.9,8,90\n"
+               "Resolution of the item,rectangular,1.732,0.29,2.9,29\nReproducibility,rectangular,1.732,0.4,3,25\n"
+               "Temperature,rectangular,1.732,0.3,3,30\nCombined standard uncertainty,,,1.84,15.3,182\n"
+               "Expanded uncertainty (k = 2),,,3.7,31," +
+               U_100 + "\n";
+    };
+    const AuditReport sound = report_on(table("360"));
+    ASSERT_EQ(sound.results.size(), 3U);
+    for (const char* const rule : {"K01", "K02", "K03", "S01"}) {
+        EXPECT_FALSE(finds(sound, rule)) << rule;
+    }
+    EXPECT_EQ(sound.results[0].name, "b.csv, 1 V");
+    EXPECT_EQ(sound.results[2].name, "b.csv, 100 V");
+    EXPECT_NEAR(sound.results[2].audited.u_c, std::sqrt(150.0 * 150 + 90 * 90 + 29 * 29 + 25 * 25 + 30 * 30), 0.5);
+    const AuditReport planted = report_on(table("260"));
+    EXPECT_TRUE(finds(planted, "K01")) << "in the last column";
+    EXPECT_NEAR(planted.results.at(2).audited.U, 2.0 * 181.5, 2.0);
+    // Columns without points: one is audited, and it is said which are not.
+    const AuditReport constant_and_length = report_on(
+        "Component,Divisor,u (constant) in nm,u (growing) in nm/mm\nReference,2,10,0.1\nDrift,1.732,5,0.05\n"
+        "Repeatability,1,6,\nu_c,,12.7,0.112\n");
+    EXPECT_TRUE(tells(constant_and_length, "is NOT audited"));
+}
+
+TEST(LayoutsOfTables, RowsMayStandInColumns) {
+    const auto table = [](const std::string& corner, const std::string& drift) {
+        return "Calibration of a length bar\n\n" + corner +
+               ",Reference standard,Drift of the reference,Resolution of the item,Repeatability,Temperature,"
+               "Reproducibility\nValue ±,0.010,0.006,0.005,0.004,0.003,0.002\nUnit,mm,mm,mm,mm,mm,mm\n"
+               "Distribution,normal,rectangular,rectangular,normal,rectangular,rectangular\n"
+               "Divisor,2,1.732,1.732,1,1.732,1.732\nSensitivity coefficient,1,1,1,1,1,1\n"
+               "Standard uncertainty,0.0050," +
+               drift +
+               ",0.0029,0.0040,0.0017,0.0012\nDegrees of freedom,∞,∞,∞,9,∞,∞\nu_c,0.0081,mm\nk,2\nU,0.016,mm\n"
+               "coverage probability,95 %\n";
+    };
+    for (const char* const corner : {"Component", "Quantity", ""}) {
+        const AuditReport sound = report_on(table(corner, "0.0035"));
+        ASSERT_EQ(sound.results.size(), 1U) << corner;
+        EXPECT_EQ(sound.subject.budgets[0].rows.size(), 6U);
+        EXPECT_EQ(accused_of(sound), "") << corner;
+        EXPECT_NEAR(sound.results[0].audited.u_c, 0.00812, 2e-5);
+        EXPECT_EQ(sound.subject.budgets[0].rows[1].place, "b!C3") << "a cell of the file";
+        EXPECT_TRUE(finds(report_on(table(corner, "0.0060")), "U26")) << corner << ": u is not 0.006/1.732";
+    }
+    // A table of results is none.
+    EXPECT_TRUE(
+        report_on("Quantity,gauge 1,gauge 2,gauge 3\nValue,1,2,3\nUnit,V,V,V\nU,0.1,0.1,0.1\n").results.empty());
+}
+
+TEST(LayoutsOfTables, WhatIsNotUnderstoodOfHeadsIsNamed) {
+    const AuditReport points = report_on("Source of uncertainty,1 V,10 V\nCalibrator,1.5,12\nDrift,0.9,8\n");
+    EXPECT_TRUE(points.results.empty());
+    const AuditReport relative = report_on(
+        "Component,Type,Relative standard uncertainty (%)\nDetector,B,0.18\nDrift of detector,B,0.15\n"
+        "Repeatability,A,0.08\nCombined standard uncertainty,,0.25\nExpanded uncertainty (k=2),,0.50\n");
+    ASSERT_EQ(relative.results.size(), 1U);
+    EXPECT_EQ(relative.results[0].unit, "%");
+    EXPECT_TRUE(tells(report_on("Quantity,Unit,Standard thing\na,mm,0.1\n"), "not known are \"Standard thing\""));
+    EXPECT_EQ(report_on("Where it comes from,Value ±,Distribution,Divisor,u\nReference,0.2,normal,2,0.1\n"
+                        "Drift,0.2,rectangular,1.732,0.115\nu_c,0.15\n")
+                  .results.size(),
+              1U)
+        << "the first column is that of the quantities";
+    EXPECT_TRUE(report_on("Point,Value,Unit,U\n1,10.1,V,0.2\n2,20.1,V,0.2\n").results.empty())
+        << "results are no budget";
+}
+
+TEST(LayoutsOfTables, SeveralStandardsAreAddedUp) {
+    const auto rows = [](const std::string& comment) {
+        return report_on(
+            "quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution,nu,comment\nReference "
+            "weights 50 g + 50 g,mg,0.10,2,normal,0.05,1,0.05,,\"" +
+            comment +
+            "\"\nDrift of the weights,mg,0.06,1.732,rectangular,0.0346,1,0.0346,,\nRepeatability,mg,0.04,1,"
+            "normal,0.04,1,0.04,9,\nReproducibility,mg,0.02,1.732,rectangular,0.0115,1,0.0115,,\nu_c,mg,"
+            "0.0737\nk,,2\nU,mg,0.15\ncoverage probability,,95 %\n");
+    };
+    for (const char* const words : {"two weights, U = 0.05 mg each, k = 2, added linearly; certificate M-1",
+                                    "zwei Gewichte, je U = 0.05 mg, k = 2; Kalibrierschein M-1"}) {
+        EXPECT_FALSE(finds(rows(words), "U13")) << words;
+    }
+    EXPECT_TRUE(finds(rows("U = 0.05 mg, k = 2; certificate M-1"), "U13")) << "twice the U of the certificate";
+}
+
+TEST(LayoutsOfTables, AMaterialMeasureHasNoResolution) {
+    const auto titled = [](const std::string& title) {
+        return report_on(
+            title +
+            "\nquantity,unit,U or a,divisor,distribution,u\nReference standard,mg,0.10,2,normal,0.05\nDrift "
+            "of the reference standard,mg,0.06,1.732,rectangular,0.0346\nRepeatability,mg,0.04,1,normal,"
+            "0.04\nTemperature,mg,0.01,1.732,rectangular,0.0058\nReproducibility,mg,0.02,1.732,rectangular,"
+            "0.0115\nu_c,mg,0.0737\nk,,2\nU,mg,0.15\n");
+    };
+    for (const char* const title : {"Calibration of a weight of 100 g", "Einstellring 20 mm", "Standard resistor 100 Ω",
+                                    "Parallelendmaß 10 mm", "Kalibrierung eines Gewichtsstücks"}) {
+        EXPECT_FALSE(finds(titled(title), "B01")) << title;
+    }
+    for (const char* const title : {"Calibration of a voltmeter", "Balance of 200 g with weights",
+                                    "Messschieber 150 mm", "Micrometer with gauge blocks", "Budget"}) {
+        EXPECT_TRUE(finds(titled(title), "B01")) << title;
+    }
+}
+
+TEST(LayoutsOfTables, KIsHeldAgainstTheProbabilityBesideIt) {
+    const auto with_k = [](const std::string& k, const std::string& p, double large, const std::string& shape) {
+        const double divisor = shape == "rectangular" ? std::sqrt(3.0) : 2.0;
+        const double u = large / divisor, u_c = std::sqrt(u * u + 0.01 * 0.01 + 0.012 * 0.012);
+        return report_on(
+            "quantity,unit,U or a,divisor,distribution,u\nReference standard,V," + text::shortest(large) + "," +
+            text::significant(divisor, 5) + "," + shape + "," + text::significant(u, 4) +
+            "\nDrift of the reference standard,V,0.01732,1.7321,rectangular,0.01\nReproducibility,V,0.012,1,"
+            "normal,0.012\nu_c,V," +
+            text::significant(u_c, 4) + "\nk,," + k + "\nU,V," + text::significant(std::stod(k) * u_c, 4) +
+            "\ncoverage probability,," + p + "\n");
+    };
+    // k of one end of the interval in place of both.
+    for (const auto& [k, p] : std::vector<std::pair<std::string, std::string>>{
+             {"1.645", "95 %"}, {"1.69", "95.45 %"}, {"1.72", "95 %"}, {"1.80", "95 %"}, {"2.33", "99 %"}}) {
+        const AuditReport report = with_k(k, p, 0.04, "normal");
+        EXPECT_TRUE(finds(report, "K03")) << k << " " << p;
+        const AuditedResult& result = report.results.at(0);
+        EXPECT_GT(result.audited.k, 1.95) << "t_p of the rows";
+        EXPECT_NEAR(result.audited.U, result.audited.k * result.audited.u_c, 1e-9);
+    }
+    EXPECT_EQ(accused_of(with_k("1.645", "95 %", 0.04, "normal")).substr(0, 3), "K03");
+    for (const auto& [k, p] : std::vector<std::pair<std::string, std::string>>{
+             {"1.96", "95 %"}, {"2", "95 %"}, {"2", "95.45 %"}, {"2.58", "99 %"}, {"1.645", "90 %"}, {"1", "68 %"}}) {
+        EXPECT_FALSE(finds(with_k(k, p, 0.04, "normal"), "K03")) << k << " " << p;
+    }
+    // A rectangular row that dominates (EA-4/02, S9), and two that make a trapezium.
+    EXPECT_FALSE(finds(with_k("1.65", "95 %", 0.15, "rectangular"), "K03"));
+    EXPECT_FALSE(finds(with_k("1.83", "95 %", 0.05, "rectangular"), "K03"));
+}
+
+TEST(LayoutsOfTables, ALineThatSlippedIsAskedAbout) {
+    // A separator within a name: each cell of the line stands under the next head.
+    const AuditReport report = report_on(
+        "Größe;Einheit;Halbweite;Divisor;Verteilung;u;c;Beitrag\nNormal (U = 0,4 µm; k = "
+        "2);µm;0,4;2;Normal;0,20;1;0,20\n"
+        "Drift des Normals;µm;0,2;1,732;Rechteck;0,115;1;0,115\nWiederholbarkeit;µm;0,15;1;Normal;0,15;1;0,15\n"
+        "u_c;;;;;;;0,28\nk;2\nU;;;;;;;0,55\n");
+    for (const AuditFinding& finding : report.findings) {
+        EXPECT_NE(finding.severity, FindingSeverity::critical) << finding.rule << finding.what.english();
+    }
+    EXPECT_TRUE(tells(report, "is no number"));
+}
+
+}  // namespace
+}  // namespace gumcert::audit
