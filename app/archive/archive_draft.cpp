@@ -487,10 +487,8 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
     }
     const reports::EvaluationRecord earlier = reports::record_from_json(original, "record of " + stated.number);
     amendment.draft.amends = archive::Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
-    if (earlier.certificate) {
-        for (const certificate::Change& change : reports::changes_between(*earlier.certificate, later)) {
-            amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
-        }
+    for (const certificate::Change& change : reports::changes_between(earlier, amendment.record)) {
+        amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
     }
     if (amendment.draft.amends->changes.empty()) {
         refuse("states nothing else than \"" + stated.number + '"', "an amendment changes something",
