@@ -16,6 +16,7 @@
 #include "archive/head.h"
 #include "archive/names.h"
 #include "archive/printed_head.h"
+#include "certificate/dates.h"
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
@@ -542,7 +543,10 @@ std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const 
     const certificate::Dates& dates = read.certificate->data.dates;
     const bool authorises = kind == "authorised";
     const std::string& printed = authorises ? dates.authorised : dates.issued;
-    if ((!authorises && kind != "issued") || printed.empty() || printed >= day) {
+    // The log has the day by UTC, and the certificate that of the laboratory.
+    constexpr long k_days_between_time_zones = 1;
+    if ((!authorises && kind != "issued") || printed.empty() ||
+        certificate::days_between(printed, day).value_or(0) <= k_days_between_time_zones) {
         return {};
     }
     return {
