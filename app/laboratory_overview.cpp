@@ -142,6 +142,12 @@ bool is_day(const std::string& text) {
     return certificate::calendar_date(text).has_value();
 }
 
+bool is_day_somewhere(const std::string& text, const std::string& time) {
+    constexpr std::size_t k_day = 10;
+    const std::optional<long> days = certificate::days_between(text, time.substr(0, k_day));
+    return days && *days >= -1 && *days <= 1;
+}
+
 LaboratoryOverview laboratory_overview(const fs::path& folder, const std::string& day) {
     const jobs::DiskFileSource disk(folder, folder);
     jobs::JobFiles files(disk, "");

@@ -28,6 +28,8 @@ struct LaboratoryOverview {
 
 /// Whether a text is a day of the calendar, "2026-11-24".
 [[nodiscard]] bool is_day(const std::string& text);
+/// Whether a text is the day of a time by UTC, "2026-11-24T18:52:52Z", or one beside it, as calendars elsewhere have it.
+[[nodiscard]] bool is_day_somewhere(const std::string& text, const std::string& time);
 
 /// Use case of `gumcert laboratory FOLDER`. Standards by their identifications, signatories in the order of laboratory.json.
 /// \param day  a date; the caller says which, as libraries read no clock

@@ -160,7 +160,8 @@ class EvidenceVerifier {
 public:
     explicit EvidenceVerifier(const Evidence& evidence) : evidence_(evidence) {}
 
-    EvidenceVerdict verify(const std::vector<Head>& heads) {
+    EvidenceVerdict verify(const std::vector<Head>& heads, std::vector<Head> known) {
+        known.insert(known.end(), heads.begin(), heads.end());
         for (const Evidence::ProvenEntry& proven : evidence_.entries) {
             look_at(proven);
         }
@@ -186,7 +187,7 @@ public:
                 "a later head proves that the log begins with what an earlier one says");
         }
         for (const Head& head : heads) {
-            compare_with(head);
+            compare_with(head, known);
         }
         return std::move(verdict_);
     }
@@ -219,7 +220,7 @@ private:
         }
     }
 
-    void compare_with(const Head& head) {
+    void compare_with(const Head& head, const std::vector<Head>& known) {
         const Head& own = evidence_.head;
         const std::string where = "head of " + std::to_string(head.size) + " entries, " + head.at;
         if (head.archive != own.archive ||
@@ -229,11 +230,17 @@ private:
                 "heads of one archive agree");
             return;
         }
+        const auto proves = [&](const Head& later, const Head& earlier) {
+            const bool is_printed =
+                &later == &own &&
+                std::any_of(evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const auto& one) {
+                    return one.size == earlier.size && one.root == earlier.root && leads_to_the_head(one);
+                });
+            return is_printed || proves_extension(later, earlier);
+        };
         const bool is_extended_here =
-            head.size == own.size || proves_extension(own, head) || proves_extension(head, own) ||
-            std::any_of(evidence_.printed_heads.begin(), evidence_.printed_heads.end(), [&](const auto& one) {
-                return one.size == head.size && one.root == head.root && leads_to_the_head(one);
-            });
+            head.size == own.size ||
+            (head.size < own.size ? leads_to(own, head, known, proves) : leads_to(head, own, known, proves));
         if (!is_extended_here) {
             verdict_.findings.push_back(
                 {.code = "GC-ARCHIVE-0051",
@@ -573,8 +580,9 @@ Evidence evidence_from_json(std::string_view text, const std::string& name) {
     return evidence;
 }
 
-EvidenceVerdict verify_evidence(const Evidence& evidence, const std::vector<Head>& heads) {
-    return EvidenceVerifier(evidence).verify(heads);
+EvidenceVerdict verify_evidence(const Evidence& evidence, const std::vector<Head>& heads,
+                                const std::vector<Head>& known) {
+    return EvidenceVerifier(evidence).verify(heads, known);
 }
 
 }  // namespace gumcert::archive

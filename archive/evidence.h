@@ -68,8 +68,10 @@ struct EvidenceVerdict {
 /// Hashes of entries and contents, inclusion in the tree of the head, the life of the certificate, heads that its documents
 /// print, the entries that a statement of states names (its signature is another matter). GC-ARCHIVE-0040, -0043, -0044,
 /// -0048, -0053, -0056; against heads from elsewhere -0045 and -0051.
-/// \param heads  from elsewhere: one of the same size must be the same; for every other one there must be a proof that the
-///               larger log extends the smaller one, in the evidence or in the newer head
-[[nodiscard]] EvidenceVerdict verify_evidence(const Evidence& evidence, const std::vector<Head>& heads = {});
+/// \param heads  from elsewhere: one of the same size must be the same; for every other one there must be proofs that the
+///               larger log extends the smaller one, in the evidence or in the heads
+/// \param known  others, through which proofs may lead
+[[nodiscard]] EvidenceVerdict verify_evidence(const Evidence& evidence, const std::vector<Head>& heads = {},
+                                              const std::vector<Head>& known = {});
 
 }  // namespace gumcert::archive

@@ -116,6 +116,25 @@ bool proves_extension(const Head& later, const Head& earlier) {
            proves_its_extension(later) && later.at >= earlier.at;
 }
 
+bool leads_to(const Head& later, const Head& earlier, const std::vector<Head>& known,
+              const std::function<bool(const Head&, const Head&)>& proves) {
+    std::vector<const Head*> reached{&later};
+    std::vector<bool> is_reached(known.size(), false);
+    for (std::size_t next = 0; next < reached.size(); ++next) {
+        const Head& from = *reached[next];
+        if (proves(from, earlier)) {
+            return true;
+        }
+        for (std::size_t i = 0; i < known.size(); ++i) {
+            if (!is_reached[i] && proves(from, known[i])) {
+                is_reached[i] = true;
+                reached.push_back(&known[i]);
+            }
+        }
+    }
+    return false;
+}
+
 std::string signed_bytes(const Head& head) {
     return gumcert::json::canonical_json(unsigned_json(head));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -58,6 +59,12 @@ private:
 /// Whether the proof in a head shows that its log begins with that of an earlier one, without the archive; two of one size
 /// need none, and say the same.
 [[nodiscard]] bool proves_extension(const Head& later, const Head& earlier);
+/// Whether proofs lead from a later head to an earlier one, directly or through others: each proof is of roots, so that none of
+/// the heads between them has to be trusted.
+/// \param known   heads that may stand between the two
+/// \param proves  whether the one head proves that it extends the other
+[[nodiscard]] bool leads_to(const Head& later, const Head& earlier, const std::vector<Head>& known,
+                            const std::function<bool(const Head&, const Head&)>& proves = proves_extension);
 /// Whether the proof in a head leads from the root that it names to its own.
 [[nodiscard]] bool proves_its_extension(const Head& head);
 

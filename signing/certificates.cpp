@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <initializer_list>
+#include <memory>
 #include <utility>
 
 #include "signing/time_texts.h"
@@ -206,16 +208,108 @@ std::vector<Handle<X509_CRL>> lists_of(const std::vector<Bytes>& ders) {
     return lists;
 }
 
-/// Whether one of some certificates has issued a certificate, and has signed the list.
-bool is_list_for(X509_CRL* list, X509* certificate, const std::vector<X509*>& issuers) {
+/// The one of some certificates that has issued a certificate, and has signed the list; null without one.
+X509* issuer_of_list(X509_CRL* list, X509* certificate, const std::vector<X509*>& issuers) {
     if (X509_NAME_cmp(X509_CRL_get_issuer(list), X509_get_issuer_name(certificate)) != 0) {
-        return false;
+        return nullptr;
     }
     // The name alone is not enough: anybody can write a list with this name.
-    return std::any_of(issuers.begin(), issuers.end(), [&](X509* issuer) {
+    const auto found = std::find_if(issuers.begin(), issuers.end(), [&](X509* issuer) {
         return X509_check_issued(issuer, certificate) == X509_V_OK &&
                X509_CRL_verify(list, X509_get0_pubkey(issuer)) == 1;
     });
+    return found == issuers.end() ? nullptr : *found;
+}
+
+struct ListPartsFree {
+    void operator()(ISSUING_DIST_POINT* p) const { ISSUING_DIST_POINT_free(p); }
+    void operator()(CRL_DIST_POINTS* p) const { CRL_DIST_POINTS_free(p); }
+};
+
+bool is_one_of(int nid, std::initializer_list<int> nids) {
+    return std::find(nids.begin(), nids.end(), nid) != nids.end();
+}
+
+/// Whether an extension has to be understood, and is not.
+bool is_unknown(X509_EXTENSION* extension, std::initializer_list<int> known) {
+    return X509_EXTENSION_get_critical(extension) != 0 &&
+           !is_one_of(OBJ_obj2nid(X509_EXTENSION_get_object(extension)), known);
+}
+
+bool has_unknown_extension(X509_CRL* list) {
+    for (int i = 0; i < X509_CRL_get_ext_count(list); ++i) {
+        if (is_unknown(X509_CRL_get_ext(list, i),
+                       {NID_issuing_distribution_point, NID_delta_crl, NID_authority_key_identifier, NID_crl_number})) {
+            return true;
+        }
+    }
+    STACK_OF(X509_REVOKED)* const entries = X509_CRL_get_REVOKED(list);
+    for (int i = 0; i < sk_X509_REVOKED_num(entries); ++i) {
+        const X509_REVOKED* const entry = sk_X509_REVOKED_value(entries, i);
+        for (int k = 0; k < X509_REVOKED_get_ext_count(entry); ++k) {
+            if (is_unknown(X509_REVOKED_get_ext(entry, k),
+                           {NID_crl_reason, NID_invalidity_date, NID_certificate_issuer})) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Whether both have a name in common; relative names are not compared.
+bool share_a_name(const DIST_POINT_NAME* one, const DIST_POINT_NAME* other) {
+    constexpr int k_full_name = 0;
+    if (one == nullptr || other == nullptr || one->type != k_full_name || other->type != k_full_name) {
+        return false;
+    }
+    for (int i = 0; i < sk_GENERAL_NAME_num(one->name.fullname); ++i) {
+        for (int k = 0; k < sk_GENERAL_NAME_num(other->name.fullname); ++k) {
+            if (GENERAL_NAME_cmp(sk_GENERAL_NAME_value(one->name.fullname, i),
+                                 sk_GENERAL_NAME_value(other->name.fullname, k)) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// Whether a certificate names, as the place of its list, the one of this list.
+bool names_place(X509* certificate, const DIST_POINT_NAME* place) {
+    const std::unique_ptr<CRL_DIST_POINTS, ListPartsFree> points(
+        static_cast<CRL_DIST_POINTS*>(X509_get_ext_d2i(certificate, NID_crl_distribution_points, nullptr, nullptr)));
+    for (int i = 0; i < sk_DIST_POINT_num(points.get()); ++i) {
+        if (share_a_name(sk_DIST_POINT_value(points.get(), i)->distpoint, place)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Why a certificate that is not on a list of its issuer may be revoked all the same (RFC 5280, 5.2, 5.3 and 6.3.3); "" where
+/// the list speaks of it.
+std::string silence_of_list(X509_CRL* list, X509* certificate, X509* issuer, std::int64_t now) {
+    const std::unique_ptr<ISSUING_DIST_POINT, ListPartsFree> scope(
+        static_cast<ISSUING_DIST_POINT*>(X509_CRL_get_ext_d2i(list, NID_issuing_distribution_point, nullptr, nullptr)));
+    const bool has_scope = X509_CRL_get_ext_by_NID(list, NID_issuing_distribution_point, -1) >= 0;
+    const bool is_authority = X509_check_ca(certificate) != 0;
+    const std::optional<std::int64_t> since = seconds_of(X509_CRL_get0_lastUpdate(list));
+    constexpr std::int64_t k_between_clocks = 300;
+    int digest = NID_undef;
+    OBJ_find_sigid_algs(X509_CRL_get_signature_nid(list), &digest, nullptr);
+    const auto applies = [](int flag) { return flag != 0; };  // of ASN.1: absent, true or false
+    return X509_CRL_get_ext_by_NID(list, NID_delta_crl, -1) >= 0 ? "it has only what has changed since another list"
+           : has_scope && scope == nullptr                       ? "what it is a list of cannot be read"
+           : scope && applies(scope->onlyattr)                   ? "it is one of attribute certificates"
+           : scope && applies(scope->onlyCA) && !is_authority    ? "it is one of the certificates of authorities"
+           : scope && applies(scope->onlyuser) && is_authority   ? "it is one of certificates that are no authority's"
+           : scope && scope->onlysomereasons != nullptr          ? "it has only what is revoked for some reasons"
+           : scope && scope->distpoint != nullptr && !names_place(certificate, scope->distpoint)
+               ? "it is a part of all lists, and the certificate does not name it"
+           : has_unknown_extension(list)                     ? "it has a critical extension that is not known here"
+           : !since || *since > now + k_between_clocks       ? "it is of a time that has not come"
+           : is_one_of(digest, {NID_md5, NID_sha1})          ? "it is signed with " + std::string(OBJ_nid2ln(digest))
+           : (X509_get_key_usage(issuer) & KU_CRL_SIGN) == 0 ? "its issuer may not sign such lists"
+                                                             : "";
 }
 
 }  // namespace
@@ -246,14 +340,22 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
         }
     }
     bool signer_checked = false;
+    std::vector<std::string> silent;  // why lists of the signer's issuer do not speak of the signer
     for (const Handle<X509_CRL>& list : lists_of(trusted.revocation_lists)) {
         X509* spoken_of = nullptr;  // a certificate of the path that the list is for
         for (X509* const certificate : path) {
-            if (!is_list_for(list.get(), certificate, issuers)) {
+            X509* const issuer = issuer_of_list(list.get(), certificate, issuers);
+            if (issuer == nullptr) {
                 continue;
             }
             const std::string subject = subject_of(certificate);
-            signer_checked = signer_checked || certificate == path.front();
+            if (certificate == path.front()) {
+                const std::string silence = silence_of_list(list.get(), certificate, issuer, now);
+                signer_checked = signer_checked || silence.empty();
+                if (!silence.empty() && std::find(silent.begin(), silent.end(), silence) == silent.end()) {
+                    silent.push_back(silence);
+                }
+            }
             spoken_of = certificate;
             X509_REVOKED* entry = nullptr;
             // The date of revocation is not compared with the time of signing. Whoever has the key can write any time
@@ -291,7 +393,18 @@ std::vector<gum::Diagnostic> check_revocation(const std::string& where, const st
                          .action = "nothing",
                          .severity = gum::Severity::note});
     }
-    if (!signer_checked && !trusted.revocation_lists.empty()) {
+    const bool is_revoked = std::any_of(
+        found.begin(), found.end(), [](const gum::Diagnostic& one) { return one.severity == gum::Severity::error; });
+    for (const std::string& silence : signer_checked || is_revoked ? std::vector<std::string>() : silent) {
+        found.push_back({.code = "GC-SIGN-0138",
+                         .where = where,
+                         .what = "the list of revoked certificates of " + issuer_of(chain.front().get()) +
+                                 " does not say whether the signer's certificate is revoked: " + silence,
+                         .rule = "a list speaks for the certificates and reasons that it is of (RFC 5280, 6.3.3)",
+                         .action = "get the whole and present list of that issuer",
+                         .severity = gum::Severity::warning});
+    }
+    if (!signer_checked && silent.empty() && !trusted.revocation_lists.empty()) {
         found.push_back({.code = "GC-SIGN-0138",
                          .where = where,
                          .what = "none of the lists of revoked certificates is of " + issuer_of(chain.front().get()),

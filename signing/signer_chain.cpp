@@ -6,6 +6,7 @@
 #include <openssl/ts.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 namespace gumcert::signing {
@@ -112,8 +113,16 @@ SignerChain::SignerChain(const std::vector<CertificateHandle>& brought, const st
     // Of these, the ones that have issued another one of the chain.
     std::vector<X509*> chain{signer_};
     take_over(sure, chain, [&](X509* one) { return has_issued_one(one, chain); });
+    // What is trusted may have issued one of the chain without coming along.
+    std::vector<X509*> all_trusted = issuers_;
+    std::vector<X509*> vouching;
+    take_over(all_trusted, vouching,
+              [&](X509* one) { return has_issued_one(one, chain) || has_issued_one(one, vouching); });
     // Upwards: a root that has signed itself and one of these. Its content is genuine, for its key has signed both.
-    take_over(others, chain, [&](X509* one) { return has_issued(one, one) && has_issued_one(one, chain); });
+    const auto has_issued_one_here = [&](X509* one) {
+        return has_issued_one(one, chain) || has_issued_one(one, vouching);
+    };
+    take_over(others, chain, [&](X509* one) { return has_issued(one, one) && has_issued_one_here(one); });
     proven_ = chain;
     const bool is_complete = one_has_issued(issuers_, signer_) || one_has_issued(chain, signer_);
     // Where nothing that is trusted has issued the signer, what leads upwards may be genuine; where something has, what lies
@@ -125,18 +134,26 @@ SignerChain::SignerChain(const std::vector<CertificateHandle>& brought, const st
         };
     };
     take_over(others, chain, [&](X509* one) {
-        return has_issued_one(one, chain) &&
+        return has_issued_one_here(one) &&
                (!is_complete || (std::none_of(issuers_.begin(), issuers_.end(), stands_for(one)) &&
                                  std::none_of(proven_.begin(), proven_.end(), stands_for(one))));
     });
+    // An authority has its certificate renewed with the same key: the older one says of itself and its issuer what the other
+    // one does. Nothing leads on from it.
+    std::vector<X509*> renewed;
+    take_over(others, renewed, [&](X509* one) {
+        const auto is_same = [&](const X509* known) {
+            return stands_for(one)(known) && X509_NAME_cmp(X509_get_issuer_name(one), X509_get_issuer_name(known)) == 0;
+        };
+        return has_issued_one(one, chain) && (std::any_of(vouching.begin(), vouching.end(), is_same) ||
+                                              std::any_of(proven_.begin(), proven_.end(), is_same));
+    });
     unproven_.assign(chain.begin() + static_cast<std::ptrdiff_t>(proven_.size()), chain.end());
+    unproven_.insert(unproven_.end(), renewed.begin(), renewed.end());
     foreign_ = std::move(sure);
     foreign_.insert(foreign_.end(), others.begin(), others.end());
-    for (X509* const one : chain) {
-        if (has_issued_one(one, proven_)) {
-            issuers_.push_back(one);
-        }
-    }
+    // Of those for whom nobody vouches, too: what they have signed is told as not covered, as they are.
+    std::copy_if(chain.begin(), chain.end(), std::back_inserter(issuers_), has_issued_one_here);
 }
 
 bool is_revocation_list_of(const Bytes& der, const std::vector<X509*>& issuers) {

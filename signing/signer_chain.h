@@ -23,9 +23,10 @@ public:
     [[nodiscard]] X509* signer() const { return signer_; }
     /// The signer's certificate, and those of issuers whose content somebody vouches for; the names in them may be told.
     [[nodiscard]] const std::vector<X509*>& proven() const { return proven_; }
-    /// Those whose keys have signed one of the proven ones, and those that are trusted: lists that these keys have signed are genuine.
+    /// Those whose keys have signed one of the chain, and those that are trusted: whose lists may come along.
     [[nodiscard]] const std::vector<X509*>& issuers() const { return issuers_; }
-    /// Issuers of the signer whose own issuer is not known here, because only the signer, or nobody, is trusted.
+    /// Issuers of the signer whose own issuer is not known here, because only the signer, or nobody, is trusted, and other
+    /// certificates of an authority that is, by the same issuer and with the same key.
     [[nodiscard]] const std::vector<X509*>& unproven() const { return unproven_; }
     /// None that has issued another one of the signer's chain, or one that only seems to.
     [[nodiscard]] const std::vector<X509*>& foreign() const { return foreign_; }

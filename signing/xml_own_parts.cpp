@@ -176,20 +176,13 @@ public:
     explicit OwnValues(const SignerChain& chain) : chain_(chain) {}
 
     [[nodiscard]] bool fits(const xmlNode* element, TextOf kind) const {
-        const std::string text = text_of(element);
-        const auto one_is = [&](auto&& condition) {
-            return std::any_of(chain_.proven().begin(), chain_.proven().end(), condition);
-        };
         if (kind == TextOf::nothing) {
             return true;  // foreign_part() has looked
         }
-        if (kind == TextOf::name) {
-            return one_is([&](X509* one) { return is_named(one, text); });
+        if (is_of_certificate(kind)) {
+            return is_of(element, kind, chain_.proven()) || is_unproven(element, kind);
         }
-        if (kind == TextOf::serial_number) {
-            return one_is([&](X509* one) { return text == serial_of(one); });
-        }
-        const std::optional<Bytes> bytes = bytes_of_value(text);
+        const std::optional<Bytes> bytes = bytes_of_value(text_of(element));
         if (!bytes) {
             return false;
         }
@@ -199,17 +192,6 @@ public:
             case TextOf::certificate: {
                 const CertificateHandle certificate = certificate_from_der(*bytes);
                 return certificate != nullptr && der_of(certificate.get()) == *bytes;
-            }
-            case TextOf::key_identifier:
-                return one_is([&](X509* one) {
-                    const ASN1_OCTET_STRING* stated = X509_get0_subject_key_id(one);
-                    return stated != nullptr && Bytes(reinterpret_cast<const char*>(ASN1_STRING_get0_data(stated)),
-                                                      static_cast<std::size_t>(ASN1_STRING_length(stated))) == *bytes;
-                });
-            case TextOf::certificate_digest: {
-                const char* const name = allowed(k_digests, attribute(element, "Algorithm"));
-                return name != nullptr &&
-                       one_is([&](X509* one) { return encoding::sha2_bytes(name, der_of(one)) == *bytes; });
             }
             case TextOf::revocation_list:
                 return is_revocation_list_of(*bytes, chain_.issuers());
@@ -228,6 +210,12 @@ public:
         }
     }
 
+    /// Whether a value is one of a certificate for whose content nobody vouches, and of no other one.
+    [[nodiscard]] bool is_unproven(const xmlNode* element, TextOf kind) const {
+        return is_of_certificate(kind) && !is_of(element, kind, chain_.proven()) &&
+               is_of(element, kind, chain_.unproven());
+    }
+
     /// Attributes that state how a value is to be read.
     [[nodiscard]] bool fits(const xmlNode* element) const {
         const std::string algorithm = attribute(element, "Algorithm");
@@ -240,6 +228,34 @@ public:
     }
 
 private:
+    static bool is_of_certificate(TextOf kind) {
+        return kind == TextOf::name || kind == TextOf::serial_number || kind == TextOf::key_identifier ||
+               kind == TextOf::certificate_digest;
+    }
+
+    /// Whether a name, number or digest is one of some certificates.
+    static bool is_of(const xmlNode* element, TextOf kind, const std::vector<X509*>& certificates) {
+        const std::string text = text_of(element);
+        const std::optional<Bytes> bytes =
+            kind == TextOf::key_identifier || kind == TextOf::certificate_digest ? bytes_of_value(text) : std::nullopt;
+        return std::any_of(certificates.begin(), certificates.end(), [&](X509* one) {
+            if (kind == TextOf::name) {
+                return is_named(one, text);
+            }
+            if (kind == TextOf::serial_number) {
+                return text == serial_of(one);
+            }
+            if (kind == TextOf::key_identifier) {
+                const ASN1_OCTET_STRING* stated = X509_get0_subject_key_id(one);
+                return stated != nullptr && bytes &&
+                       Bytes(reinterpret_cast<const char*>(ASN1_STRING_get0_data(stated)),
+                             static_cast<std::size_t>(ASN1_STRING_length(stated))) == *bytes;
+            }
+            const char* const name = allowed(k_digests, attribute(element, "Algorithm"));
+            return name != nullptr && bytes && encoding::sha2_bytes(name, der_of(one)) == *bytes;
+        });
+    }
+
     /// KeyInfo may name the certificate that it brings, as programs of others do.
     static bool is_named(X509* certificate, const std::string& text) {
         const std::vector<std::string> parts = names_of(certificate);
@@ -400,6 +416,23 @@ std::string foreign_value(const xmlNode* signature, const CoveredParts& covered,
                                                : "text in " + name_of(element) + " that is not what the element says";
     };
     return first_of_own(signature, covered, visit);
+}
+
+std::vector<std::string> unproven_values(const xmlNode* signature, const CoveredParts& covered,
+                                         const SignerChain& chain) {
+    const OwnValues values(chain);
+    std::vector<std::string> all;
+    const auto visit = [&](const xmlNode* element) -> std::string {
+        const OwnPart* const own = own_part(element);
+        if (own != nullptr && values.is_unproven(element, own->text)) {
+            if (std::string text = text_of(element); std::find(all.begin(), all.end(), text) == all.end()) {
+                all.push_back(std::move(text));
+            }
+        }
+        return {};
+    };
+    (void)first_of_own(signature, covered, visit);
+    return all;
 }
 
 void certificates_in(const xmlNode* signature, const CoveredParts& covered, const char* name_space, const char* name,

@@ -36,6 +36,10 @@ using UsedNamespaces = std::set<const xmlNs*>;
 [[nodiscard]] std::string foreign_value(const xmlNode* signature, const CoveredParts& covered,
                                         const SignerChain& chain);
 
+/// Names, numbers and digests of certificates for whose content nobody vouches, each once: they are told as not covered.
+[[nodiscard]] std::vector<std::string> unproven_values(const xmlNode* signature, const CoveredParts& covered,
+                                                       const SignerChain& chain);
+
 /// Certificates of the elements of one name within a signature; those that are none are told by foreign_value().
 /// \param bytes  DER, as they stand in the document
 void certificates_in(const xmlNode* signature, const CoveredParts& covered, const char* name_space, const char* name,

@@ -330,10 +330,11 @@ private:
         if (chain_.empty()) {
             return;
         }
-        if (const std::string foreign = foreign_value(signature_, covered(), {chain_, trusted.certificates});
-            !foreign.empty()) {
+        const SignerChain chain(chain_, trusted.certificates);
+        if (const std::string foreign = foreign_value(signature_, covered(), chain); !foreign.empty()) {
             error("GC-SIGN-0120", foreign + " within the signature is not covered by it", k_own_parts_alone);
         }
+        unproven_ = unproven_values(signature_, covered(), chain);
     }
 
     /// Declarations that nothing uses are no part of exclusive canonical XML. (Those within the signature foreign_part() refuses.)
@@ -459,15 +460,21 @@ private:
             listed("a namespace that nothing uses: ", unused_namespaces());
         }
         listed("an identifier within the signature: ", identifiers_in(signature_, covered()));
+        listed("of a certificate that nothing that is trusted vouches for: ", unproven_);
+        std::size_t objects = 0;
         for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
             const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");
             if (qualifying == nullptr || qualifying != properties_parent()) {
-                report_.not_covered.emplace_back("an object within the signature");
+                ++objects;
             } else if (only_child(qualifying, k_xades_namespace, "UnsignedProperties") != nullptr) {
                 report_.not_covered.push_back(
                     "unsigned properties within the signature:" +
                     names_in(only_child(qualifying, k_xades_namespace, "UnsignedProperties")));
             }
+        }
+        if (objects > 0) {
+            report_.not_covered.push_back(objects == 1 ? "an object within the signature"
+                                                       : std::to_string(objects) + " objects within the signature");
         }
     }
 
@@ -496,8 +503,9 @@ private:
     xmlNode* properties_ = nullptr;
     std::vector<CertificateHandle> chain_;
     UsedNamespaces used_ = used_namespaces(elements_);
-    bool is_exclusive_ = false;   ///< the canonical form of the document
-    std::vector<Bytes> encoded_;  ///< DER of the certificates, as they stand in the document
+    bool is_exclusive_ = false;          ///< the canonical form of the document
+    std::vector<std::string> unproven_;  ///< values of certificates that nobody vouches for
+    std::vector<Bytes> encoded_;         ///< DER of the certificates, as they stand in the document
 };
 
 }  // namespace

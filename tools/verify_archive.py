@@ -25,6 +25,7 @@ import sqlite3
 import stat
 import sys
 import urllib.parse
+from typing import NamedTuple
 
 APPLICATION_ID = 0x67634172
 SCHEMA_VERSION = 1
@@ -567,6 +568,18 @@ class Head:
                     self.begins_with(*self.extends) and self.at >= earlier.at)
 
 
+def leads_to(later, earlier, known, proves=Head.proves_extension_of):
+    """Proofs lead from a later head to an earlier one, directly or through others, none of which has to be trusted."""
+    reached, left = [later], list(known)
+    for start in reached:
+        if proves(start, earlier):
+            return True
+        found = [one for one in left if proves(start, one)]
+        reached += found
+        left = [one for one in left if one not in found]
+    return False
+
+
 def signer_in_words(signature, public_key, with_states):
     if signature is None:
         return "the head is not signed: whoever writes such a file can invent all of it"
@@ -575,17 +588,22 @@ def signer_in_words(signature, public_key, with_states):
              ", the trusted key" if signature[0] == public_key else ", which is not the trusted key"))
 
 
-def verify_head(head, name, heads, public_key, tell):
-    """Findings of a head without its archive: it extends the earlier ones."""
+def verify_head(head, name, heads, known, public_key, tell):
+    """Findings of a head without its archive: it extends the earlier ones, and the later ones extend it."""
     yield from head.faults(name, public_key)
     if head.extends and not head.begins_with(*head.extends):
         yield f"{name}: its proof does not lead to its root"
-    for earlier in heads:
-        if not head.proves_extension_of(earlier):
-            yield f"{name}: does not prove that it extends the head of {earlier.size} entries"
+    for other in heads:
+        if other.size > head.size and not leads_to(other, head, known):
+            yield f"{name}: the head of {other.size} entries does not prove that it extends it"
+        elif other.size <= head.size and not leads_to(head, other, known):
+            yield f"{name}: does not prove that it extends the head of {other.size} entries"
     tell(f"{head.size} entries, {head.at.decode()}; extends " +
          (f"a head of {head.extends[0]} entries" if head.extends else "no earlier head"))
     tell(signer_in_words(head.signature, public_key, False))
+    newest = max(heads, key=lambda one: one.size, default=head)
+    if newest.size > head.size:
+        tell(f"a newer head is given, of {newest.size} entries, {newest.at.decode()}")
     for line in times_to_come([("the head", head.at), *(("a given head", one.at) for one in heads)]):
         tell(line)
 
@@ -600,7 +618,7 @@ class Reading:
     another log; else as one that may be written, by whom the log that was made is taken away again. Nothing is written."""
 
     def __init__(self, path):
-        self.path = os.path.realpath(path)
+        self.path = os.path.realpath(os.fsdecode(path))
         self.before = self.now()
         has_log, may_write = self.before[-1], os.access(self.path, os.W_OK)
         may_leave_nothing = may_write and os.access(os.path.dirname(self.path), os.W_OK) and not self.may_have_another_name()
@@ -638,7 +656,7 @@ def verify_store(path, heads, tell=lambda line: None):
 
 def findings_of_store(path, reading, heads, tell):
     try:
-        database = sqlite3.connect(f"file:{urllib.parse.quote(reading.path)}?{reading.mode}", uri=True)
+        database = sqlite3.connect(f"file:{urllib.parse.quote(os.fsencode(reading.path))}?{reading.mode}", uri=True)
     except sqlite3.Error as trouble:
         raise OSError(errno.EIO, f"SQLite: {trouble}", str(path)) from trouble
     try:
@@ -804,18 +822,21 @@ def chain_of(number, lives):
     return chain
 
 
-def faults_of_head(other, head, proved):
-    """A head from elsewhere is the same, or one of the two proves that it extends the other."""
+def faults_of_head(other, head, known, proved):
+    """A head from elsewhere is the same, or proofs lead from one of the two to the other."""
+    def proves(later, earlier):
+        return later.proves_extension_of(earlier) or (later is head and (earlier.size, earlier.root) in proved)
+
     name = f"head of {other.size} entries, {other.at.decode()}"
     if (other.archive != head.archive or (other.size == head.size and (other.root, other.chain, other.at) != (head.root, head.chain, head.at)) or
             (other.at > head.at if other.size < head.size else other.at < head.at)):
         yield f"{name}: the evidence is of another archive, or of a log that was rewritten"
-    elif not (other.size == head.size or head.proves_extension_of(other) or other.proves_extension_of(head) or (other.size, other.root) in proved):
+    elif other.size != head.size and not (leads_to(head, other, known, proves) if other.size < head.size else leads_to(other, head, known, proves)):
         yield (f"{name}: the evidence does not prove that its log begins with that of this head" if other.size < head.size else
                f"{name}: it does not prove that its log begins with that of the evidence")
 
 
-def verify_evidence(value, heads, public_key, verdict):
+def verify_evidence(value, heads, public_key, verdict, known=()):
     """Findings of the evidence of one certificate; what it says goes into the verdict."""
     head, number = Head(value.get("head")), typed(value, "certificate", str)
     yield from head.faults("the head of the evidence", public_key)
@@ -875,7 +896,7 @@ def verify_evidence(value, heads, public_key, verdict):
     if head.extends and not head.begins_with(*head.extends):
         yield f"head of {head.size} entries: its proof does not lead to its root"
     for other in heads:
-        yield from faults_of_head(other, head, proved)
+        yield from faults_of_head(other, head, [*heads, *known], proved)
     holding = {life["record"], *life["documents"]} if life else set()
     verdict.update(head=head, number=number, chain=chain_of(number, rules.lives) if life and life["record"] else [], states=states,
                    parts=[(name, digest, digest in holding) for name, digest in parts])
@@ -906,16 +927,39 @@ def evidence_in_words(verdict, is_sound, heads, public_key):
 
 def compared_document(file, verdict):
     """Whether a file is a document of the evidence, and what there is to say of it."""
-    digest = hashlib.sha256(bytes_of(file)).hexdigest()
-    parts = [(f"document {name}" if name else "record", holds) for name, sha256, holds in verdict.get("parts", []) if sha256 == digest]
+    file = given_file(file)
+    if file.kind == "SQLite":
+        with open(file.path, "rb") as stream:
+            file = file._replace(sha256=hashlib.file_digest(stream, "sha256").hexdigest())
+    parts = [(f"document {name}" if name else "record", holds) for name, sha256, holds in verdict.get("parts", []) if sha256 == file.sha256]
     for name, holds in parts:
         if holds:
-            return True, f"{file}: is the {name} of {verdict['number']}"
-    return False, f"{file}: " + (f"is of an earlier draft of {verdict['number']}" if parts else f"the evidence before it does not name its SHA-256 {digest}")
+            return True, f"{file.path}: is the {name} of {verdict['number']}"
+    return False, f"{file.path}: " + (f"is of an earlier draft of {verdict['number']}" if parts else
+                                      f"the evidence before it does not name its SHA-256 {file.sha256}")
 
 
-def bytes_of(path, count=-1):
-    """The first bytes of a regular file, or all; a pipe would be waited for without end."""
+IS_SQLITE = b"SQLite format 3\0"
+SCHEMAS = ("gumcert/archive-head/1", "gumcert/archive-evidence/1")
+
+
+class GivenFile(NamedTuple):
+    """A file of the command line, which is read once: it may be another one a moment later."""
+    path: object
+    kind: str  # what it says that it is, sound or not: a schema of SCHEMAS, "SQLite", or ""
+    data: bytes  # of an archive, which may be large, its first bytes alone
+    sha256: str
+
+
+def given_file(path):
+    if isinstance(path, GivenFile):
+        return path
+    data = bytes_of(path)
+    return GivenFile(path, "SQLite" if data == IS_SQLITE else schema_of(data), data, hashlib.sha256(data).hexdigest())
+
+
+def bytes_of(path):
+    """The bytes of a regular file, of an archive the first ones; a pipe would be waited for without end."""
     file = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     try:
         kind = os.fstat(file).st_mode
@@ -923,34 +967,45 @@ def bytes_of(path, count=-1):
             trouble = errno.EISDIR if stat.S_ISDIR(kind) else errno.EINVAL
             raise OSError(trouble, os.strerror(trouble) if stat.S_ISDIR(kind) else "is no regular file", str(path))
         with os.fdopen(file, "rb", closefd=False) as stream:
-            return stream.read(count)
+            start = stream.read(len(IS_SQLITE))
+            return start if start == IS_SQLITE else start + stream.read()
     finally:
         os.close(file)
 
 
-def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict=None):
-    """Everything that is wrong with an archive, a head or evidence, of which the verdict says what it is about."""
+def schema_of(data):
+    try:
+        value = json.loads(data.decode("utf-8").removeprefix("\ufeff"))
+    except (ValueError, RecursionError):
+        return ""
+    schema = value.get("schema") if isinstance(value, dict) else None
+    return schema if schema in SCHEMAS else ""
+
+
+def findings(file, head_files=(), public_key="", tell=lambda line: None, verdict=None, known=()):
+    """Everything that is wrong with an archive, a head or evidence, of which the verdict says what it is about.
+    The known heads are others, through which proofs may lead."""
+    file = given_file(file)
     heads, found, verdict = [], [], {} if verdict is None else verdict
-    for file in head_files:
+    for one in map(given_file, head_files):
         try:
-            heads.append(Head(strict_object(bytes_of(file))))
-            found += heads[-1].faults(file, public_key)
+            heads.append(Head(strict_object(one.data)))
+            found += heads[-1].faults(one.path, public_key)
         except ValueError as wrong:
-            found.append(f"{file}: {wrong}")
+            found.append(f"{one.path}: {wrong}")
     yield from found
-    if bytes_of(path, 16) == b"SQLite format 3\0":
-        yield from verify_store(path, heads, tell)
+    if file.kind == "SQLite":
+        yield from verify_store(file.path, heads, tell)
         if public_key and not heads:
             tell("--public-key says nothing here: an archive is not signed, heads are, and none is given.")
         return
-    written = bytes_of(path)
-    value = strict_object(written, LONGEST_BASE64)
+    value = strict_object(file.data, LONGEST_BASE64)
     schema = value.get("schema") if value is not None else None
     try:
         if schema == "gumcert/archive-head/1":
-            yield from verify_head(Head(strict_object(written)), path, heads, public_key, tell)
+            yield from verify_head(Head(strict_object(file.data)), file.path, heads, [*heads, *known], public_key, tell)
         elif schema == "gumcert/archive-evidence/1":
-            own = list(verify_evidence(value, heads, public_key, verdict))
+            own = list(verify_evidence(value, heads, public_key, verdict, known))
             yield from own
             for line in evidence_in_words(verdict, not found + own, heads, public_key):
                 tell(line)
@@ -960,40 +1015,37 @@ def findings(path, head_files=(), public_key="", tell=lambda line: None, verdict
         yield f"no evidence and no head: {missing}"
 
 
-def kind_of(path):
-    """What a file says that it is, sound or not: a head, evidence, or something else."""
-    if bytes_of(path, 16) == b"SQLite format 3\0":  # which may be large
-        return ""
-    try:
-        value = json.loads(bytes_of(path).decode("utf-8").removeprefix("\ufeff"))
-    except (ValueError, RecursionError):
-        return ""
-    schema = value.get("schema") if isinstance(value, dict) else None
-    return schema if schema in ("gumcert/archive-head/1", "gumcert/archive-evidence/1") else ""
-
-
 def with_documents(files):
     """Each file that is verified with the documents that should be those of it: what is neither head nor evidence, and stands
     behind evidence, belongs to the evidence before it. gumcert archive verify reads its files in the same way."""
     given, of_evidence = [], None
-    for file in files:
-        kind = kind_of(file)
-        if not kind and of_evidence is not None:
+    for file in map(given_file, files):
+        if file.kind not in SCHEMAS and of_evidence is not None:
             of_evidence.append(file)
         else:
             given.append((file, []))
-            of_evidence = given[-1][1] if kind == "gumcert/archive-evidence/1" else of_evidence
+            of_evidence = given[-1][1] if file.kind == "gumcert/archive-evidence/1" else of_evidence
     return given
 
 
-def judged(file, documents, heads, key):
+def heads_among(files):
+    """Those that can be read; of the others it is said where they are verified."""
+    for file in files:
+        try:
+            if file.kind == "gumcert/archive-head/1":
+                yield Head(strict_object(file.data))
+        except ValueError:
+            pass
+
+
+def judged(file, documents, heads, key, known):
     """Prints what there is to say of a file and of the documents that should be those of it; whether all of it is sound."""
     told, verdict = [], {}
-    found = list(findings(file, heads, key, told.append, verdict))
+    found = list(findings(file, heads, key, told.append, verdict, known))
     compared = [compared_document(one, verdict) for one in documents]
     for line in found + [line for is_own, line in compared if not is_own]:
         print(shown(line))
-    print(f"{shown(file)}: {'NOT SOUND' if found else 'sound'}")
+    print(f"{shown(str(file.path))}: {'NOT SOUND' if found else 'sound'}")
     for line in told + [line for is_own, line in compared if is_own]:
         print("  " + shown(line))
     return not found and all(is_own for is_own, _ in compared)
@@ -1008,11 +1060,25 @@ def main():
     key = arguments.public_key.lower()
     if key and not DIGEST.fullmatch(key):
         parser.error("--public-key has 64 hexadecimal digits")
+    # What a terminal cannot show is spelled out there: a name of a file says nothing of what stands in it.
+    for stream in filter(None, (sys.stdout, sys.stderr)):
+        stream.reconfigure(errors="backslashreplace")
     try:
-        sound = [judged(file, documents, arguments.head, key) for file, documents in with_documents(arguments.file)]
+        if sys.stdout is None:
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        given = with_documents(arguments.file)
+        heads = [given_file(file) for file in arguments.head]
+        known = list(heads_among(file for file, _ in given))
+        sound = [judged(file, documents, heads, key, known) for file, documents in given]
+        sys.stdout.flush()
     except OSError as trouble:
-        name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename))  # an address in place of a file
+        name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename or "standard output"))  # an address in place of a file
+        if sys.stdout is not None:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not tried again
         print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
+        return 5
+    except MemoryError:
+        print("there is not enough memory", file=sys.stderr)
         return 5
     return 0 if all(sound) else 1
 

@@ -351,10 +351,7 @@ nlohmann::json shown_change_list(const Recalculation& recalculation) {
 std::vector<RecordChange> texts_that_change(const reports::EvaluationRecord& before,
                                             const reports::EvaluationRecord& now) {
     std::vector<RecordChange> texts;
-    if (!before.certificate || !now.certificate) {
-        return texts;
-    }
-    for (const certificate::Change& change : reports::changes_between(*before.certificate, *now.certificate)) {
+    for (const certificate::Change& change : reports::changes_between(before, now)) {
         if (change.kind == k_text &&
             texts.size() < k_most_changes) {  // numbers and verdicts are told by tell_changes()
             texts.push_back({ChangeKind::other, change.where, change.before, change.after});

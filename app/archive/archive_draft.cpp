@@ -16,6 +16,7 @@
 #include "archive/head.h"
 #include "archive/names.h"
 #include "archive/printed_head.h"
+#include "certificate/dates.h"
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
@@ -489,10 +490,8 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
     }
     const reports::EvaluationRecord earlier = reports::record_from_json(original, "record of " + stated.number);
     amendment.draft.amends = archive::Draft::Amends{.number = stated.number, .kind = stated.kind, .changes = {}};
-    if (earlier.certificate) {
-        for (const certificate::Change& change : reports::changes_between(*earlier.certificate, later)) {
-            amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
-        }
+    for (const certificate::Change& change : reports::changes_between(earlier, amendment.record)) {
+        amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
     }
     if (amendment.draft.amends->changes.empty()) {
         refuse("states nothing else than \"" + stated.number + '"', "an amendment changes something",
@@ -546,7 +545,10 @@ std::vector<gum::Diagnostic> doubts_about_days(const std::string& record, const 
     const certificate::Dates& dates = read.certificate->data.dates;
     const bool authorises = kind == "authorised";
     const std::string& printed = authorises ? dates.authorised : dates.issued;
-    if ((!authorises && kind != "issued") || printed.empty() || printed >= day) {
+    // The log has the day by UTC, and the certificate that of the laboratory.
+    constexpr long k_days_between_time_zones = 1;
+    if ((!authorises && kind != "issued") || printed.empty() ||
+        certificate::days_between(printed, day).value_or(0) <= k_days_between_time_zones) {
         return {};
     }
     return {

@@ -168,6 +168,14 @@ TrustedHeads::TrustedHeads(const std::vector<std::string>& files, const std::str
             findings_.push_back(std::move(*fault));
         }
     }
+    known_ = heads_;
+}
+
+void TrustedHeads::know(const std::string& text, const std::string& file) {
+    try {
+        known_.push_back(archive::head_from_json(text, file));
+    } catch (const gum::InputError&) {  // said where the file is verified
+    }
 }
 
 std::vector<gum::Diagnostic> findings_of(const std::vector<DocumentInHand>& documents) {
@@ -190,7 +198,7 @@ VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                                std::vector<DocumentInHand>& documents) {
     const archive::Evidence evidence = archive::evidence_from_json(text, file);
     const archive::Head& head = evidence.head;
-    archive::EvidenceVerdict verdict = archive::verify_evidence(evidence, heads.all());
+    archive::EvidenceVerdict verdict = archive::verify_evidence(evidence, heads.all(), heads.known());
     VerifiedFile said{.findings = std::move(verdict.findings), .text = {}, .json = {}};
     if (auto fault =
             fault_of_signature(head.signature, archive::signed_bytes(head), heads.key(), file + "#/head", "head")) {
@@ -263,21 +271,27 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
     if (auto fault = fault_of_signature(head.signature, archive::signed_bytes(head), heads.key(), file, "head")) {
         said.findings.push_back(std::move(*fault));
     }
-    const auto add = [&](std::string what) {
+    const auto add = [&](std::string what, const char* since = "the earlier head") {
         said.findings.push_back(
             {.code = "GC-ARCHIVE-0051",
              .where = file,
              .what = std::move(what),
              .rule = "a later head proves that the log begins with what an earlier one says",
-             .action = "ask for a head that is made with gumcert archive head --since and the earlier head"});
+             .action = std::string("ask for a head that is made with gumcert archive head --since and ") + since});
     };
     if (head.extends && !archive::proves_its_extension(head)) {
         add("its proof does not lead to its root");
     }
-    for (const archive::Head& earlier : heads.all()) {
-        if (!archive::proves_extension(head, earlier)) {
-            add("does not prove that it extends the head of " + std::to_string(earlier.size) + " entries, " +
-                earlier.at);
+    const archive::Head* newest = nullptr;
+    for (const archive::Head& other : heads.all()) {
+        const std::string named = "the head of " + std::to_string(other.size) + " entries, " + other.at;
+        if (other.size > head.size) {
+            newest = newest == nullptr || other.size > newest->size ? &other : newest;
+            if (!archive::leads_to(other, head, heads.known())) {
+                add(named + ", does not prove that it extends it", "this one");
+            }
+        } else if (!archive::leads_to(head, other, heads.known())) {
+            add("does not prove that it extends " + named);
         }
     }
     std::vector<std::string> to_come;
@@ -291,6 +305,7 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                  {"times_to_come", to_come},
                  {"extends", head.extends ? json(head.extends->size) : json()},
                  {"heads", heads.all().size()},
+                 {"newer_head", newest != nullptr ? json{{"size", newest->size}, {"at", newest->at}} : json()},
                  {"signed_by", hexadecimal_key(head.signature)},
                  {"trusted", heads.has_key() && said.sound()},
                  {"findings", shown_findings_of(said.findings)}};
@@ -299,6 +314,9 @@ VerifiedFile verified_head(const std::string& text, const std::string& file, con
                 (head.extends ? "; extends a head of " + std::to_string(head.extends->size) + " entries"
                               : "; extends no earlier head") +
                 "\n  " + signer_in_words(head.signature, heads.key(), false) + "\n";
+    if (newest != nullptr) {
+        said.text += "  a newer head is given, of " + std::to_string(newest->size) + " entries, " + newest->at + "\n";
+    }
     for (const std::string& line : to_come) {
         said.text += "  " + line + "\n";
     }

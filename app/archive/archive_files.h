@@ -36,6 +36,10 @@ public:
     [[nodiscard]] bool has_key() const { return !key_.empty(); }
     [[nodiscard]] const std::string& key() const { return key_; }
     [[nodiscard]] const std::vector<archive::Head>& all() const { return heads_; }
+    /// These, and others that are known: proofs may lead through each of them.
+    [[nodiscard]] const std::vector<archive::Head>& known() const { return known_; }
+    /// \param text  of a file; nothing where it is no head
+    void know(const std::string& text, const std::string& file);
     /// GC-ARCHIVE-0050, of their signatures.
     [[nodiscard]] const std::vector<gum::Diagnostic>& findings() const { return findings_; }
     [[nodiscard]] const std::string& latest() const { return latest_; }
@@ -44,7 +48,7 @@ public:
 
 private:
     std::string key_, latest_;
-    std::vector<archive::Head> heads_;
+    std::vector<archive::Head> heads_, known_;
     std::vector<gum::Diagnostic> findings_;
 };
 
@@ -73,7 +77,8 @@ struct VerifiedFile {
 /// \throws gum::InputError  GC-ARCHIVE-0047, -0049
 [[nodiscard]] VerifiedFile verified_evidence(const std::string& text, const std::string& file,
                                              const TrustedHeads& heads, std::vector<DocumentInHand>& documents);
-/// A head without its archive: its signature, and whether it extends earlier ones (GC-ARCHIVE-0051).
+/// A head without its archive: its signature, and whether it extends the earlier ones among those from elsewhere, and the later
+/// ones extend it (GC-ARCHIVE-0051).
 /// \throws gum::InputError  GC-ARCHIVE-0049
 [[nodiscard]] VerifiedFile verified_head(const std::string& text, const std::string& file, const TrustedHeads& heads);
 

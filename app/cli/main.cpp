@@ -30,6 +30,7 @@
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
 #include "archive/store/open_store.h"
+#include "encoding/openssl_configuration.h"
 
 namespace {
 
@@ -165,6 +166,7 @@ int main(int argc, char** argv) {
     // Without the signal a write beyond the limit of file sizes fails like one to a full disk: reported and cleaned up.
     (void)std::signal(SIGXFSZ, SIG_IGN);
 #endif
+    encoding::read_no_configuration_of_openssl();
     Arguments arguments;
     // Looked for before parsing: messages about a faulty command line, too, have the form that it asks for.
     arguments.common.json_messages = std::any_of(

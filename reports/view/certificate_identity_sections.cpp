@@ -397,6 +397,9 @@ nlohmann::json issued_status(const Wording& words, const EvaluationRecord& recor
 }
 
 Text place_of_change(const certificate::Change& change, const Wording& words) {
+    if (change.where.empty()) {
+        return word_of_change(change.kind, words);
+    }
     if (!change.where.starts_with('/')) {
         const bool is_place = change.kind == "value" || change.kind == "cell" || change.kind == "words";
         return is_place ? Text(change.where) : change.where + ": " + word_of_change(change.kind, words);

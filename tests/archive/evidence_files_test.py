@@ -16,6 +16,7 @@ import copy
 import hashlib
 import importlib.util
 import json
+import os
 import pathlib
 import random
 import subprocess
@@ -317,6 +318,47 @@ def several_files(both, signed, rng):
             expect((ended.returncode == 0) == is_right(order), f"{order}: {name} ends with {ended.returncode}: {ended.stdout} {ended.stderr}")
 
 
+def heads_between(both, signed):
+    """Proofs lead through the heads of the years between, and either of two heads may be verified beside the other."""
+    for earlier, later in (("late.json", "third.json"), ("third.json", "fourth.json")):
+        both.run("settings", "--store", "a.archive", "--by", "K. Keeper", "--why", f"as of {later}", "--person", "K. Keeper=keeper")
+        both.run("head", "--store", "a.archive", "--since", earlier, "-o", later)
+    heads = {name: json.loads((both.folder / name).read_bytes()) for name in ("early.json", "late.json", "third.json", "fourth.json")}
+    order = list(heads)
+    for name, head in heads.items():
+        for given in ([one] for one in order):
+            told = both.judge(f"{name} beside {given}", head, heads=given, sound=abs(order.index(name) - order.index(given[0])) < 2)
+            expect(("a newer head is given" in told) == (order.index(given[0]) > order.index(name)), f"{name} beside {given}: {told}")
+        both.judge(f"{name} beside all", head, heads=order, sound=True)
+    both.judge("a gap", heads["fourth.json"], heads=["early.json", "third.json"], sound=False)
+    (both.folder / "fork.json").write_text(json.dumps({**heads["third.json"], "root": "0" * 64, "chain": "0" * 64}))
+    both.judge("beside a fork", heads["fourth.json"], heads=["third.json", "fork.json"], sound=False)
+    both.judge("before a fork", heads["late.json"], heads=["third.json", "fork.json"], sound=False)
+    both.judge("evidence beside all", signed, heads=order[1:], sound=True)
+    # Heads that are verified in the same breath are as good as those that are given.
+    first = both.run("verify", *order[::-1], "--head", "fourth.json")
+    second = subprocess.run([sys.executable, "-B", ROOT / "tools" / "verify_archive.py", *order[::-1], "--head", "fourth.json"],
+                            capture_output=True, cwd=both.folder, check=False)
+    expect(first.returncode == second.returncode == 0, f"heads of one line: {first.stderr} {second.stdout}")
+
+
+def what_cannot_be_told(folder):
+    """A name or a terminal that knows fewer letters says nothing of what stands in a file, and no answer is none of "not sound"."""
+    tool = [sys.executable, "-B", ROOT / "tools" / "verify_archive.py"]
+    names = [b"archive\xff", "archiv\u00e9".encode()]
+    for name in names:
+        (pathlib.Path(folder) / os.fsdecode(name)).write_bytes((folder / "a.archive").read_bytes())
+    for surroundings in ({}, {"PYTHONIOENCODING": "ascii"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}):
+        for name in names:
+            ended = subprocess.run([*tool, name], capture_output=True, cwd=folder, env={**os.environ, **surroundings}, check=False)
+            expect(ended.returncode == 0, f"{name} with {surroundings}: {ended.returncode} {ended.stderr[-200:]}")
+    reader, writer = os.pipe()
+    os.close(reader)
+    ended = subprocess.run([*tool, "a.archive"], stdout=writer, stderr=subprocess.PIPE, cwd=folder, check=False)
+    os.close(writer)
+    expect(ended.returncode == 5, f"nobody reads the answer: {ended.returncode} {ended.stderr[-200:]}")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--driver", required=True)
@@ -364,6 +406,8 @@ def main():
             both.judge(f"{what}, beside a head", other, heads=["late.json"], sound=True)
         (folder / "copy.json").write_text(json.dumps(changed(copy_of_head, ("at",), set_to("2026-01-01T00:00:00Z"))))
         both.judge("a head beside one of another time", copy_of_head, heads=["copy.json"], sound=False)
+        heads_between(both, export(number, "--since", "late.json"))
+        what_cannot_be_told(folder)
         both.judge("a proof of another head", changed(signed, ("head", "extends", "root"), set_to("0" * 64)), sound=False)
         both.judge("does not prove that it extends", export(number, "--sign", "key.pem"), heads=["early.json"], sound=False)
         both.judge("an earlier head that is not signed", signed, heads=["early.json"], trust=True, sound=False)

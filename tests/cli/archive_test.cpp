@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include <algorithm>
+#include <chrono>
 
 #include "tests/cli/job_files.h"
 #include "tests/cli/program.h"
@@ -591,6 +592,15 @@ TEST_F(ArchiveOfALaboratory, LooksAtDaysThatAreGiven) {
         const Ended ended = archive({"number", "--today", day}, "K. Keeper");
         EXPECT_EQ(ended.code, 2) << day;
         EXPECT_TRUE(tells(ended, "GC-USAGE-0001")) << ended.err;
+    }
+    // The clock goes by UTC, the calendar of the laboratory may be a day before or behind.
+    const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+    for (const int away : {-1, 0, 1, -2, 2}) {
+        const std::chrono::year_month_day date(day + std::chrono::days(away));
+        const auto two = [](unsigned number) { return (number < 10 ? "-0" : "-") + std::to_string(number); };
+        const std::string text = std::to_string(static_cast<int>(date.year())) +
+                                 two(static_cast<unsigned>(date.month())) + two(static_cast<unsigned>(date.day()));
+        EXPECT_EQ(archive({"number", "--today", text}, "K. Keeper").code, away * away > 1 ? 2 : 0) << text;
     }
     const Ended ended = archive({"affected", "--source", "S", "--since", "2026-01-01", "--until", "2025-01-01"});
     EXPECT_EQ(ended.code, 2);

@@ -106,7 +106,7 @@ void require_options(const Action& action, const ArchiveOptions& o) {
                      "an action has one archive; evidence is verified without any",
                      o.store.empty() ? "name the file of the archive" : "leave one of them out");
     }
-    if (!o.today.empty() && (!app::is_day(o.today) || o.today != time_now().substr(0, o.today.size()))) {
+    if (!o.today.empty() && !app::is_day_somewhere(o.today, time_now())) {
         refuse_usage(command, "--today " + o.today + (app::is_day(o.today) ? "" : " is no day"),
                      "it is the day of the calendar, and the clock of this machine says " + time_now(),
                      "look at a calendar: set the clock right, or correct the day");

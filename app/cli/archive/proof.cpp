@@ -114,35 +114,42 @@ void require_own_evidence(const fs::path& file, const std::string& number) {
 /// A file that is verified, and the documents in hand that should be those of it.
 struct GivenFile {
     std::string file;
+    std::string text;  ///< read once: it may be another one a moment later
+    app::ArchiveFile kind;
     std::vector<app::DocumentInHand> documents;
 };
 
 /// Evidence and heads, each by itself; what is neither, and stands behind evidence, should be a document of the evidence
 /// before it. tools/verify_archive.py reads its files in the same way.
 ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
-    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
+    app::TrustedHeads heads(options.heads, options.trust, latest_time());
     std::vector<GivenFile> given;
     std::optional<std::size_t> evidence;  // the last one
     ExitCode code = done;
     for (const std::string& file : options.named) {
         code = std::max(code, explained(common, [&] {
-                            const std::string text = app::read_file(file);
+                            std::string text = app::read_file(file);
                             const app::ArchiveFile kind = app::archive_file_of(text);
                             if (kind == app::ArchiveFile::other && evidence) {
                                 given[*evidence].documents.push_back({file, encoding::sha256(text)});
                                 return done;
                             }
                             evidence = kind == app::ArchiveFile::evidence ? given.size() : evidence;
-                            given.push_back({file, {}});
+                            if (kind == app::ArchiveFile::head) {
+                                heads.know(text, file);
+                            }
+                            given.push_back({file, std::move(text), kind, {}});
                             return done;
                         }));
     }
     const std::string* compared = nullptr;  // the first document that was
     bool has_others = false;
-    for (auto& [file, documents] : given) {
+    for (GivenFile& one : given) {
+        const std::string& file = one.file;
+        const std::string& text = one.text;
+        std::vector<app::DocumentInHand>& documents = one.documents;
         code = std::max(code, explained(common, [&] {
-                            const std::string text = app::read_file(file);
-                            const app::VerifiedFile said = app::archive_file_of(text) == app::ArchiveFile::head
+                            const app::VerifiedFile said = one.kind == app::ArchiveFile::head
                                                                ? app::verified_head(text, file, heads)
                                                                : app::verified_evidence(text, file, heads, documents);
                             print_findings(said.findings, common);

@@ -74,6 +74,37 @@ TEST(ArchiveHead, GrowsWithTheLog) {
     EXPECT_EQ(roots, (std::vector<std::string>{log.tree().root(1), log.tree().root(2)}));
 }
 
+// Each head proves that it extends the one before. What the log was before a fork leads to both ends, and neither to the other.
+TEST(ArchiveHead, ProofsLeadThroughHeadsBetween) {
+    WalkedLog log;
+    WalkedLog fork;
+    std::vector<Head> heads;
+    std::vector<Head> forked;
+    for (int i = 0; i < 20; ++i) {
+        LogEntry entry;
+        entry.hash = encoding::sha256_bytes(std::to_string(i));
+        entry.at = "2026-01-01T00:00:00Z";
+        log.add(entry);
+        entry.hash = i < 10 ? entry.hash : encoding::sha256_bytes("other " + std::to_string(i));
+        fork.add(entry);
+        heads.push_back(heads.empty() ? log.head() : *log.head_since(heads.back()));
+        forked.push_back(forked.empty() ? fork.head() : *fork.head_since(forked.back()));
+    }
+    std::vector<Head> all = heads;
+    all.insert(all.end(), forked.begin(), forked.end());
+    for (std::size_t later = 0; later < heads.size(); ++later) {
+        for (std::size_t earlier = 0; earlier < heads.size(); ++earlier) {
+            EXPECT_EQ(leads_to(heads[later], heads[earlier], all), earlier <= later) << later << ' ' << earlier;
+            EXPECT_EQ(leads_to(heads[later], forked[earlier], all), earlier <= later && earlier < 10)
+                << later << ' ' << earlier;
+        }
+    }
+    std::vector<Head> gap = heads;
+    gap.erase(gap.begin() + 5);
+    EXPECT_FALSE(leads_to(heads[8], heads[2], gap));
+    EXPECT_TRUE(leads_to(heads[8], heads[6], gap));
+}
+
 TEST(ArchiveHead, ProvesThatItExtendsEveryEarlierOne) {
     WalkedLog log;
     std::vector<Head> heads;

@@ -22,7 +22,7 @@ const std::string k_dcc =
     "</dcc:digitalCalibrationCertificate>";
 
 Identity root_named(const std::string& name) {
-    return make_identity(ec_key(), {.name = name, .key_usage = "critical,keyCertSign", .authority = true});
+    return make_identity(ec_key(), {.name = name, .key_usage = "critical,keyCertSign,cRLSign", .authority = true});
 }
 
 /// The first errors of a digital certificate and a PDF; "valid" is what must not be.
@@ -183,6 +183,70 @@ TEST(CertificateAttack, RevokedByItsIssuer) {
     EXPECT_EQ(revocation_codes(own, root, {revocation_list(stranger, {&own})}, true), Codes{"GC-SIGN-0138"});
     EXPECT_EQ(revocation_codes(own, root, {revocation_list(stranger, {}), revocation_list(root, {&own})}, false),
               Codes{"GC-SIGN-0137"});
+}
+
+/// A list of revoked certificates with an extension, DER.
+Bytes list_with(const Identity& issuer, const std::vector<const Identity*>& revoked, int nid, const char* value,
+                const EVP_MD* digest = EVP_sha256()) {
+    const Bytes plain = revocation_list(issuer, revoked);
+    const auto* at = reinterpret_cast<const unsigned char*>(plain.data());
+    X509_CRL* const list = d2i_X509_CRL(nullptr, &at, static_cast<long>(plain.size()));
+    if (nid != NID_undef) {
+        X509_EXTENSION* const extension = X509V3_EXT_conf_nid(nullptr, nullptr, nid, value);
+        EXPECT_NE(extension, nullptr) << value;
+        X509_CRL_add_ext(list, extension, -1);
+        X509_EXTENSION_free(extension);
+    }
+    X509_CRL_sign(list, issuer.key.get(), digest);
+    unsigned char* data = nullptr;
+    const int size = i2d_X509_CRL(list, &data);
+    Bytes bytes(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
+    OPENSSL_free(data);
+    X509_CRL_free(list);
+    return bytes;
+}
+
+TEST(CertificateAttack, AListThatDoesNotSpeakOfTheSigner) {
+    using Codes = std::vector<std::string>;
+    const Identity root = root_named("Example Root");
+    Identity own = make_identity(ec_key(), {}, &root);
+    add_extension(own.certificate.get(), NID_crl_distribution_points, "URI:http://ca.example/1.crl");
+    X509_sign(own.certificate.get(), root.key.get(), EVP_sha256());
+    constexpr int k_scope = NID_issuing_distribution_point;
+    struct Case {
+        int nid;
+        const char* value;
+        bool speaks;
+    };
+    for (const Case& one : {Case{NID_undef, "", true},
+                            {NID_crl_number, "DER:020107", true},
+                            {k_scope, "critical,onlyuser:TRUE", true},
+                            {k_scope, "critical,indirectCRL:TRUE", true},
+                            {k_scope, "critical,fullname:URI:http://ca.example/1.crl", true},
+                            {k_scope, "critical,fullname:URI:http://ca.example/1.crl,onlyuser:TRUE", true},
+                            {k_scope, "critical,fullname:URI:http://ca.example/2.crl", false},
+                            {k_scope, "critical,onlyCA:TRUE", false},
+                            {k_scope, "critical,onlyAA:TRUE", false},
+                            {k_scope, "critical,onlysomereasons:keyCompromise", false},
+                            {NID_delta_crl, "critical,DER:020107", false},
+                            {NID_inhibit_any_policy, "critical,3", false},
+                            {NID_inhibit_any_policy, "3", true}}) {
+        SCOPED_TRACE(one.value);
+        const Codes expected{one.speaks ? "GC-SIGN-0139" : "GC-SIGN-0138"};
+        EXPECT_EQ(revocation_codes(own, root, {list_with(root, {}, one.nid, one.value)}, true), expected);
+        // A whole list beside it says what is to be said, and what is revoked is revoked by each.
+        EXPECT_EQ(
+            revocation_codes(own, root, {list_with(root, {}, one.nid, one.value), revocation_list(root, {})}, true),
+            Codes{"GC-SIGN-0139"});
+        EXPECT_EQ(revocation_codes(own, root, {list_with(root, {&own}, one.nid, one.value)}, false),
+                  Codes{"GC-SIGN-0137"});
+    }
+    EXPECT_EQ(revocation_codes(own, root, {list_with(root, {}, NID_undef, "", EVP_sha1())}, true),
+              Codes{"GC-SIGN-0138"});
+    const Identity no_lists =
+        make_identity(ec_key(), {.name = "No lists", .key_usage = "critical,keyCertSign", .authority = true});
+    EXPECT_EQ(revocation_codes(make_identity(ec_key(), {}, &no_lists), no_lists, {revocation_list(no_lists, {})}, true),
+              Codes{"GC-SIGN-0138"});
 }
 
 TEST(RevocationLists, ArePemOrDer) {

@@ -7,6 +7,7 @@
 
 #include "encoding/base64.h"
 #include "encoding/sha2.h"
+#include "signing/certificates.h"
 #include "signing/signer.h"
 #include "signing/verify.h"
 #include "tests/unit/signing/brought_material.h"
@@ -364,6 +365,52 @@ TEST_F(XmlAttack, CertificatesOfOthersDoNotComeAlong) {
         }
         EXPECT_THAT(checked(deep, {der(lower)}).not_covered, Contains(HasSubstr("the certificate of CN=Authority")));
     }
+}
+
+// Of the issuers of a signer who is trusted alone, and of an authority that had its certificate renewed, nothing is known: what is
+// of them is told as not covered.
+TEST_F(XmlAttack, WhatIsOfIssuersThatNobodyVouchesForIsTold) {
+    const Identity& root = laboratory_.root;
+    const Identity authority = authority_named("Authority", &root);
+    const Identity own = make_identity(ec_key(), {}, &authority);
+    const Bytes xml = sign_dcc(k_attacked_dcc, CarelessSigner(own.key, {own, authority, root}), k_signing_time);
+    const auto checked = [&](const Bytes& document, const Identity& trusted) {
+        return verify_signatures(document, "certificate.xml", std::vector<Bytes>{der(trusted)}, k_now).signatures.at(0);
+    };
+    const auto listed = [&](const Identity& issuer) {
+        const std::string values =
+            "<xades:UnsignedProperties><xades:UnsignedSignatureProperties><xades:RevocationValues>"
+            "<xades:CRLValues><xades:EncapsulatedCRLValue>" +
+            encoding::base64(revocation_list(issuer, {})) +
+            "</xades:EncapsulatedCRLValue></xades:CRLValues></xades:RevocationValues>"
+            "</xades:UnsignedSignatureProperties></xades:UnsignedProperties>";
+        return replaced(xml, "</xades:SignedProperties>", "</xades:SignedProperties>" + values);
+    };
+    const std::string top = subject_of(root.certificate.get());
+    const Bytes named = replaced(xml, "<ds:KeyInfo>", "<ds:KeyInfo><ds:KeyName>" + top + "</ds:KeyName>");
+    for (const Identity& trusted : {own, authority, root}) {
+        for (const Identity& issuer : {authority, root}) {
+            EXPECT_TRUE(checked(listed(issuer), trusted).valid);
+            EXPECT_THAT(checked(listed(issuer), trusted).not_covered, Contains(HasSubstr("xades:RevocationValues")));
+        }
+        EXPECT_FALSE(checked(listed(authority_named("Authority")), trusted).valid);
+        EXPECT_TRUE(checked(named, trusted).valid);
+    }
+    EXPECT_THAT(checked(named, own).not_covered,
+                Contains("of a certificate that nothing that is trusted vouches for: " + top));
+    EXPECT_FALSE(checked(replaced(named, top + "</ds:KeyName>", "U is 1 nm</ds:KeyName>"), own).valid);
+    const Identity renewed = make_identity(
+        authority.key, {.name = "Authority", .key_usage = "critical,keyCertSign", .authority = true}, &root);
+    EXPECT_TRUE(checked(xml, renewed).valid);
+    EXPECT_THAT(checked(xml, renewed).not_covered, Contains(HasSubstr("the certificate of CN=Authority")));
+    EXPECT_TRUE(checked(listed(authority), renewed).valid);
+    std::string objects;
+    for (int i = 0; i < 100; ++i) {
+        objects += "<ds:Object/>";
+    }
+    const SignatureReport crowded = checked(replaced(xml, "</ds:Signature>", objects + "</ds:Signature>"), root);
+    EXPECT_TRUE(crowded.valid);
+    EXPECT_EQ(crowded.not_covered, std::vector<std::string>{"100 objects within the signature"});
 }
 
 // Exclusive canonical XML leaves out the declarations that nothing uses: they can be put in after signing.

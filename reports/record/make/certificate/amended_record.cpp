@@ -19,6 +19,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/make/certificate/paired_rows.h"
 #include "text/numbers.h"
 
 namespace gumcert::reports {
@@ -31,11 +32,6 @@ using certificate::CertifiedTable;
 using certificate::CertifiedValue;
 using certificate::Change;
 
-/// Something that is stated, with its place.
-struct StatedLeaf {
-    std::string at, text;
-    const char* kind;  ///< of Change
-};
 using Texts = std::vector<StatedLeaf>;
 
 /// A number of the data as documents print it: 2E-8, not 2e-08.
@@ -95,7 +91,7 @@ private:
 
     void note(const std::string& at, const std::string& text, const char* kind) {
         if (!text.empty()) {
-            found_.push_back({at, text, kind});
+            found_.push_back({.at = at, .text = text, .kind = kind});
         }
     }
 
@@ -138,11 +134,6 @@ bool is_left_out(std::string_view at) {
     return at.starts_with("/amendment/") || std::find(k_left_out.begin(), k_left_out.end(), at) != k_left_out.end();
 }
 
-std::string text_at(const Texts& texts, const std::string& at) {
-    const auto found = std::find_if(texts.begin(), texts.end(), [&](const StatedLeaf& t) { return t.at == at; });
-    return found == texts.end() ? "" : found->text;
-}
-
 /// Numbers of the data with the unit that stands beside them: "upper" of a specification, "minimum" of a condition.
 void add_units(Texts& texts) {
     static constexpr std::array<std::string_view, 9> k_with_unit = {
@@ -183,18 +174,28 @@ void compare_texts(const Certificate& earlier, const Certificate& later, std::ve
     Texts shown_after = after;
     add_units(shown_before);
     add_units(shown_after);
-    for (const StatedLeaf& now : after) {
-        if (!is_left_out(now.at) && text_at(before, now.at) != now.text) {
+    // Rows by what they are: one that came or went changes none of those behind it.
+    const std::vector<std::string> counterparts = places_of_counterparts(before, after);
+    std::map<std::string, std::size_t> of_before;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        of_before.emplace(counterparts[i], i);
+    }
+    std::set<std::string> places;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const StatedLeaf& now = after[i];
+        places.insert(now.at);
+        const auto old = of_before.find(now.at);
+        if (!is_left_out(now.at) && (old == of_before.end() || before[old->second].text != now.text)) {
             changes.push_back({.kind = now.kind,
                                .where = now.at,
-                               .before = text_at(shown_before, now.at),
-                               .after = text_at(shown_after, now.at)});
+                               .before = old == of_before.end() ? "" : shown_before[old->second].text,
+                               .after = shown_after[i].text});
         }
     }
-    for (const StatedLeaf& old : before) {
-        if (!is_left_out(old.at) && text_at(after, old.at).empty()) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (!is_left_out(before[i].at) && !places.contains(counterparts[i])) {
             changes.push_back(
-                {.kind = old.kind, .where = old.at, .before = text_at(shown_before, old.at), .after = ""});
+                {.kind = before[i].kind, .where = before[i].at, .before = shown_before[i].text, .after = ""});
         }
     }
 }
@@ -298,8 +299,11 @@ void show_layout(const CertifiedTable& table, std::vector<TableText>& shown) {
                                                          : column.show + "(" + column.of + ")";
         columns += (columns.empty() ? "" : ", ") + (column.show == "value" ? column.of : what);
         shown.push_back({"heading", what, in_all_languages(column.heading)});
+        shown.push_back({"role", what, column.role});
         shown.push_back({"stage", what, column.stage});
     }
+    shown.push_back({"group", name, in_all_languages(layout.group_heading)});
+    shown.push_back({"role", name, layout.group_role});
     shown.push_back({"columns", name, columns});
     for (std::size_t row = 0; table.argument && row < table.argument->printed.size(); ++row) {
         const std::string point = " [" + table.argument->printed[row] + "]";
@@ -315,6 +319,7 @@ void show_layout(const CertifiedTable& table, std::vector<TableText>& shown) {
     for (const certificate::PointColumn& column : layout.columns) {
         shown.push_back({"heading", column.name, in_all_languages(column.heading)});
         shown.push_back({"role", column.name, column.role});
+        shown.push_back({"stage", column.name, column.stage});
     }
 }
 
@@ -458,6 +463,32 @@ std::vector<Change> with_common_changes_once(const std::vector<Change>& changes,
     return once;
 }
 
+/// Titles of the document and of the sections of its job, by their names.
+std::vector<Change> changes_of_titles(const EvaluationRecord& earlier, const EvaluationRecord& later) {
+    std::vector<Change> changes;
+    const auto tell = [&](const std::string& where, const std::string& before, const std::string& after) {
+        if (before != after) {
+            changes.push_back({.kind = "title", .where = where, .before = before, .after = after});
+        }
+    };
+    tell("", earlier.title, later.title);
+    const auto title_of = [](const EvaluationRecord& record, const std::string& name) {
+        const auto found = std::find_if(record.sections.begin(), record.sections.end(),
+                                        [&](const SectionSummary& section) { return section.name == name; });
+        return found == record.sections.end() ? std::string() : in_all_languages(found->title);
+    };
+    for (const SectionSummary& section : later.sections) {
+        tell(section.name, title_of(earlier, section.name), in_all_languages(section.title));
+    }
+    for (const SectionSummary& section : earlier.sections) {
+        if (std::none_of(later.sections.begin(), later.sections.end(),
+                         [&](const SectionSummary& one) { return one.name == section.name; })) {
+            tell(section.name, in_all_languages(section.title), "");
+        }
+    }
+    return changes;
+}
+
 [[noreturn]] void refuse(const char* code, const std::string& where, std::string what, std::string rule,
                          std::string action) {
     throw gum::InputError(gum::Diagnostic{
@@ -479,6 +510,15 @@ std::vector<Change> changes_between(const Certificate& earlier, const Certificat
     std::vector<Change> changes(of_texts.begin(), rest);
     changes.insert(changes.end(), of_results.begin(), of_results.end());
     changes.insert(changes.end(), rest, of_texts.end());
+    return changes;
+}
+
+std::vector<Change> changes_between(const EvaluationRecord& earlier, const EvaluationRecord& later) {
+    std::vector<Change> changes = changes_of_titles(earlier, later);
+    if (earlier.certificate && later.certificate) {
+        const std::vector<Change> of_certificate = changes_between(*earlier.certificate, *later.certificate);
+        changes.insert(changes.end(), of_certificate.begin(), of_certificate.end());
+    }
     return changes;
 }
 
@@ -504,13 +544,14 @@ void state_changes(EvaluationRecord& record) {
             "the amendment is to certificate \"" + amendment.number + "\"",
             "name the record of that certificate, or correct the number");
     }
-    certificate.changes = changes_between(*earlier.certificate, certificate);
+    certificate.changes = changes_between(earlier, record);
     certificate.amended_record_sha256 = encoding::sha256(*bytes);
     if (certificate.changes.empty()) {
         refuse("GC-CERT-0308", amendment.record,
-               "no value, uncertainty, limit, verdict, column or text that the certificate states differs",
+               "no title, no text of the certificate data, and no value, uncertainty, limit, verdict or column of its "
+               "tables of results differs; the order of rows, and annexes, are not compared",
                "an amendment changes something (ISO/IEC 17025:2017, 7.8.8.1)",
-               "change what is to be amended, or leave the amendment out");
+               "change what is to be amended; where it is an annex alone, leave \"record\" out, and state the changes");
     }
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -208,6 +210,10 @@ public:
     void added(const char* key, Type& v, const Rule&...) {
         look(at_ + "/" + key, v);
     }
+    template <class Type>
+    void stated(const char* key, Type& v, std::initializer_list<const char*>) {
+        look(at_ + "/" + key, v);
+    }
     template <class Fields>
     void group(const char* key, const Fields& fields) {
         const std::string before = std::exchange(at_, at_ + "/" + key);
@@ -224,6 +230,11 @@ private:
         if constexpr (std::same_as<Type, std::string>) {
             if (position_-- == 0) {
                 v += "x";
+                changed = at;
+            }
+        } else if constexpr (std::same_as<Type, certificate::LocalisedText>) {
+            if (position_-- == 0) {
+                v.plain += "x";
                 changed = at;
             }
         } else if constexpr (std::same_as<Type, bool>) {
@@ -260,6 +271,98 @@ TEST(AmendedRecord, ComparesEveryPrintedTextOfAValue) {
         EXPECT_LE(std::count(found.begin(), found.end(), '\n'), 1) << found;
     }
     EXPECT_GT(position, 25);
+}
+
+/// The same of what a job says of its tables.
+TEST(AmendedRecord, ComparesEveryTextOfALayout) {
+    const std::set<std::string> left_out{"/unit",      // printed_unit is what a table shows
+                                         "/decimals",  // the digits of the numbers show it
+                                         "/plot"};     // a drawing of numbers that are compared
+    const certificate::Certificate earlier = certificate_with_layout();
+    const auto look = [&](auto&& part_of) {
+        int position = 0;
+        for (std::string changed = "-"; !changed.empty(); ++position) {
+            certificate::Certificate later = earlier;
+            OtherText other(position);
+            describe(other, part_of(*later.tables.front().layout));
+            changed = other.changed;
+            const std::string found = said(changes_between(earlier, later));
+            EXPECT_EQ(found.empty(), changed.empty() || left_out.contains(changed)) << changed << "\n" << found;
+        }
+        EXPECT_GT(position, 3);
+    };
+    using Layout = certificate::TableLayout;
+    look([](Layout& l) -> Layout& { return l; });
+    look([](Layout& l) -> certificate::PointColumn& { return l.columns[1]; });
+    look([](Layout& l) -> certificate::ShownColumn& { return l.shown[0]; });
+    look([](Layout& l) -> certificate::ShownColumn& { return l.shown[1]; });
+}
+
+TEST(AmendedRecord, TellsTitlesOfTheDocumentAndItsSections) {
+    EvaluationRecord earlier = test::certified_budget_record();
+    earlier.sections = {{.name = "dc", .title = "DC voltage", .quantities = {}}};
+    EvaluationRecord later = earlier;
+    EXPECT_EQ(said(changes_between(earlier, later)), "");
+    later.title = "Calibration of a ring gauge";
+    later.sections.front().title = "AC voltage";
+    EXPECT_EQ(said(changes_between(earlier, later)), "title : " + earlier.title +
+                                                         " -> Calibration of a ring gauge\n"
+                                                         "title dc: DC voltage -> AC voltage\n");
+    later = earlier;
+    later.sections.front().name = "ac";
+    EXPECT_EQ(said(changes_between(earlier, later)), "title ac:  -> DC voltage\ntitle dc: DC voltage -> \n");
+}
+
+/// Standards with some members in common, as those of a laboratory have.
+certificate::StandardUsed standard_of(std::size_t number) {
+    certificate::StandardUsed standard;
+    standard.name = "Weight " + std::to_string(number);
+    standard.identification = "STD-" + std::to_string(number);
+    standard.certificate = "NMI-" + std::to_string(7 * number);
+    standard.issuer = number % 2 == 0 ? "Institute" : "Laboratory";
+    standard.calibrated = "2026-01-0" + std::to_string(1 + number % 9);
+    return standard;
+}
+
+// A row that came or went, or stands elsewhere, changes nothing of the other ones.
+TEST(AmendedRecord, RowsAreComparedByWhatTheyAre) {
+    certificate::Certificate earlier = certificate_with_layout();
+    std::mt19937 random(20);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    for (int round = 0; round < 100; ++round) {
+        earlier.data.standards.clear();
+        const std::size_t count = 1 + below(6);
+        for (std::size_t i = 0; i < count; ++i) {
+            earlier.data.standards.push_back(standard_of(i));
+        }
+        certificate::Certificate later = earlier;
+        auto& standards = later.data.standards;
+        std::shuffle(standards.begin(), standards.end(), random);
+        EXPECT_EQ(said(changes_between(earlier, later)), "") << "the order says nothing";
+        const std::size_t edited = below(count);
+        standards[edited].certificate = "NMI-999";
+        const std::vector<Change> of_edit = changes_between(earlier, later);
+        ASSERT_EQ(of_edit.size(), 1U) << said(of_edit);
+        EXPECT_EQ(of_edit[0].where, "/standards/" + std::to_string(edited) + "/certificate");
+        EXPECT_EQ(of_edit[0].after, "NMI-999");
+        EXPECT_TRUE(of_edit[0].before.starts_with("NMI-"));
+        standards = earlier.data.standards;
+        standards.insert(standards.begin() + static_cast<std::ptrdiff_t>(below(count + 1)), standard_of(8));
+        for (const Change& change : changes_between(earlier, later)) {
+            EXPECT_EQ(change.before, "") << said({change});
+        }
+        for (const Change& change : changes_between(later, earlier)) {
+            EXPECT_EQ(change.after, "") << said({change});
+        }
+    }
+    // Of lines the order says something.
+    earlier.data.customer.address.lines = {"Street 1", "12345 Town", "County"};
+    certificate::Certificate later = earlier;
+    std::swap(later.data.customer.address.lines[0], later.data.customer.address.lines[1]);
+    EXPECT_EQ(changes_between(earlier, later).size(), 2U);
+    later = earlier;
+    later.data.customer.address.lines.insert(later.data.customer.address.lines.begin(), "Building B");
+    EXPECT_EQ(said(changes_between(earlier, later)), "text /customer/address/lines/0:  -> Building B\n");
 }
 
 /// The code of the refusal, or "" where the changes were stated.
