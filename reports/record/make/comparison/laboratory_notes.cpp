@@ -76,7 +76,7 @@ std::string with_unit(const std::string& number, const ComparisonItemEvaluation&
 }
 
 bool inconsistent(const gum::ItemResult& item) {
-    return item.consistency && !item.consistency->test.consistent;
+    return item.consistency && !item.consistency->test.consistent && !item.consistency->by_chance;
 }
 
 std::string test_text(const ComparisonItemEvaluation& item) {
