@@ -40,6 +40,7 @@ struct AuditedItem {
     /// p of the test of all results for consistency, and the p below which it is not passed; none: it was not made.
     std::optional<double> p_consistent;
     double threshold = 0.05;
+    bool by_chance = false;                 ///< not passed, as one of several items is by chance
     std::optional<double> p_low;            ///< of the same test: probability of so little scatter
     std::vector<std::string> inconsistent;  ///< laboratories outside of the largest consistent subset
     bool has_stability = false;  ///< the stability of the artefact is in the uncertainty of the value, or was shown

@@ -140,7 +140,9 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
     if (item.consistency) {
         print_to_stdout("  consistency: chi-square {} on {} of freedom, p = {}{}\n", item.consistency->chi_square.text,
                         text::count_of(item.consistency->degrees_of_freedom, "degree"), item.consistency->p_value.text,
-                        item.consistency->consistent ? "" : "   NOT consistent");
+                        item.consistency->consistent  ? ""
+                        : item.consistency->by_chance ? "   not consistent, as one of several items is by chance"
+                                                      : "   NOT consistent");
     }
     print_names("without a result", item.missing);
     print_names("not in the largest consistent subset", item.not_consistent);
@@ -197,13 +199,15 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
     }
     for (const reports::VectorScore& vector : comparison.vectors) {
         if (vector.signal == "action") {
-            print_to_stdout("{}, {}: the quantities lie outside their joint region (vector En {})\n",
-                            vector.participant, vector.name, vector.vector_En.text);
+            print_to_stdout("{}, {}{}: the quantities lie outside their joint region (vector En {})\n",
+                            vector.participant, vector.name, vector.round.empty() ? "" : ", " + vector.round,
+                            vector.vector_En.text);
         }
     }
-    const auto inconsistent = std::count_if(
-        comparison.items.begin(), comparison.items.end(),
-        [](const reports::ComparisonItemEvaluation& i) { return i.consistency && !i.consistency->consistent; });
+    const auto inconsistent =
+        std::count_if(comparison.items.begin(), comparison.items.end(), [](const reports::ComparisonItemEvaluation& i) {
+            return i.consistency && !i.consistency->consistent && !i.consistency->by_chance;
+        });
     if (inconsistent > 0 && comparison.items.size() > k_most_items) {
         print_to_stdout("{} of {} items: the results contradict each other\n", inconsistent, comparison.items.size());
     }

@@ -12,6 +12,7 @@
 #include "audit/rules/row_edits.h"
 #include "audit/rules/stated_outcome.h"
 #include "certificate/text_words.h"
+#include "gum/comparison/agreement.h"
 #include "gum/comparison/robust_statistics.h"
 #include "gum/comparison/scores.h"
 #include "gum/coverage.h"
@@ -186,21 +187,25 @@ void inflated_uncertainty(const AuditSubject& subject, FindingCollector& finding
     }
     // Σ ζ² far below its expected value: not luck, but uncertainties that are too large, or results that were not
     // independent of the reference.
-    const auto too_small = [&findings](const std::string& where, const std::optional<double>& p) {
-        if (p && *p < k_low_tail) {
+    const auto too_small = [&findings](const std::string& where, const std::optional<double>& p, double threshold) {
+        if (p && *p < threshold) {
             AuditFinding finding = finding_of_comparison(
-                say("the differences are too small for the stated uncertainties: {p_low}, threshold 0.025",
-                    probability("p_low", *p)));
+                say("the differences are too small for the stated uncertainties: {p_low}, threshold {threshold:number}",
+                    probability("p_low", *p), short_number(threshold)));
             finding.where = where.empty() ? finding.where : where;
             finding.evidence = {probability("p_low", *p)};
             findings.add(std::move(finding));
         }
     };
     if (p_low || !subject.comparison) {
-        too_small("", p_low);
+        too_small("", p_low, k_low_tail);
     } else {
-        for (const AuditedItem& item : subject.comparison->items) {
-            too_small(item.name, item.p_low);
+        // Of many items some differ by little by chance (ADR 0082).
+        const std::vector<AuditedItem>& items = subject.comparison->items;
+        const auto tests =
+            std::count_if(items.begin(), items.end(), [](const AuditedItem& item) { return item.p_low.has_value(); });
+        for (const AuditedItem& item : items) {
+            too_small(item.name, item.p_low, gum::chance_in_family(k_low_tail, static_cast<std::size_t>(tests)));
         }
     }
     const std::optional<double> spread = robust_deviation(scores);
@@ -512,6 +517,9 @@ void inconsistent_set(const AuditSubject& subject, FindingCollector& findings) {
     };
     if (subject.comparison && !subject.comparison->items.empty()) {
         for (const AuditedItem& item : subject.comparison->items) {
+            if (item.by_chance) {
+                continue;
+            }
             if (item.p_consistent && *item.p_consistent < item.threshold) {
                 contradict(item.name, probability("p", *item.p_consistent), item.threshold);
             } else if (!item.inconsistent.empty()) {
@@ -573,7 +581,7 @@ std::vector<Rule> comparison_rules() {
          .needs = {Need::comparison},
          .detection =
              "|E_n| > 1 with all findings corrected (critical); p_low < 0.025 over the set, or in the test of one item "
-             "for consistency; u > 1.5 s* of five or "
+             "for consistency, of several as one family; u > 1.5 s* of five or "
              "more laboratories; U more than twice the capability",
          .correction = "Correct the uncertainty, and score again.",
          .question = "Why is the uncertainty so much larger than the differences, or than the capability?",
@@ -667,7 +675,8 @@ std::vector<Rule> comparison_rules() {
          .needs = {Need::comparison},
          .detection =
              "between laboratories, the test of an item for consistency as it was evaluated, or results outside "
-             "of the largest consistent subset; else p_high of Σζ² below 0.025, given the covariance, or below "
+             "of the largest consistent subset, but for what chance makes of several items; else p_high of Σζ² below "
+             "0.025, given the covariance, or below "
              "0.05 where none is stated; none where nothing was evaluated",
          .correction = "Look for the result that contradicts the others, or for what the uncertainties leave out.",
          .question = "How was the inconsistency dealt with?",

@@ -498,6 +498,7 @@ AuditedItem audited_item(const reports::ComparisonItemEvaluation& stated) {
         const reports::ConsistencySummary& test = *stated.consistency;
         item.p_consistent = test.p_value.number;
         item.threshold = test.alpha;
+        item.by_chance = test.by_chance;
         // What a subset has left out of the test makes it too good.
         if (item.inconsistent.empty() && test.degrees_of_freedom > 0) {
             item.p_low =

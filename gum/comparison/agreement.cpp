@@ -459,19 +459,20 @@ void add_bound(const Agreement& bound, Agreement& result) {
 }
 
 /// The |E_n| that the largest of all points exceeds with k_chance_of_single_points.
-double largest_by_chance(const MethodDifferences& differences, const VectorXd& inverse_k, double coverage_probability) {
+double largest_by_chance(const MethodDifferences& differences, const VectorXd& inverse_k, double coverage_probability,
+                         std::size_t family) {
+    const double chance = chance_in_family(k_chance_of_single_points, family);
     constexpr double k_normal = std::numeric_limits<double>::infinity();
     const auto points = static_cast<std::size_t>(inverse_k.size());
     if (!have_finite_degrees(differences)) {
-        // largest_en_by_chance() counts in units of the factor of its own probability, here 0.99. E_n counts in units
+        // largest_en_by_chance() counts in units of the factor of its own probability, 0.99 of one set of points. E_n counts in units
         // of the factor for the coverage probability, hence the quotient of the two.
-        return largest_en_by_chance(points, 1.0 - k_chance_of_single_points) *
-               coverage_factor(1.0 - k_chance_of_single_points, k_normal) /
+        return largest_en_by_chance(points, 1.0 - chance) * coverage_factor(1.0 - chance, k_normal) /
                coverage_factor(coverage_probability, k_normal);
     }
     // Π P(|T_ν| ≤ L U/u) = 0.99: Šidák's limit with the t distribution and the factor of each point.
     const auto excess = [&](double limit) {
-        double logarithm = -std::log1p(-k_chance_of_single_points);
+        double logarithm = -std::log1p(-chance);
         for (Index i = 0; i < inverse_k.size(); ++i) {
             logarithm += std::log1p(-two_sided_tail_of_t(limit / inverse_k(i), degrees_of(differences, i)));
         }
@@ -525,11 +526,11 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     // variance 2 m²/ν.
     result.effective_points = m * m / R.squaredNorm();
     const VectorXd inverse_k = u.cwiseQuotient(differences.U);
-    if (result.points > 1) {
-        result.largest_en_by_chance = largest_by_chance(differences, inverse_k, coverage_probability);
+    if (result.points > 1 || result.family > 1) {
+        result.largest_en_by_chance = largest_by_chance(differences, inverse_k, coverage_probability, result.family);
     }
-    result.count_by_chance =
-        count_above_1_by_chance(result.points, std::clamp(result.effective_points, 1.0, m), coverage_probability);
+    result.count_by_chance = count_above_1_by_chance(result.points, std::clamp(result.effective_points, 1.0, m),
+                                                     coverage_probability, result.family);
     add_deviations_that_are_found(differences, u, result);
     const Whitened distance = whitened(R, zeta);
     result.rank = static_cast<std::size_t>(distance.rank);
@@ -555,7 +556,11 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
 
 }  // namespace
 
-Agreement agreement(const MethodDifferences& differences, double coverage_probability) {
+double chance_in_family(double chance, std::size_t family) {
+    return family > 1 ? -std::expm1(std::log1p(-chance) / static_cast<double>(family)) : chance;
+}
+
+Agreement agreement(const MethodDifferences& differences, double coverage_probability, std::size_t family) {
     require_probability(coverage_probability, "coverage probability");
     require_differences(differences);
     const VectorXd u = differences.covariance.diagonal().cwiseSqrt();
@@ -563,6 +568,7 @@ Agreement agreement(const MethodDifferences& differences, double coverage_probab
     const MatrixXd R = correlation_matrix(differences.covariance);
     Agreement result;
     result.points = static_cast<std::size_t>(u.size());
+    result.family = std::max<std::size_t>(1, family);
     add_scores(differences, zeta, result);
     add_distributions(differences, u, zeta, R, coverage_probability, result);
     return result;
@@ -581,13 +587,14 @@ double largest_en_by_chance(std::size_t points, double coverage_probability) {
     return coverage_factor(of_each, k_normal) / coverage_factor(coverage_probability, k_normal);
 }
 
-std::size_t count_above_1_by_chance(std::size_t points, double effective_points, double coverage_probability) {
+std::size_t count_above_1_by_chance(std::size_t points, double effective_points, double coverage_probability,
+                                    std::size_t family) {
     require_probability(coverage_probability, "coverage probability");
     if (points == 0) {
         refuse("GC-GUM-0032", "comparison", "no points", "a number of scores needs at least 1 point",
                "Give the points that both methods measured.");
     }
-    if (points == 1) {
+    if (points == 1 && family <= 1) {
         return 0;
     }
     // Correlated points exceed the limit together: they count as fewer, and each of these stands for several points.
@@ -597,7 +604,7 @@ std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
         boost::math::policies::discrete_quantile<boost::math::policies::integer_round_up>>;
     const boost::math::binomial_distribution<double, Up> above(independent, 1.0 - coverage_probability);
     // Rounded up: a smaller number would be exceeded in more than 1 of 100 comparisons.
-    const double limit = boost::math::quantile(above, 1.0 - k_chance_of_single_points);
+    const double limit = boost::math::quantile(above, 1.0 - chance_in_family(k_chance_of_single_points, family));
     return static_cast<std::size_t>(std::floor(limit * static_cast<double>(points) / independent));
 }
 
@@ -751,19 +758,22 @@ double vector_en(const VectorXd& d, const MatrixXd& covariance, double coverage_
 }
 
 bool is_too_large(const Agreement& agreement) {
-    return !(agreement.p_high >= k_significant) || !(agreement.largest_absolute_en <= agreement.largest_en_by_chance);
+    return !(agreement.p_high >= chance_in_family(k_significant, agreement.family)) ||
+           !(agreement.largest_absolute_en <= agreement.largest_en_by_chance);
 }
 
 bool is_refuted_pattern(const Agreement& agreement) {
-    return !(agreement.p_pattern >= k_chance_of_bias_and_pattern);
+    return !(agreement.p_pattern >= chance_in_family(k_chance_of_bias_and_pattern, agreement.family));
 }
 
 AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<double> worst_plausible_en,
                                    const std::optional<BiasTest>& bias) {
     // In the order of the objections: what refutes the agreement comes before what limits the proof of it. The
     // conditions are negated, so that a number that is none objects.
+    const double significant = chance_in_family(k_significant, agreement.family);
+    const double chance = chance_in_family(k_chance_of_bias_and_pattern, agreement.family);
     const double p_bias = bias ? bias->p : 1.0;
-    if (is_too_large(agreement) || is_refuted_pattern(agreement) || !(p_bias >= k_chance_of_bias_and_pattern)) {
+    if (is_too_large(agreement) || is_refuted_pattern(agreement) || !(p_bias >= chance)) {
         return AgreementVerdict::disagreement;
     }
     if (agreement.count_above_1 > agreement.count_by_chance) {
@@ -772,9 +782,8 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     // What one bound of the joint distribution refutes and another does not is neither agreement nor disagreement. Nor is
     // a pattern that no covariance explains, but rounding of the stated numbers might.
     const double p_bias_least = bias ? bias->p_least : 1.0;
-    if (!(agreement.p_high_least >= k_significant) ||
-        !(std::min(agreement.p_mahalanobis, agreement.p_mahalanobis_least) >= k_chance_of_bias_and_pattern) ||
-        !(p_bias_least >= k_chance_of_bias_and_pattern)) {
+    if (!(agreement.p_high_least >= significant) ||
+        !(std::min(agreement.p_mahalanobis, agreement.p_mahalanobis_least) >= chance) || !(p_bias_least >= chance)) {
         return AgreementVerdict::joint_test_open;
     }
     if (worst_plausible_en && !(std::abs(*worst_plausible_en) <= 1.0)) {
@@ -785,10 +794,10 @@ AgreementVerdict agreement_verdict(const Agreement& agreement, std::optional<dou
     }
     // A sum that is too small is no disagreement, but U is then larger than the method needs: agreement is no proof of
     // it.
-    if (!(agreement.p_low >= k_significant)) {
+    if (!(agreement.p_low >= significant)) {
         return AgreementVerdict::uncertainty_too_large;
     }
-    if (!(agreement.p_low_least >= k_significant)) {
+    if (!(agreement.p_low_least >= significant)) {
         return AgreementVerdict::joint_test_open;
     }
     // Before the test itself is looked at: with little power its outcome would be one of chance.

@@ -56,12 +56,15 @@ struct Agreement {
     /// right.
     double power_to_confirm = 0.0;
     std::size_t count_by_chance = 0;  ///< limit of count_above_1 (count_above_1_by_chance())
+    std::size_t family = 1;           ///< sets of points of which the gravest verdict counts
     /// Constant deviation that |E_n| > 1 finds at every single point with a probability of 80 % and 95 %:
     /// the largest of U + z u with z = 0.842 and 1.645.
     double found_with_80_percent = 0.0, found_with_95_percent = 0.0;
 };
 
 /// \param coverage_probability  of the joint region of vector_en
+/// \param family  sets of points that are judged side by side, the directions of a comparison: each is held against
+///                limits that right uncertainties of all of them together miss as rarely as those of one alone
 /// \throws InputError  GC-GUM-0032 no points; GC-GUM-0001; GC-GUM-0031 an uncertainty of a difference is 0;
 ///                     GC-GUM-0052 to -0054 for the covariance, -0135 sizes that do not fit, -0141 more than
 ///                     k_most_points_of_agreement points
@@ -71,7 +74,11 @@ struct Agreement {
 /// the ν are those of the estimates; limits of single |E_n| and deviations that are found are those of t as well.
 /// \throws InputError  GC-GUM-0005 for ν
 /// Accuracy: probabilities within 1e-9 (docs/accuracy.md#comparisons-and-robust-statistics).
-[[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability);
+[[nodiscard]] Agreement agreement(const MethodDifferences& differences, double coverage_probability,
+                                  std::size_t family = 1);
+/// 1 − (1 − p)^(1/n): with this probability each of n independent tests fails by chance where p is that of any of them
+/// (Šidák).
+[[nodiscard]] double chance_in_family(double chance, std::size_t family);
 /// The limit that the largest |E_n| of n points exceeds with probability 1 − p at most where all uncertainties are
 /// right: z(1 − p^(1/n)) / z(1 − p), z(α) the two-sided quantile of the normal distribution. 1 for one point.
 ///
@@ -84,9 +91,10 @@ struct Agreement {
 /// right: quantile of the binomial distribution of effective_points points, each above 1 with probability 1 − p, in
 /// proportion. 0 for one point.
 /// \param effective_points  1 … points
+/// \param family  as in agreement(): 1 of 100 comparisons exceeds the limit in any of so many sets
 /// \throws InputError  as largest_en_by_chance()
 [[nodiscard]] std::size_t count_above_1_by_chance(std::size_t points, double effective_points,
-                                                  double coverage_probability);
+                                                  double coverage_probability, std::size_t family = 1);
 /// More points are refused: an approximation by the first two moments is wrong by many powers of ten in the lower tail.
 inline constexpr std::size_t k_most_points_of_agreement = 3000;
 
@@ -133,6 +141,7 @@ struct BiasQuestion {
                                double coverage_probability);
 
 /// What a comparison of methods may be said to show, strongest objection first: the first that holds is the verdict.
+/// Limits of p are those of a set of points alone; of a family chance_in_family() of them.
 enum class AgreementVerdict {
     /// p_high < 0.025, the largest |E_n| is above what chance makes of so many points, p_pattern < 0.01, or a bias with
     /// p < 0.01.

@@ -19,6 +19,15 @@ namespace gumcert::gum {
 /// \return n×n; lower triangular where R is positive definite
 [[nodiscard]] Eigen::MatrixXd root_of_correlations(const Eigen::MatrixXd& correlations);
 
+/// The results as tests of consistency take them: those of finite degrees of freedom with the u that makes
+/// (x_i − y)/u_i the normal quantity which has the tail of this t. y is the value with the least sum of squares of
+/// these. Results that correlate keep their u, and get one number of degrees of freedom for all; normal ones are left.
+[[nodiscard]] LaboratoryResults as_normal_results(const LaboratoryResults& results);
+
+/// The chi-square that a set of so many results exceeds with the probability alpha.
+/// \param degrees_of_freedom  of one estimate behind all u of results that correlate; infinite without
+[[nodiscard]] double critical_chi_square(std::size_t results, double alpha, double degrees_of_freedom);
+
 /// require_results() for a number of results that may be 1.
 void require_results(const LaboratoryResults& results, std::size_t fewest);
 

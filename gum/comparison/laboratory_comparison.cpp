@@ -1,9 +1,11 @@
 #include "gum/comparison/laboratory_comparison.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "gum/argument_check.h"
+#include "gum/comparison/agreement.h"
 #include "gum/comparison/assigned_value.h"
 #include "gum/comparison/reference_estimates.h"
 #include "gum/comparison/scores.h"
@@ -38,6 +40,38 @@ EvaluatedItem evaluated(const ComparisonScheme& scheme, LaboratoryData data, boo
         item.result.pairs = pair_equivalences(item.data, scheme.coverage_probability);
     }
     return item;
+}
+
+/// p of the test of all results that contribute.
+double p_of_all(const ItemResult& item) {
+    return item.consistency_of_all ? item.consistency_of_all->p_value : item.consistency->test.p_value;
+}
+
+/// Of many tests of right results some fail: which of them say no more than that.
+void mark_chance(std::vector<EvaluatedItem>& items) {
+    std::size_t tests = 0;
+    std::size_t failed = 0;
+    double alpha = 0.0;  // the mean: tests of different alpha fail as often, together, as so many of this one
+    for (const EvaluatedItem& item : items) {
+        if (item.result.consistency) {
+            ++tests;
+            failed += p_of_all(item.result) < item.result.consistency->alpha ? 1U : 0U;
+            alpha += item.result.consistency->alpha;
+        }
+    }
+    if (tests < 2 || failed == 0) {
+        return;
+    }
+    alpha /= static_cast<double>(tests);
+    if (failed > count_above_1_by_chance(tests, static_cast<double>(tests), 1.0 - alpha)) {
+        return;
+    }
+    for (EvaluatedItem& item : items) {
+        if (std::optional<ResultConsistency>& of = item.result.consistency) {
+            const double p = p_of_all(item.result);
+            of->by_chance = p < of->alpha && p >= chance_in_family(of->alpha, tests);
+        }
+    }
 }
 
 }  // namespace
@@ -78,6 +112,7 @@ LaboratoryComparison evaluate_laboratories(const ComparisonScheme& scheme,
         }
         comparison.without_result.push_back(std::move(refused));
     }
+    mark_chance(items);
     comparison.summary = summary_of_scores(scheme, items);
     comparison.participants = participant_summaries(scheme, items);
     comparison.vectors = vector_scores(scheme, items, comparison.singular_vectors);

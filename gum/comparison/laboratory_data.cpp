@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "gum/argument_check.h"
 #include "gum/comparison/laboratory_covariance.h"
@@ -57,6 +59,16 @@ LaboratoryResults LaboratoryData::at(const std::vector<std::size_t>& positions) 
     LaboratoryResults chosen;
     chosen.x = x(positions);
     chosen.u = u(positions);
+    const auto degrees_at = [&](std::size_t i) {
+        const std::optional<ResultUncertainty>& stated = results[i]->uncertainty;
+        return stated ? stated->degrees_of_freedom : std::numeric_limits<double>::infinity();
+    };
+    if (std::any_of(positions.begin(), positions.end(), [&](std::size_t i) { return std::isfinite(degrees_at(i)); })) {
+        chosen.degrees_of_freedom.resize(chosen.x.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            chosen.degrees_of_freedom[static_cast<Eigen::Index>(i)] = degrees_at(positions[i]);
+        }
+    }
     if (covariance.size() > 0) {
         chosen.covariance = covariance(positions, positions);
         const Eigen::MatrixXd variances = chosen.covariance.diagonal().asDiagonal();

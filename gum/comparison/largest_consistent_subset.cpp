@@ -1,6 +1,5 @@
 #include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -36,12 +35,6 @@ struct Subset {
     Members members;  // ascending
     double chi_square = k_infinity;
 };
-
-double critical_value(std::size_t members, double alpha) {
-    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
-    const boost::math::chi_squared_distribution<double, InDouble> distribution(static_cast<double>(members) - 1.0);
-    return boost::math::quantile(boost::math::complement(distribution, alpha));
-}
 
 /// Search among independent results for the subset of a given size with the smallest chi-square.
 ///
@@ -417,7 +410,7 @@ std::optional<Largest> largest_of_independent(const LaboratoryResults& results, 
     const auto n = static_cast<std::size_t>(results.x.size());
     SubsetSearch search(results);
     const auto consistent = [&](std::size_t size) {
-        return !search.best_of_size(size, critical_value(size, alpha), true).members.empty();
+        return !search.best_of_size(size, critical_chi_square(size, alpha, k_infinity), true).members.empty();
     };
     if (!consistent(2)) {
         return std::nullopt;
@@ -431,9 +424,10 @@ std::optional<Largest> largest_of_independent(const LaboratoryResults& results, 
         (consistent(size) ? possible : impossible) = size;
     }
     // The bisection stopped at the first subset of each size; for the final size the best one is wanted.
-    Largest largest{.subset = search.best_of_size(possible, critical_value(possible, alpha), false)};
+    const double critical = critical_chi_square(possible, alpha, k_infinity);
+    Largest largest{.subset = search.best_of_size(possible, critical, false)};
     largest.unique = search.is_unique();
-    largest.in_another = in_another_subset(search, largest.subset.members, n, critical_value(possible, alpha));
+    largest.in_another = in_another_subset(search, largest.subset.members, n, critical);
     return largest;
 }
 
@@ -492,7 +486,8 @@ std::optional<Largest> largest_of_correlated(const LaboratoryResults& results, d
     // With correlations χ² is no sum of one term per result, which the search by intervals rests on: all subsets of a
     // size are compared.
     for (auto size = static_cast<std::size_t>(results.x.size()); size >= 2; --size) {
-        const double critical = critical_value(size, alpha);
+        const double critical = critical_chi_square(
+            size, alpha, results.degrees_of_freedom.size() == 0 ? k_infinity : results.degrees_of_freedom(0));
         Largest largest = best_of_correlated(results, size, critical);
         if (largest.subset.chi_square <= critical) {
             return largest;
@@ -536,6 +531,9 @@ LaboratoryResults in_order(const LaboratoryResults& results, const std::vector<E
     if (results.covariance.size() > 0) {
         sorted.covariance = results.covariance(order, order);
     }
+    if (results.degrees_of_freedom.size() > 0) {
+        sorted.degrees_of_freedom = results.degrees_of_freedom(order);
+    }
     return sorted;
 }
 
@@ -554,7 +552,8 @@ std::vector<std::size_t> as_listed(const Members& members, const std::vector<Eig
 ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, double alpha) {
     require_possible_search(results, alpha);
     const std::vector<Eigen::Index> order = order_of_values(results);
-    const LaboratoryResults sorted = in_order(results, order);
+    const LaboratoryResults normal = as_normal_results(results);
+    const LaboratoryResults sorted = in_order(normal, order);
     const std::optional<Largest> largest =
         results.covariance.size() == 0 ? largest_of_independent(sorted, alpha) : largest_of_correlated(sorted, alpha);
     if (!largest) {
@@ -571,7 +570,8 @@ ConsistentSubset largest_consistent_subset(const LaboratoryResults& results, dou
     subset.in_another = as_listed(largest->in_another, order);
     const LaboratoryResults members = selected_results(results, subset.members);
     subset.mean = spread_weights(weighted_mean(members), subset.members, static_cast<std::size_t>(results.x.size()));
-    subset.test = consistency_test(members, alpha);
+    subset.test = consistency_test(selected_results(normal, subset.members), alpha);
+    subset.test.of_finite_degrees = results.degrees_of_freedom.size() > 0;
     return subset;
 }
 

@@ -355,6 +355,11 @@ std::optional<double> largest_of(const std::optional<EnVariant>& variant) {
     return variant ? std::optional(variant->largest_absolute_en) : std::nullopt;
 }
 
+/// Directions that are judged side by side; the row of all of them is one.
+std::size_t family_of(const MethodSummary& row, const MethodResult& result) {
+    return row.direction != "all" && result.summaries.size() > 1 ? result.summaries.size() - 1 : 1;
+}
+
 /// Directions of their own have no line in common.
 bool has_bias_line(const MethodSummary& row, const MethodResult& result) {
     return row.direction != "all" || result.summaries.size() == 1;
@@ -379,7 +384,8 @@ void add_corrected_verdicts(const MethodComparison& comparison, MethodResult& re
             const std::optional<MethodBias> bias = bias_of(better, chosen, row.points);
             test = bias ? bias->test : std::nullopt;
         }
-        row.verdict_audited = agreement_verdict(agreement(chosen, result.score_probability), worst, test);
+        row.verdict_audited =
+            agreement_verdict(agreement(chosen, result.score_probability, family_of(row, result)), worst, test);
     }
 }
 
@@ -395,7 +401,7 @@ MethodResult compare_methods(const MethodComparison& comparison) {
     }
     for (MethodSummary& row : result.summaries) {
         const MethodDifferences chosen = selected(differences.all, row.points);
-        row.agreement = agreement(chosen, p);
+        row.agreement = agreement(chosen, p, family_of(row, result));
         row.worst = variant_of(result.scores, row.points, &MethodScore::en_worst);
         row.audited = variant_of(result.scores, row.points, &MethodScore::en_audited);
         if (has_bias_line(row, result)) {

@@ -269,8 +269,9 @@ std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, doubl
                 return en_uncertainty(stated, coverage_probability).U;
             };
             // Rounding may take |r| above 1.
-            pair.U = uncertainty_of_difference(U_of(*first.uncertainty), U_of(*second.uncertainty),
-                                               std::clamp(r, -1.0, 1.0));
+            pair.U = expanded_uncertainty_of_difference(
+                {first.value, first.uncertainty->u, U_of(*first.uncertainty)},
+                {second.value, second.uncertainty->u, U_of(*second.uncertainty)}, std::clamp(r, -1.0, 1.0));
             if (pair.U > 0.0) {
                 pair.en = pair.d / pair.U;
             }

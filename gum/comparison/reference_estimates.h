@@ -48,6 +48,9 @@ struct ResultConsistency {
     double alpha = 0.05;
     /// None for more than k_most_results_of_pair_count results.
     std::optional<std::size_t> pairs = {}, incompatible_pairs = {};
+    /// It fails (of a subset: the test of all results does), no clearer and in no more of several items than chance
+    /// makes.
+    bool by_chance = false;
 };
 
 /// Test whether the contributing results agree within their uncertainties: of those that the assigned value rests on

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "gum/argument_check.h"
 #include "gum/comparison/correlated_results.h"
+#include "gum/comparison/scores.h"
 #include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/special_values.h"
+#include "gum/weighted_t_square.h"
 #include "text/numbers.h"
 
 namespace gumcert::gum {
@@ -185,6 +189,98 @@ LeastSquares least_squares(const LaboratoryResults& results, const CentredResult
     return results.covariance.size() == 0 ? independent_least_squares(c) : correlated_least_squares(results, c);
 }
 
+bool has_finite_degrees(const LaboratoryResults& results) {
+    return results.degrees_of_freedom.size() != 0 && !results.degrees_of_freedom.array().isInf().all();
+}
+
+/// Σ z² of results that have t distributions about one value, z the normal quantity with the same tail.
+class NormalScores {
+public:
+    explicit NormalScores(const LaboratoryResults& results) : c_(centred(results)), nu_(results.degrees_of_freedom) {
+        // In the order of the values: the order in which they are listed must not decide the last digit of a sum.
+        for (Index i = 0; i < c_.x.size(); ++i) {
+            order_.push_back(i);
+        }
+        std::sort(order_.begin(), order_.end(), [&](Index a, Index b) {
+            return std::tuple(c_.x(a), c_.inverse(a), nu_(a)) < std::tuple(c_.x(b), c_.inverse(b), nu_(b));
+        });
+    }
+
+    /// u of every result that gives its z at the best value.
+    [[nodiscard]] Eigen::VectorXd u_of_normal() const {
+        constexpr double k_least_t = 1e-3;  // t/z is level there, and 0/0 at 0
+        const double y = best();
+        Eigen::VectorXd u(c_.x.size());
+        for (Index i = 0; i < u.size(); ++i) {
+            const double t = std::max(k_least_t, std::abs((c_.x(i) - y) * c_.inverse(i)));
+            u(i) = c_.unit / c_.inverse(i) * (t / normal_score(t, nu_(i)));
+        }
+        return u;
+    }
+
+private:
+    [[nodiscard]] double sum_at(double y) const {
+        double sum = 0.0;
+        for (const Index i : order_) {
+            const double z = normal_score((c_.x(i) - y) * c_.inverse(i), nu_(i));
+            sum += z * z;
+        }
+        return sum;
+    }
+
+    /// The y with the least sum. There may be a minimum near every value, so that values are tried first.
+    [[nodiscard]] double best() const {
+        constexpr std::size_t k_most_tried = 64;
+        std::vector<double> tried;
+        const std::size_t step = order_.size() / k_most_tried + 1;
+        for (std::size_t i = 0; i < order_.size(); i += step) {
+            tried.push_back(c_.x(order_[i]));
+        }
+        tried.push_back(c_.x(order_.back()));
+        tried.push_back(independent_least_squares(c_).value);
+        std::sort(tried.begin(), tried.end());
+        std::size_t at = 0;
+        double least = k_infinity;
+        for (std::size_t i = 0; i < tried.size(); ++i) {
+            if (const double sum = sum_at(tried[i]); sum < least) {
+                least = sum;
+                at = i;
+            }
+        }
+        return least_between(tried[at == 0 ? 0 : at - 1], tried[std::min(at + 1, tried.size() - 1)]);
+    }
+
+    /// By the golden section.
+    [[nodiscard]] double least_between(double low, double high) const {
+        constexpr int k_steps = 48;
+        constexpr double k_golden = 0.6180339887498949;
+        double inner_low = high - k_golden * (high - low);
+        double inner_high = low + k_golden * (high - low);
+        double at_low = sum_at(inner_low);
+        double at_high = sum_at(inner_high);
+        for (int i = 0; i < k_steps && low < high; ++i) {
+            if (at_low <= at_high) {
+                high = inner_high;
+                inner_high = inner_low;
+                at_high = at_low;
+                inner_low = high - k_golden * (high - low);
+                at_low = sum_at(inner_low);
+            } else {
+                low = inner_low;
+                inner_low = inner_high;
+                at_low = at_high;
+                inner_high = low + k_golden * (high - low);
+                at_high = sum_at(inner_high);
+            }
+        }
+        return 0.5 * (low + high);
+    }
+
+    CentredResults c_;
+    const Eigen::VectorXd& nu_;
+    std::vector<Index> order_;
+};
+
 }  // namespace
 
 SplitNumber split_sum(double a, double b) {
@@ -263,16 +359,47 @@ void require_results(const LaboratoryResults& results) {
     require_results(results, 2);
 }
 
+LaboratoryResults as_normal_results(const LaboratoryResults& results) {
+    LaboratoryResults normal = results;
+    if (!has_finite_degrees(results)) {
+        normal.degrees_of_freedom.resize(0);
+    } else if (results.covariance.size() == 0) {
+        normal.u = NormalScores(results).u_of_normal();
+        normal.degrees_of_freedom.resize(0);
+    } else {
+        // Of one estimate that makes χ² vary as estimates with these ν do that are all wrong together.
+        const double mean = results.degrees_of_freedom.cwiseInverse().cwiseSqrt().mean();
+        normal.degrees_of_freedom.setConstant(1.0 / (mean * mean));
+    }
+    return normal;
+}
+
+double critical_chi_square(std::size_t results, double alpha, double degrees_of_freedom) {
+    const std::size_t of_chi_square = results - 1;
+    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
+    const boost::math::chi_squared_distribution<double, InDouble> distribution(static_cast<double>(of_chi_square));
+    const double critical = boost::math::quantile(boost::math::complement(distribution, alpha));
+    return std::isinf(degrees_of_freedom)
+               ? critical
+               : std::max(critical,
+                          common_t_quantile(std::vector<double>(of_chi_square, 1.0), degrees_of_freedom, 1.0 - alpha));
+}
+
 LaboratoryResults selected_results(const LaboratoryResults& results, const std::vector<std::size_t>& members) {
     const auto size = static_cast<Index>(members.size());
     const bool correlated = results.covariance.size() != 0;
     LaboratoryResults selected{.x = Eigen::VectorXd(size),
                                .u = Eigen::VectorXd(size),
                                .covariance = correlated ? Eigen::MatrixXd(size, size) : Eigen::MatrixXd()};
+    const bool finite = results.degrees_of_freedom.size() != 0;
+    selected.degrees_of_freedom.resize(finite ? size : 0);
     for (Index i = 0; i < size; ++i) {
         const auto from = static_cast<Index>(members[static_cast<std::size_t>(i)]);
         selected.x(i) = results.x(from);
         selected.u(i) = results.u(from);
+        if (finite) {
+            selected.degrees_of_freedom(i) = results.degrees_of_freedom(from);
+        }
         for (Index j = 0; correlated && j < size; ++j) {
             selected.covariance(i, j) =
                 results.covariance(from, static_cast<Index>(members[static_cast<std::size_t>(j)]));
@@ -327,19 +454,24 @@ ReferenceValue arithmetic_mean(const Eigen::VectorXd& x) {
 ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha) {
     require_results(results);
     require_probability(alpha, "alpha of the consistency test");
+    const LaboratoryResults normal = as_normal_results(results);
     ConsistencyTest test;
-    test.chi_square = least_squares(results, centred(results)).chi_square;
+    test.chi_square = least_squares(normal, centred(normal)).chi_square;
     test.degrees_of_freedom = static_cast<std::size_t>(results.x.size()) - 1;
     const auto nu = static_cast<double>(test.degrees_of_freedom);
-    using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // ADR 0058
-    const boost::math::chi_squared_distribution<double, InDouble> distribution(nu);
-    test.critical_value = boost::math::quantile(boost::math::complement(distribution, alpha));
+    const double of_estimate = normal.degrees_of_freedom.size() == 0 ? k_infinity : normal.degrees_of_freedom(0);
+    test.critical_value = critical_chi_square(test.degrees_of_freedom + 1, alpha, of_estimate);
     test.p_value = chi_square_upper_tail(test.chi_square, nu);
+    if (std::isfinite(of_estimate)) {
+        test.p_value = std::max(test.p_value, common_t_upper_tail(std::vector<double>(test.degrees_of_freedom, 1.0),
+                                                                  of_estimate, test.chi_square));
+    }
     test.consistent = test.chi_square <= test.critical_value;
     // χ²/ν has the mean 1 and the standard deviation √(2/ν): the limit stands two of these above 1, √(1 + 2 √(2/ν)). No
     // uncertainty is multiplied by the ratio.
     test.birge_ratio = std::sqrt(test.chi_square / nu);
     test.birge_limit = std::sqrt(1.0 + std::sqrt(8.0 / nu));
+    test.of_finite_degrees = has_finite_degrees(results);
     return test;
 }
 

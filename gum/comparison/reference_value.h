@@ -12,6 +12,8 @@ struct LaboratoryResults {
     Eigen::VectorXd x;                ///< n, values
     Eigen::VectorXd u;                ///< n, standard uncertainties > 0
     Eigen::MatrixXd covariance = {};  ///< n×n with u² on its diagonal; empty: the results are independent of each other
+    /// n, of u; empty: all are infinite. Tests of consistency alone take them into account.
+    Eigen::VectorXd degrees_of_freedom = {};
 };
 
 /// Checks sizes, finite numbers, u > 0, covariance symmetric with |r| ≤ 1 and positive semi-definite.
@@ -61,13 +63,20 @@ struct ReferenceValue {
 struct ConsistencyTest {
     double chi_square = 0.0;  ///< Σ (x_i − y)²/u_i², or (x − 1y)ᵀ V⁻¹ (x − 1y)
     std::size_t degrees_of_freedom = 0;
-    double critical_value = 0.0;  ///< upper quantile of chi-square
+    double critical_value = 0.0;  ///< upper quantile of chi-square, or of the bound below
     double p_value = 0.0;
-    bool consistent = true;    ///< chi_square ≤ critical_value, that is p_value ≥ α
-    double birge_ratio = 0.0;  ///< √(χ²/ν); a rule of thumb, not a test of stated uncertainties
-    double birge_limit = 0.0;  ///< √(1 + √(8/ν))
+    bool consistent = true;          ///< chi_square ≤ critical_value, that is p_value ≥ α
+    double birge_ratio = 0.0;        ///< √(χ²/ν); a rule of thumb, not a test of stated uncertainties
+    double birge_limit = 0.0;        ///< √(1 + √(8/ν))
+    bool of_finite_degrees = false;  ///< of the u of a result
 };
 /// About the weighted mean. The values are centred on one of them before anything is squared.
+///
+/// An u of few degrees of freedom is uncertain itself, and χ² of right results would be too large: 47 % of ten results
+/// with ν = 3 would fail at α = 5 %. (x_i − y)/u_i is a t then, and the normal quantity with its tail stands in its
+/// place, at the y that makes the sum of squares least: 4 % to 8 % fail, for any ν and n. For results that correlate no
+/// exact distribution is known; the critical value is the larger one of χ² and of one estimate behind all u,
+/// (n − 1) F(n − 1, ν), which objects least.
 /// \param alpha  0.05 in key comparisons
 /// \throws  as weighted_mean(); InputError GC-GUM-0004 for alpha
 [[nodiscard]] ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha = 0.05);
@@ -79,6 +88,9 @@ struct ConsistencyTest {
 /// subset of a size holds the smallest terms; the best y is found by branch and bound over intervals of y, the size by
 /// bisection (whenever a size has a consistent subset, so has every smaller one). With a covariance: every subset, the
 /// large ones first.
+///
+/// Finite degrees of freedom: among the results as the test of all of them takes them, which is the subset of the
+/// results themselves.
 struct ConsistentSubset {
     std::vector<std::size_t> members;  ///< ascending
     ReferenceValue mean;               ///< of the members; weights over all n, 0 outside

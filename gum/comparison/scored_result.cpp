@@ -21,6 +21,7 @@ struct Scene {
     const LaboratoryData& data;
     const AssignedValue& assigned;
     const ItemResult& item;
+    Eigen::VectorXd U = {};  ///< of the results as E_n takes them; 0 without. Where the value has weights
 
     [[nodiscard]] double score_probability() const { return en_coverage_probability(scheme.coverage_probability); }
 };
@@ -104,6 +105,69 @@ double correlation_with_value(const Scene& scene, std::size_t position, double u
     return std::clamp(r, -1.0, 1.0);
 }
 
+/// The parts of D = Σ c_j x_j: c is 1 − w for the result itself, −w for the others that the value is made of, and what
+/// the value has beyond them.
+struct PartsOfDifference {
+    double u_square = 0.0, U_square = 0.0;
+    double least_factor = std::numeric_limits<double>::infinity(), largest_factor = 0.0;  // U/u
+
+    void add(double u, double U) {
+        if (u > 0.0) {
+            u_square += u * u;
+            U_square += U * U;
+            least_factor = std::min(least_factor, U / u);
+            largest_factor = std::max(largest_factor, U / u);
+        }
+    }
+    [[nodiscard]] bool have_one_factor() const {
+        return !(u_square > 0.0) || largest_factor <= (1.0 + k_same_coverage_factor) * least_factor;
+    }
+};
+
+PartsOfDifference parts_of_difference(const Scene& scene, std::size_t position, const ScoredResult& point,
+                                      double covariance) {
+    const double k_normal = coverage_factor(scene.score_probability(), std::numeric_limits<double>::infinity());
+    PartsOfDifference parts;
+    if (scene.U.size() == 0) {
+        // No weights: what the value has beyond its regression on the result does not correlate with it.
+        const double u = point.uncertainty->u;
+        const double share = covariance / (u * u);
+        const double rest = *scene.item.u * *scene.item.u - share * covariance;
+        const double k_of_value = scene.item.U_of_scores.value_or(*scene.item.U) / *scene.item.u;
+        parts.add(std::abs(1.0 - share) * u, std::abs(1.0 - share) * point.U_of_scores());
+        parts.add(std::sqrt(std::max(rest, 0.0)), std::sqrt(std::max(rest, 0.0)) * k_of_value);
+        return parts;
+    }
+    const Eigen::VectorXd& w = scene.assigned.weights;
+    for (Eigen::Index j = 0; j < w.size(); ++j) {
+        const double c = std::abs(static_cast<std::size_t>(j) == position ? 1.0 - w[j] : w[j]);
+        parts.add(c * scene.data.u[j], c * scene.U[j]);
+    }
+    // A variance between laboratories, and that of the items.
+    constexpr double k_rounding = 1e-9;
+    const double of_value = *scene.assigned.u * *scene.assigned.u;
+    const double of_weights = scene.data.covariance.size() == 0 ? (w.array() * scene.data.u.array()).square().sum()
+                                                                : w.dot(scene.data.covariance * w);
+    const double between = of_value - of_weights > k_rounding * of_value ? std::sqrt(of_value - of_weights) : 0.0;
+    const double beyond = std::hypot(between, scene.item.u_of_item());
+    parts.add(beyond, k_normal * beyond);
+    return parts;
+}
+
+/// U_D of a result against a value that does not go by scatter. Both U with r, as E_n is defined; where they correlate
+/// and have factors that differ, as those of a result with few degrees of freedom and of the mean that it is part of,
+/// u_D with the factor of the parts of D together: one difference has one E_n, from whichever side it is looked at.
+double expanded_difference(const Scene& scene, std::size_t position, const ScoredResult& point, double covariance) {
+    const double U_of_value = scene.item.U_of_scores.value_or(*scene.item.U);
+    if (*point.correlation != 0.0 && *scene.item.u > 0.0) {
+        const PartsOfDifference parts = parts_of_difference(scene, position, point, covariance);
+        if (!parts.have_one_factor()) {
+            return *point.u_difference * std::sqrt(parts.U_square / parts.u_square);
+        }
+    }
+    return uncertainty_of_difference(point.U_of_scores(), U_of_value, *point.correlation);
+}
+
 /// u_D, U_D and with them E_n and ζ.
 void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResult& point) {
     const auto at = static_cast<Eigen::Index>(position);
@@ -125,8 +189,7 @@ void score_with_uncertainty(const Scene& scene, std::size_t position, ScoredResu
                                         .factor = scatter.share[at] > 0.0 ? scatter.factor : 1.0,
                                         .degrees_of_freedom = difference.degrees_of_freedom};
     } else {
-        point.U_difference =
-            uncertainty_of_difference(point.U_of_scores(), scene.item.U_of_scores.value_or(*scene.item.U), r);
+        point.U_difference = expanded_difference(scene, position, point, covariance);
     }
     require_explained_difference(scene, point);
     if (const std::optional<ComparisonScore> score = score_of_difference(
@@ -481,7 +544,16 @@ double ScoredResult::U_of_scores() const {
 
 std::vector<ScoredResult> scored_results(const ComparisonScheme& scheme, const LaboratoryData& data,
                                          const AssignedValue& assigned, const ItemResult& item) {
-    const Scene scene{scheme, data, assigned, item};
+    Scene scene{scheme, data, assigned, item};
+    // Scores by the scatter of the others have a U_D of their own.
+    if (assigned.weights.size() > 0 && !is_scored_by_scatter(scene)) {
+        scene.U = Eigen::VectorXd::Zero(assigned.weights.size());
+        for (std::size_t i = 0; i < data.size(); ++i) {
+            if (data.results[i]->uncertainty) {
+                scene.U[static_cast<Eigen::Index>(i)] = of_scores(scene, *data.results[i]->uncertainty).U;
+            }
+        }
+    }
     std::vector<ScoredResult> points;
     points.reserve(data.size());
     for (std::size_t i = 0; i < data.size(); ++i) {

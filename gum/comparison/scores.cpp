@@ -24,8 +24,8 @@ double difference_of(double value, double reference, double reference_rest = 0.0
     return difference;
 }
 
-double difference_uncertainty_for_score(double laboratory, double reference, double correlation, const char* symbol) {
-    const double combined = uncertainty_of_difference(laboratory, reference, correlation);
+double difference_uncertainty_for_score(double combined, double laboratory, double reference, double correlation,
+                                        const char* symbol) {
     // U of a difference that is 0 says that both values are the same quantity with all of its uncertainty in common:
     // then no difference is explained by chance, and no score exists.
     if (!(combined > 0.0) || !std::isfinite(combined)) {
@@ -63,6 +63,26 @@ double uncertainty_of_difference(double laboratory, double reference, double cor
     return std::sqrt(gap * gap + 2.0 * (1.0 - correlation) * laboratory * reference);
 }
 
+bool have_different_factors(const ComparedValue& first, const ComparedValue& second) {
+    const double of_first = first.expanded_uncertainty * second.standard_uncertainty;
+    const double of_second = second.expanded_uncertainty * first.standard_uncertainty;
+    return std::max(of_first, of_second) > (1.0 + k_same_coverage_factor) * std::min(of_first, of_second);
+}
+
+double expanded_uncertainty_of_difference(const ComparedValue& laboratory, const ComparedValue& reference,
+                                          double correlation) {
+    const double by_both =
+        uncertainty_of_difference(laboratory.expanded_uncertainty, reference.expanded_uncertainty, correlation);
+    if (correlation == 0.0 || !(laboratory.standard_uncertainty > 0.0) || !(reference.standard_uncertainty > 0.0) ||
+        !have_different_factors(laboratory, reference)) {
+        return by_both;
+    }
+    const double u =
+        uncertainty_of_difference(laboratory.standard_uncertainty, reference.standard_uncertainty, correlation);
+    return u * (std::hypot(laboratory.expanded_uncertainty, reference.expanded_uncertainty) /
+                std::hypot(laboratory.standard_uncertainty, reference.standard_uncertainty));
+}
+
 double settled_score(double value, double reference, double scale, double reference_rest) {
     constexpr double k_most_settled = 1e-6;  // values that are stated too coarsely for more are not helped
     constexpr double k_roundings = 8.0;      // of the two values, their difference, the scale and the quotient
@@ -83,10 +103,12 @@ double settled_score(double value, double reference, double scale, double refere
 
 ComparisonScore score(const ComparedValue& laboratory, const ComparedValue& reference, double correlation) {
     static_cast<void>(difference_of(laboratory.value, reference.value));  // a fault of the values is reported first
-    const double u = difference_uncertainty_for_score(laboratory.standard_uncertainty, reference.standard_uncertainty,
-                                                      correlation, "u");
-    const double U = difference_uncertainty_for_score(laboratory.expanded_uncertainty, reference.expanded_uncertainty,
-                                                      correlation, "U");
+    const double u = difference_uncertainty_for_score(
+        uncertainty_of_difference(laboratory.standard_uncertainty, reference.standard_uncertainty, correlation),
+        laboratory.standard_uncertainty, reference.standard_uncertainty, correlation, "u");
+    const double U = difference_uncertainty_for_score(
+        expanded_uncertainty_of_difference(laboratory, reference, correlation), laboratory.expanded_uncertainty,
+        reference.expanded_uncertainty, correlation, "U");
     return *score_of_difference(laboratory.value, reference.value, u, U);
 }
 

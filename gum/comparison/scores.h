@@ -30,6 +30,18 @@ struct ComparisonScore {
 /// \throws InputError  GC-GUM-0001, -0002 for an uncertainty, GC-GUM-0030 for r out of range
 [[nodiscard]] double uncertainty_of_difference(double laboratory, double reference, double correlation = 0.0);
 
+/// Expanded uncertainty of a difference of two quantities with correlation r, from both U.
+///
+/// √(U_x² + U_X² − 2 r U_x U_X), as E_n is defined. Where r is not 0 and the factors U/u of both sides differ by more
+/// than k_same_coverage_factor, this is no multiple of the standard uncertainty of the difference that lies between both
+/// factors: of what both sides share one part would count with one factor and one with the other. u_D √(ΣU²/Σu²) then,
+/// which is the same where r is 0.
+/// \throws InputError  as uncertainty_of_difference()
+[[nodiscard]] double expanded_uncertainty_of_difference(const ComparedValue& laboratory, const ComparedValue& reference,
+                                                        double correlation);
+/// Whether two coverage factors U/u differ by more than k_same_coverage_factor; factors of u = 0 do not.
+[[nodiscard]] bool have_different_factors(const ComparedValue& first, const ComparedValue& second);
+
 /// (value − reference) / scale as a score. A score that is ±1, ±2 or ±3 but for the rounding of binary numbers is that
 /// limit: 10.2 − 10 over 0.1 is 2, which double precision makes 1.999999999999993. All scores below are settled so.
 /// \param value, reference  as stated, whose rounding is meant
@@ -40,7 +52,7 @@ struct ComparisonScore {
 
 /// E_n number and ζ-score of a laboratory value against a reference value (ISO 13528:2022; ISO/IEC 17043 for E_n).
 ///
-/// E_n = D / √(U_x² + U_X² − 2 r U_x U_X),  ζ = D / √(u_x² + u_X² − 2 r u_x u_X)
+/// E_n = D / √(U_x² + U_X² − 2 r U_x U_X), see expanded_uncertainty_of_difference(),  ζ = D / √(u_x² + u_X² − 2 r u_x u_X)
 /// \param correlation  r between x and X; not 0 where both depend on the same standard, sensor or artefact
 /// \throws InputError  for a number that is not finite, a negative uncertainty, r outside [−1, 1] (GC-GUM-0030), or an
 ///                     uncertainty of the difference that is 0 (GC-GUM-0031): no score exists then

@@ -48,6 +48,7 @@ struct ConsistencySummary {
     double alpha = 0.05;
     std::int64_t degrees_of_freedom = 0;
     bool consistent = true;
+    bool by_chance = false;  ///< it fails, no clearer and in no more of several items than chance makes
     Shown<double> birge_ratio = {}, birge_limit = {};
     std::optional<std::int64_t> pairs = {}, incompatible_pairs = {};  ///< metrological compatibility, κ = 2
 };

@@ -58,6 +58,7 @@ void describe(Archive& a, Struct& r) {
     a("alpha", r.alpha, Range::probability);
     a("degrees_of_freedom", r.degrees_of_freedom, Range::not_negative);
     a("consistent", r.consistent);
+    a.added("by_chance", r.by_chance);
     a("birge_ratio", r.birge_ratio, Range::not_negative);
     a("birge_limit", r.birge_limit, Range::not_negative);
     a("pairs", r.pairs, Range::not_negative);

@@ -123,7 +123,10 @@ void consistency(CertificateBuilder& builder, const Wording& words, const Compar
         return;
     }
     const ConsistencySummary& s = *item.consistency;
-    builder.paragraph(sentence(words, s.consistent ? "consistent" : "not_consistent_sentence",
+    builder.paragraph(sentence(words,
+                               s.consistent  ? "consistent"
+                               : s.by_chance ? "not_consistent_by_chance"
+                                             : "not_consistent_sentence",
                                {{"chi_square", words.number(s.chi_square.text)},
                                 {"nu", plain(s.degrees_of_freedom)},
                                 {"critical", words.number(s.critical_value.text)},

@@ -83,7 +83,7 @@ Points shown_points(CertificateBuilder& builder, const Wording& words, const Com
 }
 
 bool is_refuted(const ComparisonItemEvaluation& item) {
-    return item.consistency && !item.consistency->consistent;
+    return item.consistency && !item.consistency->consistent && !item.consistency->by_chance;
 }
 
 /// How much an item matters: 0 where its results agree and its scores judge all of them.
@@ -296,6 +296,8 @@ void answer_of_many_items(CertificateBuilder& builder, const Wording& words, con
 
 /// What the scores say, item by item where there are few.
 void answer_of_items(CertificateBuilder& builder, const Wording& words, const std::vector<ComparedItem>& items) {
+    sentence_of_items(builder, words, items, "by_chance_items",
+                      [](const ComparedItem& i) { return i.item->consistency && i.item->consistency->by_chance; });
     if (items.size() > k_most_side_by_side) {
         answer_of_many_items(builder, words, items);
         return;

@@ -76,7 +76,7 @@ std::string with_unit(const std::string& number, const ComparisonItemEvaluation&
 }
 
 bool inconsistent(const gum::ItemResult& item) {
-    return item.consistency && !item.consistency->test.consistent;
+    return item.consistency && !item.consistency->test.consistent && !item.consistency->by_chance;
 }
 
 std::string test_text(const ComparisonItemEvaluation& item) {
@@ -310,6 +310,14 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
         remarks.emplace_back(
             "Weights that come from uncertainties with few degrees of freedom are uncertain themselves: U(X) of a "
             "weighted mean then covers less than it claims.");
+    }
+    if (any_item(comparison, [](const gum::ItemResult& item) {
+            return item.consistency && item.consistency->test.of_finite_degrees;
+        })) {
+        remarks.emplace_back(
+            "The test of consistency takes degrees of freedom into account: for a result with few of them the normal "
+            "quantity with the same probability stands in chi-square, and where results correlate the critical value "
+            "is that of one estimate behind all of them.");
     }
     const bool by_default = std::any_of(job.items.begin(), job.items.end(),
                                         [](const gum::ComparisonItem& item) { return item.assigned_value.by_default; });

@@ -151,6 +151,7 @@ reports::ConsistencySummary consistency_record(const gum::ResultConsistency& con
     summary.alpha = consistency.alpha;
     summary.degrees_of_freedom = static_cast<std::int64_t>(test.degrees_of_freedom);
     summary.consistent = test.consistent;
+    summary.by_chance = consistency.by_chance;
     summary.birge_ratio = shown(test.birge_ratio, printed_score);
     summary.birge_limit = shown(test.birge_limit, printed_score);
     summary.pairs = count(consistency.pairs);

@@ -39,6 +39,7 @@ public:
 
     void add() {
         number_of_points();
+        directions();
         single_points();
         unknown_correlation();
         reference_uncertainty();
@@ -101,6 +102,24 @@ private:
         } else {
             say("The covariances say that the " + points + " are independent of each other, or nearly so. Effects of " +
                 "a common set-up that are not in the covariances would make them fewer.");
+        }
+    }
+
+    /// The limit of a p in the family of its row.
+    [[nodiscard]] static double limit_of(double chance, const gum::Agreement& row) {
+        return gum::chance_in_family(chance, row.family);
+    }
+
+    /// What a direction is held against, one of several.
+    void directions() {
+        const gum::Agreement& row = result_.summaries.front().agreement;
+        if (row.family > 1) {
+            say("Of " + std::to_string(row.family) +
+                " directions the gravest verdict counts. Each is held against limits that right uncertainties of all "
+                "directions miss as rarely as those of one: p_low and p_high of a direction against " +
+                gum::round_significant(limit_of(k_significant, row), 2) +
+                ", p of its bias and of its pattern against " +
+                gum::round_significant(limit_of(gum::k_chance_of_bias_and_pattern, row), 2) + ".");
         }
     }
 
@@ -173,8 +192,9 @@ private:
     }
 
     void too_small_differences() {
-        const std::string rows = clauses([](const gum::Agreement& row) { return row.p_low < k_significant; },
-                                         [](const ComparisonSummary& row) { return row.p_low.text; });
+        const std::string rows =
+            clauses([](const gum::Agreement& row) { return row.p_low < limit_of(k_significant, row); },
+                    [](const ComparisonSummary& row) { return row.p_low.text; });
         if (!rows.empty()) {
             say("The differences are smaller than their uncertainties let expect (p_low " + rows +
                 "): the uncertainties are too large, or the points share more than their covariance says. Such an "
@@ -183,8 +203,9 @@ private:
     }
 
     void too_large_differences() {
-        const std::string rows = clauses([](const gum::Agreement& row) { return row.p_high < k_significant; },
-                                         [](const ComparisonSummary& row) { return row.p_high.text; });
+        const std::string rows =
+            clauses([](const gum::Agreement& row) { return row.p_high < limit_of(k_significant, row); },
+                    [](const ComparisonSummary& row) { return row.p_high.text; });
         if (!rows.empty()) {
             say("The differences are larger than their uncertainties let expect (p_high " + rows +
                 "): an uncertainty is too small, or an effect is missing.");
@@ -247,7 +268,7 @@ private:
         const std::string by_rounding = clauses(
             [](const gum::Agreement& row) {
                 return is_of_pattern(row) && !gum::is_refuted_pattern(row) &&
-                       row.p_mahalanobis < gum::k_chance_of_bias_and_pattern;
+                       row.p_mahalanobis < limit_of(gum::k_chance_of_bias_and_pattern, row);
             },
             [](const ComparisonSummary& row) { return row.p_mahalanobis.text; });
         if (!by_rounding.empty()) {
@@ -329,7 +350,8 @@ private:
         for (std::size_t i = 0; i < result_.summaries.size(); ++i) {
             const gum::MethodSummary& row = result_.summaries[i];
             const std::optional<BiasLineSummary>& printed = record_.summary[i].bias;
-            if (row.bias && row.bias->test && printed && holds(*row.bias)) {
+            if (row.bias && row.bias->test && printed &&
+                holds(*row.bias, limit_of(gum::k_chance_of_bias_and_pattern, row.agreement))) {
                 text += (text.empty() ? "" : ", ") + printed->p_no_bias.text + direction_of(row);
             }
         }
@@ -338,21 +360,22 @@ private:
 
     /// Whether chance explains the bias lines.
     void bias_by_chance() {
-        constexpr double k_limit = gum::k_chance_of_bias_and_pattern;
-        const std::string refuted = bias_clauses([](const gum::MethodBias& bias) { return bias.test->p < k_limit; });
+        const std::string refuted =
+            bias_clauses([](const gum::MethodBias& bias, double limit) { return bias.test->p < limit; });
         if (!refuted.empty()) {
             say("Chance does not explain constant and slope of the bias line (p\u2080 " + refuted + ").");
         }
-        const std::string open = bias_clauses(
-            [](const gum::MethodBias& bias) { return bias.test->p >= k_limit && bias.test->p_least < k_limit; });
+        const std::string open = bias_clauses([](const gum::MethodBias& bias, double limit) {
+            return bias.test->p >= limit && bias.test->p_least < limit;
+        });
         if (!open.empty()) {
             say("Whether chance explains constant and slope of the bias line is open: one bound of p\u2080 is below "
                 "its "
                 "limit, and another is not (" +
                 open + ").");
         }
-        const std::string chance = bias_clauses([](const gum::MethodBias& bias) {
-            return bias.test->p_least >= k_limit &&
+        const std::string chance = bias_clauses([](const gum::MethodBias& bias, double limit) {
+            return bias.test->p_least >= limit &&
                    (std::abs(bias.line.constant) > bias.U_constant || std::abs(bias.line.slope) > bias.U_slope);
         });
         if (!chance.empty()) {
@@ -378,7 +401,8 @@ private:
             const bool constant = std::abs(bias.line.constant) > bias.U_constant;
             const bool slope =
                 std::abs(bias.line.slope) > bias.U_slope && std::abs(bias.line.slope - of_noise) > bias.U_slope;
-            if ((constant || slope) && bias.test && bias.test->p < gum::k_chance_of_bias_and_pattern) {
+            if ((constant || slope) && bias.test &&
+                bias.test->p < limit_of(gum::k_chance_of_bias_and_pattern, row.agreement)) {
                 say("The differences" + direction_of(row) + " have a systematic part: the " +
                     (constant && slope ? "constant and the slope"
                      : constant        ? "constant"

@@ -247,6 +247,28 @@ TEST(ComparisonRules, consistency_is_that_of_each_item) {
     EXPECT_THAT(found_by(comparison_rules(), "N07", subject), HasSubstr("stability of the artefact"));
 }
 
+// Of 40 items of right uncertainties one has a p_low or a p below 2.5 % or 5 % nearly always.
+TEST(ComparisonRules, N01_and_N09_take_many_items_as_one_family) {
+    AuditSubject subject = comparison_of(sound_scores());
+    subject.comparison->between_laboratories = true;
+    subject.comparison->items.resize(40);
+    for (AuditedItem& item : subject.comparison->items) {
+        item.has_stability = true;
+        item.p_low = 0.5;
+        item.p_consistent = 0.5;
+    }
+    AuditedItem& item = subject.comparison->items[7];
+    item.name = "P07";
+    item.p_low = 0.015;
+    EXPECT_EQ(found_by(comparison_rules(), "N01", subject), "");
+    item.p_low = 0.0005;
+    EXPECT_THAT(found_by(comparison_rules(), "N01", subject), HasSubstr("threshold 0.00063"));
+    item.p_consistent = 0.03;
+    EXPECT_THAT(found_by(comparison_rules(), "N09", subject), HasSubstr("threshold 0.05"));
+    item.by_chance = true;
+    EXPECT_EQ(found_by(comparison_rules(), "N09", subject), "");
+}
+
 TEST(ComparisonRules, N06_asks_what_was_done) {
     std::vector<AuditedScore> scores = sound_scores();
     scores[0] = score_of("A", 1.5, 1.0, 0.3);

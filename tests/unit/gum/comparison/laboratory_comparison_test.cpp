@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,47 @@ TEST(EvaluateLaboratories, PairsOfTooManyItemsAreLeftOut) {
     const LaboratoryComparison comparison = evaluate_laboratories(stated.scheme, stated.results);
     EXPECT_TRUE(comparison.pairs_left_out);
     EXPECT_TRUE(comparison.items[0].pairs.empty());
+}
+
+/// Items of four laboratories with u = 0.1 whose results scatter by so many times ±(1, −1, 1, −1) u: χ² = 4 times the
+/// square of it.
+LaboratoryComparison with_scatter(const std::vector<double>& scatter) {
+    test::StatedComparison stated = test::comparison_of({}, {});
+    for (int i = 0; i < 4; ++i) {
+        stated.scheme.participants.push_back(
+            {.id = "L" + std::to_string(i), .name = "", .group = "", .cmc_U = std::nullopt});
+    }
+    stated.scheme.items[0].assigned_value.method = AssignedValueMethod::weighted_mean;
+    stated.scheme.items.resize(scatter.size(), stated.scheme.items[0]);
+    for (std::size_t item = 0; item < scatter.size(); ++item) {
+        for (std::size_t p = 0; p < 4; ++p) {
+            ParticipantResult& result = stated.results.emplace_back();
+            result.participant = p;
+            result.item = item;
+            result.value = 5.0 + (p % 2 == 0 ? 0.1 : -0.1) * scatter[item];
+            result.uncertainty = test::u_with_k_2(0.1);
+        }
+    }
+    return evaluate_laboratories(stated.scheme, stated.results);
+}
+
+// One of 20 items with p = 0.03 is what chance makes at α = 5 %; one with p = 0.0003 is not, nor are six.
+TEST(EvaluateLaboratories, AFewOfManyItemsFailByChance) {
+    const double fails = 1.5;  // χ² = 9.0 of 3 degrees of freedom, p = 0.029
+    std::vector<double> scatter(20, 0.5);
+    scatter[7] = fails;
+    const LaboratoryComparison one = with_scatter(scatter);
+    EXPECT_FALSE(one.items[7].consistency->test.consistent);
+    EXPECT_TRUE(one.items[7].consistency->by_chance);
+    EXPECT_FALSE(one.items[6].consistency->by_chance);
+    scatter[7] = 2.2;
+    EXPECT_FALSE(with_scatter(scatter).items[7].consistency->by_chance);
+    std::fill_n(scatter.begin(), 6, fails);
+    scatter[7] = 0.5;
+    EXPECT_FALSE(with_scatter(scatter).items[0].consistency->by_chance);
+    // An item alone is no family: its test has the level that it states.
+    EXPECT_FALSE(with_scatter({fails}).items[0].consistency->by_chance);
+    EXPECT_FALSE(with_scatter({fails, fails}).items[0].consistency->by_chance);
 }
 
 TEST(EvaluateLaboratories, RefusesNoResults) {

@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -216,6 +218,93 @@ TEST(ReferenceValue, ArithmeticMeanHasTheStandardDeviationOfTheValues) {
         EXPECT_TRUE(agrees(arithmetic_mean(to_vector({factor, 3.0 * factor})).u, factor, 1e-15)) << factor;
     }
     EXPECT_EQ(code_of<InputError>([] { (void)arithmetic_mean(to_vector({1e308, -1e308})); }), "GC-GUM-0001");
+}
+
+/// Results of laboratories that state s/√n of n = ν + 1 readings, all of them right.
+LaboratoryResults of_readings(std::mt19937& random, Eigen::Index laboratories, int nu) {
+    LaboratoryResults labs{.x = Eigen::VectorXd(laboratories), .u = Eigen::VectorXd(laboratories)};
+    labs.degrees_of_freedom = Eigen::VectorXd::Constant(laboratories, nu);
+    // Polar method: std::normal_distribution is not the same in every library.
+    const auto uniform = [&] { return (static_cast<double>(random()) + 0.5) / 4294967296.0; };
+    const auto normal = [&] {
+        return std::sqrt(-2.0 * std::log(uniform())) * std::cos(2.0 * std::numbers::pi * uniform());
+    };
+    for (Eigen::Index i = 0; i < laboratories; ++i) {
+        Eigen::VectorXd readings(nu + 1);
+        for (double& reading : readings) {
+            reading = normal();
+        }
+        labs.x(i) = readings.mean();
+        labs.u(i) = std::sqrt((readings.array() - labs.x(i)).square().sum() / (nu * (nu + 1.0)));
+    }
+    return labs;
+}
+
+// Welch 1951 and before: u of few readings are too small for the results that scatter most. By χ² alone 47 % of ten
+// results with ν = 3 would contradict each other.
+TEST(ReferenceValue, RightUncertaintiesOfFewReadingsAreConsistent) {
+    constexpr int k_sets = 400;
+    for (const int nu : {2, 3, 5, 20}) {
+        for (const Eigen::Index laboratories : {Eigen::Index{2}, Eigen::Index{5}, Eigen::Index{20}}) {
+            std::mt19937 random(static_cast<unsigned>(100 * nu + laboratories));
+            int refuted = 0;
+            int by_chi_square = 0;
+            int left_out = 0;
+            for (int set = 0; set < k_sets; ++set) {
+                LaboratoryResults labs = of_readings(random, laboratories, nu);
+                const ConsistencyTest test = consistency_test(labs);
+                EXPECT_TRUE(test.of_finite_degrees);
+                refuted += test.consistent ? 0 : 1;
+                if (laboratories > 2 && set < 100) {
+                    const ConsistentSubset subset = largest_consistent_subset(labs);
+                    left_out += subset.members.size() < static_cast<std::size_t>(laboratories) ? 1 : 0;
+                    EXPECT_TRUE(subset.test.consistent);
+                    EXPECT_EQ(subset.members.size() == static_cast<std::size_t>(laboratories), test.consistent);
+                }
+                labs.degrees_of_freedom.resize(0);
+                by_chi_square += consistency_test(labs).consistent ? 0 : 1;
+            }
+            const double rate = static_cast<double>(refuted) / k_sets;
+            EXPECT_LE(rate, 0.105) << nu << " " << laboratories;
+            EXPECT_GE(rate, 0.01) << nu << " " << laboratories;
+            EXPECT_LE(left_out, 15) << nu << " " << laboratories;
+            EXPECT_LE(refuted, by_chi_square + 10) << nu << " " << laboratories;
+        }
+    }
+}
+
+TEST(ReferenceValue, ATestOfFewDegreesOfFreedomIsOneOfManyInTheLimit) {
+    LaboratoryResults labs = key_comparison_results();
+    const ConsistencyTest exact = consistency_test(labs);
+    labs.degrees_of_freedom = Eigen::VectorXd::Constant(6, 1e9);
+    EXPECT_TRUE(agrees(consistency_test(labs).chi_square, exact.chi_square, 1e-6));
+    labs.degrees_of_freedom = Eigen::VectorXd::Constant(6, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(consistency_test(labs).chi_square, exact.chi_square);
+    EXPECT_FALSE(consistency_test(labs).of_finite_degrees);
+    // One result of few degrees of freedom alone, far off: it is not far off for its t, and the others are as they were.
+    labs.degrees_of_freedom(4) = 2.0;
+    EXPECT_TRUE(consistency_test(labs).consistent);
+    EXPECT_EQ(largest_consistent_subset(labs).members.size(), 6U);
+    labs.x(4) = 30.0;
+    EXPECT_FALSE(consistency_test(labs).consistent);
+    EXPECT_EQ(largest_consistent_subset(labs).members, (std::vector<std::size_t>{0, 1, 2, 3, 5}));
+    // Whatever the unit and the zero.
+    const double chi_square = consistency_test(labs).chi_square;
+    labs.x = (labs.x.array() + 1e3) * 1e-6;
+    labs.u *= 1e-6;
+    EXPECT_TRUE(agrees(consistency_test(labs).chi_square, chi_square, 1e-9));
+}
+
+TEST(ReferenceValue, CorrelatedResultsOfFewDegreesOfFreedomAreHeldAgainstOneEstimate) {
+    LaboratoryResults labs = with_correlation(key_comparison_results(), 0, 1, 0.5);
+    const ConsistencyTest exact = consistency_test(labs);
+    labs.degrees_of_freedom = Eigen::VectorXd::Constant(6, 4.0);
+    const ConsistencyTest test = consistency_test(labs);
+    EXPECT_EQ(test.chi_square, exact.chi_square);
+    EXPECT_TRUE(agrees(test.critical_value, 5.0 * 6.256056502, 1e-6));  // F_0.95(5, 4)
+    EXPECT_GT(test.p_value, exact.p_value);
+    EXPECT_TRUE(test.consistent);
+    EXPECT_EQ(largest_consistent_subset(labs).members.size(), 6U);
 }
 
 TEST(ReferenceValue, IncompatiblePairs) {

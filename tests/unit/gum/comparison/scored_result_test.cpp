@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "gum/comparison/laboratory_comparison.h"
 #include "gum/coverage.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
@@ -409,6 +411,56 @@ TEST(ScoredResults, ZetaCountsWhatAResultHasInTheDifference) {
     // D = (1 − w)(x − mean of the others): of u_D² x has 1 − w = 0.182, so that ν = 5/0.182² = 151.
     const double judged = scored(5.0).zeta_as_normal.value_or(0.0);
     EXPECT_NEAR(judged, normal_score(infinite, 5.0 / (0.18182 * 0.18182)), 1e-3);
+}
+
+// D of two laboratories from their weighted mean are parts of one difference: −0.145 and 0.145 of 0.29. Both U in one
+// root, with r and factors that differ, gave E_n = −0.41 and 1.01.
+TEST(ScoredResults, OneDifferenceHasOneEnWhateverTheDegreesOfFreedom) {
+    const auto of = [](double u, double nu) {
+        const double k = coverage_factor(0.9545, nu);
+        return ResultUncertainty{.u = u, .U = k * u, .k = k, .degrees_of_freedom = nu};
+    };
+    constexpr double k_infinite = std::numeric_limits<double>::infinity();
+    for (const double nu : {1.0, 2.0, 3.0, 5.0, 10.0, 30.0, k_infinite}) {
+        for (const double u : {0.02, 0.1, 0.3}) {
+            for (const double r : {0.0, 0.4, -0.4}) {
+                test::StatedComparison stated = test::comparison_of({}, {});
+                stated.scheme.items[0].assigned_value.method = AssignedValueMethod::weighted_mean;
+                stated.add("A", 1.0, of(u, nu));
+                stated.add("B", 1.29, of(0.1, k_infinite));
+                if (r != 0.0) {
+                    stated.scheme.correlations.push_back({0, 1, r});
+                }
+                const LaboratoryComparison found = evaluate_laboratories(stated.scheme, stated.results);
+                // Of correlated results a weight may be negative: both D have one sign then.
+                const double a = std::abs(*found.results[0].en);
+                const double b = std::abs(*found.results[1].en);
+                EXPECT_NEAR(a, b, 1e-9 * b) << nu << " " << u << " " << r;
+                EXPECT_NEAR(a, std::abs(*found.items[0].pairs[0].en), 1e-9 * b) << nu << " " << u << " " << r;
+            }
+        }
+    }
+    // The law: U(D) lies between the factors of its parts, as often as results differ in them and correlate.
+    for (int seed = 0; seed < 40; ++seed) {
+        test::StatedComparison stated = test::comparison_of({}, {});
+        stated.scheme.items[0].assigned_value.method =
+            seed % 2 == 0 ? AssignedValueMethod::weighted_mean : AssignedValueMethod::reference;
+        stated.scheme.items[0].assigned_value.participant = "L2";
+        const std::array<double, 4> degrees = {1.0 + seed % 5, 3.0, k_infinite, 4.0 + seed};
+        for (std::size_t i = 0; i < degrees.size(); ++i) {
+            stated.add("L" + std::to_string(i), 1.0 + 0.1 * static_cast<double>(i),
+                       of(0.05 + 0.01 * static_cast<double>((seed * 7 + static_cast<int>(i) * 3) % 11), degrees[i]));
+        }
+        stated.scheme.correlations = {{0, 1, 0.3}, {0, 2, 0.5}};
+        const double largest = coverage_factor(0.9545, std::min(degrees[0], 3.0));
+        for (const ScoredResult& point : scores_of(stated)) {
+            if (point.en) {
+                EXPECT_LE(*point.U_difference, (1.0 + 1e-9) * largest * *point.u_difference) << seed;
+                EXPECT_GE(*point.U_difference, (1.0 - 1e-9) * coverage_factor(0.9545, k_infinite) * *point.u_difference)
+                    << seed;
+            }
+        }
+    }
 }
 
 TEST(ScoredResults, NoSignalRestsOnTheChoiceOfASubset) {

@@ -338,5 +338,22 @@ TEST(EnUncertainty, IsForAbout95Percent) {
     EXPECT_EQ(code_of<InputError>([] { (void)en_coverage_probability(1.0); }), "GC-GUM-0004");
 }
 
+// What both sides share counts with one factor: U = 4.5 u against U = 2 u with r = 0.99 gave U_D = 18 u_D.
+TEST(Scores, AFactorOfTheDifferenceLiesBetweenThoseOfBothSides) {
+    for (const double r : {-0.9, -0.3, 0.3, 0.9, 0.99}) {
+        for (const double k : {2.0, 2.02, 2.3, 4.5, 14.0}) {
+            for (const double u : {0.05, 0.1, 0.2}) {
+                const ComparedValue one{1.0, u, k * u};
+                const ComparedValue other{1.1, 0.1, 0.2};
+                const ComparisonScore found = score(one, other, r);
+                EXPECT_GE(found.U_difference / found.u_difference, 2.0 * (1.0 - 0.03));
+                EXPECT_LE(found.U_difference / found.u_difference, k * (1.0 + 0.03) + (k < 2.05 ? 0.3 : 0.0));
+                EXPECT_NEAR(found.U_difference, score(other, one, r).U_difference, 1e-13);
+                EXPECT_NEAR(score(one, other, 0.0).U_difference, std::hypot(k * u, 0.2), 1e-15);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::gum
