@@ -409,7 +409,12 @@ std::optional<DeviationByN> deviation_by_n_of(const WorksheetView& view, const S
 void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector& findings) {
     const std::optional<StatedNumber>& number = at.is.stated ? at.is.stated : at.is.u;
     const SheetFormula* maker = number ? view.maker_of(number->place) : nullptr;
-    if (maker == nullptr || !calls(maker->formula, {"STDEV.P", "STDEVP", "STDEVPA", "VAR.P", "VARP", "VARPA"})) {
+    // How a bath or a plate varies over all its places has no n − 1.
+    const bool is_scatter = at.is.type_a.value_or(at.is.origin == Origin::readings) ||
+                            at.is.contributor == Contributor::repeatability ||
+                            at.is.contributor == Contributor::reproducibility;
+    if (maker == nullptr || !is_scatter ||
+        !calls(maker->formula, {"STDEV.P", "STDEVP", "STDEVPA", "VAR.P", "VARP", "VARPA"})) {
         return;
     }
     const std::optional<DeviationByN> spread = deviation_by_n_of(view, *maker);

@@ -603,7 +603,8 @@ PointOfHead point_of(std::string_view head) {
                                                         ? read_leading_number(part, "", Percent::unit)
                                                         : std::nullopt;
         const std::string unit =
-            number ? unit_in_rest(number->rest.substr(0, number->rest.find(" in "))) : std::string();
+            number ? unit_in_rest(number->rest.substr(0, std::min(number->rest.find(" in "), number->rest.find(" / "))))
+                   : std::string();
         if (!unit.empty() && known_unit(unit)) {
             return {.at = at, .text = number->number.text + " " + unit};
         }

@@ -1179,15 +1179,24 @@ ForeignTables budgets_in(const workbook::Workbook& workbook, const workbook::Eva
         const SheetView sheet(workbook, evaluation, i, sign);
         const std::string name = workbook.sheets.size() == 1 ? file : file + ", " + workbook.sheets[i].name;
         const std::size_t before = tables.budgets.size(), told = tables.not_read.size();
+        const bool was_unusable = tables.has_unusable;
         const auto read = [&](const SheetView& view) {
             for (const TablePart& part : parts_of(view)) {
                 TableReader(view, name, tables, titles).read(part);
             }
         };
         read(sheet);
-        if (tables.budgets.size() == before && tables.not_read.size() == told) {
+        if (tables.budgets.size() == before && tables.has_unusable == was_unusable) {
             if (const std::optional<TurnedBlock> block = turned_block(sheet)) {
+                // What was said of its rows as they stand there is not of the table.
+                const auto first = tables.not_read.begin() + static_cast<std::ptrdiff_t>(told);
+                const std::vector<Sentence> as_it_stands(first, tables.not_read.end());
+                tables.not_read.erase(first, tables.not_read.end());
                 read(SheetView(workbook, evaluation, i, sign, block));
+                if (tables.budgets.size() == before) {
+                    tables.not_read.resize(told);
+                    tables.not_read.insert(tables.not_read.end(), as_it_stands.begin(), as_it_stands.end());
+                }
             }
         }
         tell_once(tables.not_read, told);

@@ -281,6 +281,17 @@ bool is_turned_head(const std::string& text, Column column, std::size_t filled, 
     return !is_statement && (5 * filled >= 3 * quantities || (may_be_blank && filled > 0));
 }
 
+/// Whether a sheet names a combined standard uncertainty.
+bool states_combined(const SheetView& sheet) {
+    return std::any_of(sheet.rows().begin(), sheet.rows().end(), [&sheet](const auto& line) {
+        return std::any_of(line.second.begin(), line.second.end(), [&sheet](const Cell* cell) {
+            const CellValue held = sheet.value(*cell);
+            return held.kind == CellKind::text && statement_of(held.text) == Statement::u_c &&
+                   column_of(held.text) != Column::u;
+        });
+    });
+}
+
 }  // namespace
 
 std::optional<TurnedBlock> turned_block(const SheetView& sheet) {
@@ -310,11 +321,11 @@ std::optional<TurnedBlock> turned_block(const SheetView& sheet) {
             }
             const bool has_u = heads.contains(Column::u) || heads.contains(Column::contribution);
             const bool is_divided = heads.contains(Column::stated) && heads.contains(Column::divisor);
-            // Under a blank corner, value, unit and u may be those of results.
+            // Value, unit and u alone may be those of results.
             const bool is_of_budget = heads.contains(Column::divisor) || heads.contains(Column::distribution) ||
                                       heads.contains(Column::sensitivity) || heads.contains(Column::contribution) ||
-                                      heads.contains(Column::type);
-            if (heads.size() >= k_least_heads && (has_u || is_divided) && (!held.empty() || is_of_budget)) {
+                                      heads.contains(Column::type) || states_combined(sheet);
+            if (heads.size() >= k_least_heads && (has_u || is_divided) && is_of_budget) {
                 return TurnedBlock{.first = {.row = names->first, .column = column},
                                    .last = {.row = last, .column = width}};
             }

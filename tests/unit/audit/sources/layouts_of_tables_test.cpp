@@ -188,7 +188,14 @@ TEST(LayoutsOfTables, RowsMayStandInColumns) {
         EXPECT_EQ(sound.subject.budgets[0].rows[1].place, "b!C3") << "a cell of the file";
         EXPECT_TRUE(finds(report_on(table(corner, "0.0060")), "U26")) << corner << ": u is not 0.006/1.732";
     }
-    // A table of results is none.
+    // Results further to the right, and a table of results, which is none.
+    const AuditReport beside = report_on(
+        "Quantity,Reference,Drift of the reference,Resolution,Repeatability,,u_c,k,U\nUnit,mm,mm,mm,mm,,mm,,mm\n"
+        "u,0.010,0.006,0.0029,0.003,,0.0124,2,0.025\n");
+    ASSERT_EQ(beside.results.size(), 1U);
+    EXPECT_NEAR(beside.results[0].audited.u_c, 0.01238, 1e-4);
+    EXPECT_TRUE(
+        report_on("Quantity,10 V,100 V\nValue,10.001,100.02\nUnit,V,V\nu,0.001,0.01\nU,0.002,0.02\n").results.empty());
     EXPECT_TRUE(
         report_on("Quantity,gauge 1,gauge 2,gauge 3\nValue,1,2,3\nUnit,V,V,V\nU,0.1,0.1,0.1\n").results.empty());
 }
