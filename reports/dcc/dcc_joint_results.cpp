@@ -171,6 +171,31 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
 }
 
+/// Without exact results: they have no covariance, and a standard uncertainty of 0 is no statement of one. The factor of a
+/// region of all results covers the others with the same probability at least.
+ResultCovariance without_exact_results(const EvaluationRecord& record, const ResultCovariance& all) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < all.names.size(); ++i) {
+        const Result* const result = result_of(record, all.names[i]);
+        if (result == nullptr || result->u != 0.0 || all.matrix[i][i] != 0.0) {
+            kept.push_back(i);
+        }
+    }
+    ResultCovariance out = all;
+    out.names.clear();
+    out.units.clear();
+    out.matrix.clear();
+    for (const std::size_t i : kept) {
+        out.names.push_back(all.names[i]);
+        out.units.push_back(all.units[i]);
+        std::vector<double>& row = out.matrix.emplace_back();
+        for (const std::size_t j : kept) {
+            row.push_back(all.matrix[i][j]);
+        }
+    }
+    return out;
+}
+
 std::string csv_of(const ResultCovariance& c) {
     std::string csv = "result,unit";
     for (const std::string& name : c.names) {
@@ -204,15 +229,19 @@ void write_joint_results(DccWriter& w) {
     if (!record.covariance && !in_file) {
         return;
     }
+    const bool is_here = !in_file && is_square(*record.covariance);
+    const ResultCovariance c = is_here ? without_exact_results(record, *record.covariance) : ResultCovariance();
+    if (is_here && c.names.empty()) {
+        return;  // all of them are exact
+    }
     w.xml.open("dcc:result");
     w.text("dcc:name", w.words()("dcc", "joint"));
-    if (in_file || !is_square(*record.covariance)) {
+    if (!is_here) {
         w.data_sentence(w.words().filled(
             "dcc", "covariance_file", {{"file", in_file ? *record.rotary->covariance_file : record.covariance->file}}));
         w.xml.close();
         return;
     }
-    const ResultCovariance& c = *record.covariance;
     // A product with a unit that D-SI does not have would need a definition of its own for each element of the matrix.
     // The table in CSV states the units of the results instead.
     const bool in_d_si = std::none_of(c.units.begin(), c.units.end(), needs_unit_definition);

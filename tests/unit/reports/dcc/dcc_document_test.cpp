@@ -400,6 +400,30 @@ TEST(DccDocument, MarksJointResultsWithinTheScope) {
     EXPECT_TRUE(contains(texts(checked(record), "dcc:validXMLList"), "true false"));
 }
 
+/// A standard uncertainty of 0 beside a covariance would be an error of this program's own check of digital certificates.
+TEST(DccDocument, LeavesExactResultsOutOfJointOnes) {
+    EvaluationRecord record = test::sample_two_results_record();
+    ASSERT_EQ(record.covariance->names.size(), 2U);
+    const std::string name = record.covariance->names[0];
+    for (Result& result : record.results) {
+        if (result.name == name) {
+            result.u = 0.0;
+        }
+    }
+    record.covariance->matrix[0] = {0.0, 0.0};
+    record.covariance->matrix[1][0] = 0.0;
+    const std::string document = checked(record);
+    const std::vector<std::string> lists = texts(document, "si:valueStandardMUXMLList");
+    EXPECT_FALSE(contains(lists, "0"));
+    EXPECT_TRUE(std::none_of(lists.begin(), lists.end(), [](const auto& list) { return list.starts_with("0 "); }));
+    EXPECT_EQ(texts(document, "si:covarianceXMLList").size(), 1U);
+    record.covariance->matrix[1][1] = 0.0;
+    for (Result& result : record.results) {
+        result.u = 0.0;
+    }
+    EXPECT_TRUE(texts(checked(record), "si:covarianceXMLList").empty());
+}
+
 /// A singular covariance has no ellipsoid; the certificate prints the hyper-rectangle then.
 TEST(DccDocument, StatesTheRectangleWhereThereIsNoEllipsoid) {
     EvaluationRecord record = test::sample_two_results_record();
