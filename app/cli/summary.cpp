@@ -219,8 +219,10 @@ void print_laboratories(const reports::Comparison& comparison, const std::string
 }
 
 /// What a comparison of methods shows, for people.
-const char* verdict_text(const std::string& verdict) {
-    return verdict == "validated"                     ? "validated"
+const char* verdict_text(const std::string& verdict, bool lacks_degrees) {
+    return verdict == "agreement_few_points" && lacks_degrees
+               ? "agreement; too few degrees of freedom to tell whether the uncertainties are right"
+           : verdict == "validated"                   ? "validated"
            : verdict == "agreement_reference_limited" ? "agreement, limited by the uncertainty of the reference"
            : verdict == "uncertainty_too_large" ? "agreement, but the uncertainties are larger than the differences"
            : verdict == "reference_not_better"  ? "no contradiction; the reference is not better than the method"
@@ -245,7 +247,7 @@ void print_methods(const reports::Comparison& comparison) {
             print_to_stdout("   p_low {}", row.p_low.text);
         }
         if (!row.verdict.empty()) {
-            print_to_stdout("\n          {}", verdict_text(row.verdict));
+            print_to_stdout("\n          {}", verdict_text(row.verdict, row.power_lacks_degrees));
         }
         print_to_stdout("\n");
     }

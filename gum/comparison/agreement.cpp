@@ -552,6 +552,12 @@ void add_distributions(const MethodDifferences& differences, const VectorXd& u, 
     }
     result = *found;
     result.is_bounded = laws.size() > 1;
+    if (have_finite_degrees(differences) && result.power_to_confirm < k_least_power_to_confirm) {
+        const ScoreLaw normal(EstimatesBy::exact, differences, u, R, of_zeta);
+        Agreement of_normal = result;
+        add_test_of_uncertainty(normal, normal.of_zeta(), of_normal);
+        result.power_lacks_degrees = of_normal.power_to_confirm >= k_least_power_to_confirm;
+    }
 }
 
 }  // namespace

@@ -55,6 +55,9 @@ struct Agreement {
     /// Probability that Σζ² refutes both, and neither p_low nor p_high is below 0.025, where all uncertainties are
     /// right.
     double power_to_confirm = 0.0;
+    /// The power would be enough if all degrees of freedom were infinite: no more points are missing, but better known
+    /// uncertainties.
+    bool power_lacks_degrees = false;
     std::size_t count_by_chance = 0;  ///< limit of count_above_1 (count_above_1_by_chance())
     std::size_t family = 1;           ///< sets of points of which the gravest verdict counts
     /// Constant deviation that |E_n| > 1 finds at every single point with a probability of 80 % and 95 %:

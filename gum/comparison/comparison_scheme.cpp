@@ -16,6 +16,11 @@ EnUncertainty en_uncertainty(const ResultUncertainty& uncertainty, double covera
                                                   uncertainty.degrees_of_freedom, coverage_probability);
 }
 
+bool has_conventional_zero(const Unit& unit) {
+    constexpr std::size_t k_decibel = Dimension::k_base_units - 1;
+    return unit.is_celsius_temperature() || unit.dimension().exponent(k_decibel) != 0.0;
+}
+
 std::string word_of(AssignedValueMethod method) {
     return std::string(k_assigned_value_words[static_cast<std::size_t>(method)]);
 }

@@ -158,6 +158,10 @@ struct ComparisonVector {
     Eigen::MatrixXd reference_correlation;  ///< of the assigned values
 };
 
+/// Whether the zero of a unit is a convention, as that of °C, °F and of a level in dB: a percentage of such a value
+/// depends on it.
+[[nodiscard]] bool has_conventional_zero(const Unit& unit);
+
 /// A comparison between laboratories without its results.
 struct ComparisonScheme {
     double coverage_probability = 0.9545;

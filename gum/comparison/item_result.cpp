@@ -81,6 +81,13 @@ std::optional<double> sigma_pt_of(const LaboratoryData& data, double assigned_va
         case SigmaPtMethod::given:
             return request.value;
         case SigmaPtMethod::percent_of_assigned:
+            if (has_conventional_zero(data.item->unit)) {
+                throw InputError(Diagnostic{.code = "GC-COMPARE-0130",
+                                            .where = data.where + ", sigma_pt",
+                                            .what = "sigma_pt is a percentage of a value in " + data.item->unit.text(),
+                                            .rule = "a percentage of such a value depends on where its zero was put",
+                                            .action = "State sigma_pt as a number, in the unit of differences."});
+            }
             return request.value / 100.0 * std::abs(assigned_value);
         case SigmaPtMethod::mass_fraction:
             // The formula is one of mass fractions, not of their unit: there and back.

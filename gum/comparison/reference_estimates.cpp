@@ -49,6 +49,7 @@ public:
             evaluate(estimate);
             if (method == data_.item->assigned_value.method) {  // with all that was asked, trials or constants
                 estimate.value = assigned_.value;
+                estimate.rest = assigned_.rest;
                 estimate.u = assigned_.u;
                 estimate.used = true;
             }
@@ -73,6 +74,7 @@ private:
 
 void take(ReferenceEstimate& estimate, const ReferenceValue& value) {
     estimate.value = value.value;
+    estimate.rest = value.rest;
     estimate.u = value.u;
 }
 
@@ -83,10 +85,18 @@ void take_random_effects(ReferenceEstimate& estimate, const ReferenceValue& valu
 
 void take_robust(ReferenceEstimate& estimate, const RobustEstimate& value) {
     estimate.value = value.location;
+    estimate.rest = value.rest;
     estimate.scale = value.scale;
     if (value.scale > 0.0) {
         estimate.u = value.u;
     }
+}
+
+/// What the nearest double leaves of the mean of the two results in the middle.
+double rest_of_median(Eigen::VectorXd x, double value) {
+    std::sort(x.begin(), x.end());
+    const Eigen::Index n = x.size();
+    return 0.5 * ((x[(n - 1) / 2] - value) + (x[n / 2] - value));
 }
 
 void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const LaboratoryResults& results) {
@@ -136,6 +146,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
     estimates.add(AssignedValueMethod::arithmetic_mean, [&](ReferenceEstimate& estimate) {
         const ReferenceValue mean = arithmetic_mean(x);
         estimate.value = mean.value;
+        estimate.rest = mean.rest;
         estimate.scale = mean.u * std::sqrt(static_cast<double>(x.size()));  // exactly 0 for equal results
         if (mean.u > 0.0) {
             estimate.u = mean.u;
@@ -151,6 +162,7 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
     add_robust(AssignedValueMethod::median, RobustMean::median, [&] { return median_with_made(values); });
     estimates.add("niqr", [&](ReferenceEstimate& estimate) {
         estimate.value = median(values);
+        estimate.rest = rest_of_median(x, estimate.value);
         estimate.scale = normalised_interquartile_range(values);
     });
     add_robust(AssignedValueMethod::algorithm_a, RobustMean::algorithm_a, [&] {

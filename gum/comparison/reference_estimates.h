@@ -24,6 +24,7 @@ inline constexpr std::size_t k_most_results_of_pair_count = 2000;
 struct ReferenceEstimate {
     std::string method;  ///< word of the method, also "niqr" and "kernel_mode"
     double value = 0.0;
+    double rest = 0.0;  ///< the estimate is value + rest: SplitNumber
     std::optional<double> u = {};
     std::optional<double> scale = {};    ///< s*, s, MADe … of the results
     std::optional<double> between = {};  ///< τ

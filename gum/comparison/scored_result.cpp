@@ -286,8 +286,7 @@ void score_without_uncertainty(const Scene& scene, ScoredResult& point) {
         point.percent_of_allowed =
             percent_of_allowed(point.value, point.assigned_value, *scene.item.delta_E, point.assigned_rest);
     }
-    // A percentage of a Celsius temperature depends on where its zero was put.
-    if (!scene.data.item->unit.is_celsius_temperature()) {
+    if (!has_conventional_zero(scene.data.item->unit)) {
         point.percent = percent_difference(point.value, point.assigned_value, point.assigned_rest);
     }
 }

@@ -333,6 +333,7 @@ void describe(Archive& a, Struct& r) {
     a.added("p_if_too_small", r.p_if_too_small, Range::probability);
     a.added("p_if_too_large", r.p_if_too_large, Range::probability);
     a.added("power_to_confirm", r.power_to_confirm, Range::probability);
+    a.added("power_lacks_degrees", r.power_lacks_degrees);
     a.added("count_by_chance", r.count_by_chance, Range::not_negative);
     a.added("found_with_80_percent", r.found_with_80_percent, Range::not_negative);
     a.added("found_with_95_percent", r.found_with_95_percent, Range::not_negative);

@@ -441,7 +441,8 @@ struct ComparisonSummary {
     Shown<std::optional<double>> ratio_reference = {};               ///< rms U of the reference / rms U of the method
     std::optional<double> p_if_too_small = {}, p_if_too_large = {};  ///< of Σζ² if U should be twice, or half, as large
     Shown<std::optional<double>> power_to_confirm = {};              ///< share of right U that the points would confirm
-    std::optional<std::int64_t> count_by_chance = {};                ///< limit of count_above_1
+    bool power_lacks_degrees = false;                  ///< it would be enough if all degrees of freedom were infinite
+    std::optional<std::int64_t> count_by_chance = {};  ///< limit of count_above_1
     /// Constant deviation that is found at every single point with a probability of 80 % and 95 %.
     Shown<std::optional<double>> found_with_80_percent = {}, found_with_95_percent = {};
     Shown<std::optional<double>> max_abs_En_worst = {};

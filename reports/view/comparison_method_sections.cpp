@@ -60,12 +60,14 @@ const ComparisonSummary* gravest(const Comparison& c) {
 }
 
 /// "Validated" is said of a method as a whole or not at all: a direction alone has no objection against it.
-Text verdict_name(const Wording& words, const Comparison& c, const std::string& verdict) {
+Text verdict_name(const Wording& words, const Comparison& c, const ComparisonSummary& of) {
+    const std::string& verdict = of.verdict;
     if (verdict.empty()) {
         return {};
     }
     const bool alone = verdict == k_validated && gravest(c)->verdict != k_validated;
-    return words("comparison_verdict_name", alone ? "no_objection" : verdict);
+    const bool lacks_degrees = verdict == "agreement_few_points" && of.power_lacks_degrees;
+    return words("comparison_verdict_name", alone ? "no_objection" : lacks_degrees ? "agreement_few_degrees" : verdict);
 }
 
 std::string count(const std::optional<std::int64_t>& v) {
@@ -84,6 +86,9 @@ Text verdict_sentence(const Wording& words, const ComparisonSummary& s) {
                                  s.verdict_audited == "joint_test_open";
     if (s.verdict == "falls_with_finding" && !agreement_falls) {
         key = "falls_with_finding_confirmation";
+    }
+    if (s.verdict == "agreement_few_points" && s.power_lacks_degrees) {
+        key = "agreement_few_degrees";
     }
     if (s.verdict == "correlation_unknown" && !s.max_abs_En_worst.number) {
         key = "correlation_unknown_without_limit";
@@ -265,7 +270,7 @@ void verdict_table(CertificateBuilder& builder, const Wording& words, const Comp
     Rows rows;
     for (const ComparisonSummary& s : c.summary) {
         rows.push_back({direction_name(words, s.direction), plain(s.points), s.mean_abs_En.text, s.max_abs_En.text,
-                        s.rms_En.text, plain(s.count_above_1), verdict_name(words, c, s.verdict)});
+                        s.rms_En.text, plain(s.count_above_1), verdict_name(words, c, s)});
     }
     table_of_filled_columns(builder, "summary", words("sentence", "comparison_summary"),
                             {{words("label", "direction"), ""},

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <system_error>
 
 #include "gum/comparison/scores.h"
@@ -129,6 +130,11 @@ std::string printed_probability(const std::optional<double>& probability) {
     }
     return *probability < k_least_probability ? k_below_least
                                               : gum::round_significant(*probability, reports::k_digits_of_u);
+}
+
+bool is_turn_apart(double first, double second, const gum::Unit& unit) {
+    constexpr double k_most = 0.9 * 2.0 * std::numbers::pi;
+    return unit.dimension() == gum::Dimension::angle() && std::abs(unit.difference_to_si(second - first)) >= k_most;
 }
 
 }  // namespace gumcert::reports

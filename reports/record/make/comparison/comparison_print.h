@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "gum/quantity/unit.h"
+
 #include "reports/record/shown.h"
 
 namespace gumcert::reports {
@@ -41,5 +43,15 @@ template <class Number>
                                            std::string (*printed)(const std::optional<double>& number)) {
     return {number, printed(number)};
 }
+
+/// What is said of angles that lie a full turn apart.
+inline constexpr const char* k_turn_apart = "GC-COMPARE-0131";
+inline constexpr const char* k_turn_rule =
+    "angles are compared as numbers, and a direction is the same one after each full turn";
+inline constexpr const char* k_turn_action =
+    "Where these are directions, state them within half a turn of each other: -0.0001 for 359.9999 in degrees. Where "
+    "turns are counted, look for one that is missing.";
+/// Whether two angles in a unit are nine tenths of a turn apart, or more.
+[[nodiscard]] bool is_turn_apart(double first, double second, const gum::Unit& unit);
 
 }  // namespace gumcert::reports

@@ -13,6 +13,7 @@
 #include "reports/record/make/comparison/method_record.h"
 #include "reports/record/make/comparison/method_side.h"
 #include "reports/record/make/record_parts.h"
+#include "text/numbers.h"
 
 namespace gumcert::reports {
 
@@ -126,6 +127,27 @@ void add_capability(const ComparisonSide& side, reports::Comparison& record) {
     }
 }
 
+/// Angles of both sides that lie a full turn apart.
+void note_turns(const gum::MethodComparison& comparison, const MethodComparisonRequest& request,
+                std::vector<gum::Diagnostic>& notes) {
+    const auto is_apart = [&](const gum::ComparedPoint& point) {
+        return is_turn_apart(point.value, point.reference_value, request.unit);
+    };
+    const auto first = std::find_if(comparison.points.begin(), comparison.points.end(), is_apart);
+    if (first == comparison.points.end()) {
+        return;
+    }
+    const auto [low, high] = std::minmax(first->value, first->reference_value);
+    const std::string unit = gum::unit_for_people(request.unit.text());
+    notes.push_back({.code = k_turn_apart,
+                     .where = "comparison",
+                     .what = "angles from " + text::shortest(low) + " to " + text::shortest(high) +
+                             (unit.empty() ? "" : " " + unit) + " lie a full turn apart, or nearly",
+                     .rule = k_turn_rule,
+                     .action = k_turn_action,
+                     .severity = gum::Severity::warning});
+}
+
 }  // namespace
 
 reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::Diagnostic>* notes,
@@ -167,6 +189,9 @@ reports::Comparison evaluate_methods(const ComparisonJob& job, std::vector<gum::
         for (const MethodSide* side : {&method, &reference}) {
             notes->insert(notes->end(), side->warnings.begin(), side->warnings.end());
         }
+    }
+    if (notes != nullptr) {
+        note_turns(comparison, request, *notes);
     }
     add_correlation(job, method, reference, comparison, record);
     add_method_comparison(comparison, request.unit.text(), record);

@@ -63,6 +63,8 @@ public:
 
     [[nodiscard]] std::vector<gum::Diagnostic> take() { return std::move(messages_); }
     [[nodiscard]] const gum::LaboratoryComparison& comparison() const { return evaluated_.comparison; }
+    [[nodiscard]] const jobs::ComparisonJob& job() const { return evaluated_.job; }
+    [[nodiscard]] const ComparisonItemEvaluation* first_recorded() const { return evaluated_.record.items.data(); }
 
 private:
     const Evaluated& evaluated_;
@@ -236,6 +238,39 @@ void add_assigned_value(ItemMessages& messages) {
                 std::min_element(item.weights.begin(), item.weights.end(),
                                  [](const auto& a, const auto& b) { return a.weight.number < b.weight.number; });
             return "participant \"" + weight->participant + "\" has the negative weight " + weight->weight.text;
+        });
+}
+
+/// The smallest and the largest of an assigned value and the results of its item.
+std::pair<double, double> range_of(const gum::LaboratoryComparison& comparison, const gum::ItemResult& item) {
+    std::pair<double, double> range(item.value, item.value);
+    for (const gum::ScoredResult& result : comparison.results) {
+        if (result.item == item.item && result.round == item.round) {
+            range = {std::min(range.first, result.value), std::max(range.second, result.value)};
+        }
+    }
+    return range;
+}
+
+/// Angles on both sides of a full turn: 359.9999° and 0.0002° may be one direction.
+void add_turns(ItemMessages& messages) {
+    const gum::LaboratoryComparison& comparison = messages.comparison();
+    messages.add(
+        {.code = k_turn_apart,
+         .where = "",
+         .what = "",
+         .rule = k_turn_rule,
+         .action = k_turn_action,
+         .severity = gum::Severity::warning},
+        [&](const gum::ItemResult& item) {
+            const auto [low, high] = range_of(comparison, item);
+            return is_turn_apart(low, high, messages.job().items[item.item].unit);
+        },
+        [&](const ComparisonItemEvaluation& recorded) {
+            const auto at = static_cast<std::size_t>(&recorded - messages.first_recorded());
+            const auto [low, high] = range_of(comparison, comparison.items[at]);
+            return "angles from " + text::shortest(low) + " to " + with_unit(text::shortest(high), recorded) +
+                   " lie a full turn apart, or nearly";
         });
 }
 
@@ -548,6 +583,7 @@ std::vector<gum::Diagnostic> laboratory_diagnostics(const jobs::ComparisonJob& j
     add_consistency(messages);
     add_assigned_value(messages);
     add_checks_of_items(messages);
+    add_turns(messages);
     return messages.take();
 }
 

@@ -162,7 +162,7 @@ reports::ConsistencySummary consistency_record(const gum::ResultConsistency& con
 reports::ReferenceEstimate estimate_record(const gum::ReferenceEstimate& from) {
     reports::ReferenceEstimate estimate;
     estimate.method = from.method;
-    estimate.value = {from.value, printed_value(from.value, from.u ? from.u : from.scale)};
+    estimate.value = {from.value, printed_value(from.value, from.rest, from.u ? from.u : from.scale)};
     estimate.u = shown(from.u, printed_uncertainty);
     estimate.scale = shown(from.scale, printed_uncertainty);
     estimate.between = shown(from.between, printed_uncertainty);

@@ -146,6 +146,7 @@ void add_method_agreement(const gum::Agreement& agreement, ComparisonSummary& ro
     row.p_if_too_small = agreement.p_if_too_small;
     row.p_if_too_large = agreement.p_if_too_large;
     row.power_to_confirm = shown(agreement.power_to_confirm, printed_power);
+    row.power_lacks_degrees = agreement.power_lacks_degrees;
     row.count_by_chance = static_cast<std::int64_t>(agreement.count_by_chance);
     row.found_with_80_percent = shown(agreement.found_with_80_percent, printed_uncertainty);
     row.found_with_95_percent = shown(agreement.found_with_95_percent, printed_uncertainty);

@@ -415,6 +415,23 @@ TEST(FiniteDegrees, HonestComparisonsDisagreeAtTheLevel) {
     }
 }
 
+// 30 points tell a right U from one that is wrong by a factor of 2, where it has many degrees of freedom; with ν = 3 of
+// each they do not, and no more points are what is missing.
+TEST(FiniteDegrees, LimitThePowerAndNotTheNumberOfPoints) {
+    const auto of = [](Index m, double nu) {
+        MethodDifferences differences = independent_points(m, 0.5);
+        differences.degrees_of_freedom = VectorXd::Constant(m, nu);
+        return agreement(differences, k_p);
+    };
+    const Agreement few_degrees = of(30, 3.0);
+    EXPECT_LT(few_degrees.power_to_confirm, k_least_power_to_confirm);
+    EXPECT_TRUE(few_degrees.power_lacks_degrees);
+    const Agreement few_points = of(5, 3.0);
+    EXPECT_FALSE(few_points.power_lacks_degrees);
+    EXPECT_FALSE(of(5, std::numeric_limits<double>::infinity()).power_lacks_degrees);
+    EXPECT_FALSE(of(30, 1e6).power_lacks_degrees);
+}
+
 // ---- pattern and bias
 // ------------------------------------------------------------------------------------------
 

@@ -93,6 +93,17 @@ TEST(ItemResult, Refusals) {
     stated.scheme.items[0].sigma_pt->value = 1.0;
     std::swap(stated.scheme.items[0].homogeneity, stated.scheme.items[0].stability);
     EXPECT_EQ(code_of<InputError>([&] { (void)result_of(stated); }), "GC-COMPARE-0108");
+    // 3 % of 20 °C and of 293 K are not one number, and neither has a level a percentage.
+    stated = test::key_comparison();
+    stated.scheme.items[0].sigma_pt = SigmaPtRequest{.method = SigmaPtMethod::percent_of_assigned, .value = 3.0};
+    for (const char* unit : {"degC", "degF", "dB"}) {
+        stated.scheme.items[0].unit = Unit::parse(unit);
+        EXPECT_EQ(code_of<InputError>([&] { (void)result_of(stated); }), "GC-COMPARE-0130") << unit;
+    }
+    for (const char* unit : {"K", "mg", "1", "deg"}) {
+        stated.scheme.items[0].unit = Unit::parse(unit);
+        EXPECT_NEAR(*result_of(stated).sigma_pt, 0.03 * result_of(stated).value, 1e-12) << unit;
+    }
     test::StatedComparison equal = test::comparison_of({10.3, 10.3, 10.3, 10.4}, {0.1, 0.2, 0.1, 0.1});
     equal.scheme.items[0].assigned_value.method = AssignedValueMethod::median;
     EXPECT_EQ(code_of<InputError>([&] { (void)result_of(equal); }), "GC-COMPARE-0109");

@@ -44,6 +44,30 @@ TEST(ReferenceEstimates, OfResultsWithoutUncertaintyAreTheRobustOnes) {
     EXPECT_FALSE(consistency_of(data, assigned_value(stated.scheme, data)));
 }
 
+// 473 612 353 604 000.0225 Hz lies between two doubles: the list says what the assigned value says.
+TEST(ReferenceEstimates, HaveTheRestOfAMean) {
+    for (const AssignedValueMethod method :
+         {AssignedValueMethod::weighted_mean, AssignedValueMethod::arithmetic_mean, AssignedValueMethod::mandel_paule,
+          AssignedValueMethod::dersimonian_laird, AssignedValueMethod::median, AssignedValueMethod::algorithm_a}) {
+        test::StatedComparison stated =
+            test::comparison_of({473612353604000.0, 473612353604000.0625, 473612353604000.0625, 473612353603999.9375},
+                                {0.1, 0.1, 0.1, 0.1});
+        stated.scheme.items[0].assigned_value.method = method;
+        const LaboratoryData data = stated.data();
+        const AssignedValue assigned = assigned_value(stated.scheme, data);
+        const std::vector<ReferenceEstimate> all = reference_estimates(data, assigned, 0.9545);
+        const ReferenceEstimate& mean = estimate(all, "arithmetic_mean");
+        EXPECT_EQ((mean.value - 473612353604000.0) + mean.rest, 0.015625);
+        EXPECT_EQ(estimate(all, "niqr").rest, estimate(all, "median").rest);
+        for (const ReferenceEstimate& one : all) {
+            if (one.used) {
+                EXPECT_EQ(one.value, assigned.value) << one.method;
+                EXPECT_EQ(one.rest, assigned.rest) << one.method;
+            }
+        }
+    }
+}
+
 TEST(ReferenceEstimates, ConsistencyOfAKeyComparison) {
     const test::StatedComparison stated = test::five_results_of_cox();
     const LaboratoryData data = stated.data();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "gum/comparison/scores.h"
 
@@ -51,6 +52,20 @@ TEST(ComparisonPrint, AScoreIsPrintedOnItsSideOfTheLimits) {
         EXPECT_EQ(gum::signal_of_en(std::stod(printed_en(score))), gum::signal_of_en(score)) << printed_en(score);
         EXPECT_EQ(std::stod(printed_share_of_allowed(100.0 * score)) > 100.0, 100.0 * score > 100.0);
     }
+}
+
+TEST(ComparisonPrint, AnglesATurnApart) {
+    for (const auto& [unit, turn] :
+         {std::pair<const char*, double>{"deg", 360.0}, {"arcsec", 1296000.0}, {"rad", 6.2831853}}) {
+        const gum::Unit angle = gum::Unit::parse(unit);
+        EXPECT_TRUE(is_turn_apart(0.001, turn - 0.001, angle)) << unit;
+        EXPECT_TRUE(is_turn_apart(2.0 * turn, 0.0, angle)) << unit;
+        EXPECT_FALSE(is_turn_apart(0.0, 0.5 * turn, angle)) << unit;
+        EXPECT_FALSE(is_turn_apart(-0.001, 0.002, angle)) << unit;
+    }
+    EXPECT_FALSE(is_turn_apart(0.0, 1e6, gum::Unit::parse("mm")));
+    EXPECT_FALSE(is_turn_apart(0.0, 1e6, gum::Unit::parse("1")));
+    EXPECT_FALSE(is_turn_apart(0.0, 1e6, gum::Unit::parse("deg/s")));
 }
 
 TEST(ComparisonPrint, AValueBetweenTwoDoubles) {

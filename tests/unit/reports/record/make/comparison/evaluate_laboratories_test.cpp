@@ -241,6 +241,23 @@ TEST(EvaluateLaboratories, AlgorithmAWithRobustSigma) {
     EXPECT_EQ(messages_of(job).front().code, "GC-COMPARE-0121");
 }
 
+// 359.9999° and 0.0002° may be one direction: D of 360° stands with a warning.
+TEST(EvaluateLaboratories, DirectionsOnBothSidesOfATurn) {
+    ComparisonJob job;
+    job.rounds = {""};
+    job.items = {item_in("north", "deg")};
+    job.items[0].assigned_value = given(0.0, u_and_k(0.001));
+    add_result(job, add_participant(job, "A"), 0.0002, u_and_k(0.001));
+    EXPECT_THAT(messages_of(job), testing::IsEmpty());
+    add_result(job, add_participant(job, "B"), 359.9999, u_and_k(0.001));
+    bool said = false;
+    for (const gum::Diagnostic& message : messages_of(job)) {
+        said = said || (message.code == "GC-COMPARE-0131" &&
+                        message.what == "angles from 0 to 359.9999 ° lie a full turn apart, or nearly");
+    }
+    EXPECT_TRUE(said);
+}
+
 TEST(EvaluateLaboratories, AuditedUncertainty) {
     // Golden vector 8: the maximum permissible error taken as a standard uncertainty, and as it should be.
     ComparisonJob job;
