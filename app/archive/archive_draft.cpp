@@ -1,6 +1,7 @@
 #include "app/archive/archive_draft.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -170,6 +171,7 @@ public:
         }
         if (is_pdf) {
             require_agreement_of_pages(file, bytes);
+            look_at_texts_beside_pages(file, bytes, findings);
             findings.take({what_was_compared(file)});
             signing::Verification alone;
             alone.kind = "dcc";
@@ -393,6 +395,104 @@ private:
             }
         }
         refuse_disagreement(file, std::move(missing));
+    }
+
+    /// Bookmarks, properties and descriptions say what the pages print, or what the record gives in some language. What is copied and
+    /// read aloud in place of what is drawn is the document to whoever does so.
+    void look_at_texts_beside_pages(const fs::path& file, std::string_view bytes, CheckFindings& findings) {
+        std::vector<reports::PdfTextBesidePages> texts = reports::other_parts_of_pdf(bytes).texts;
+        for (reports::TextBesideDrawn& one : reports::texts_beside_drawn(bytes)) {
+            texts.push_back({one.replaces ? "a text in place of what is drawn" : "a description", std::move(one.text),
+                             one.replaces});
+        }
+        std::string known;
+        for (const std::string& page : reports::texts_of_pages(bytes)) {
+            known += page + '\n';
+        }
+        // One digit in place of another one is among any others: a number is drawn, and has nothing in its place.
+        const auto number = std::find_if(texts.begin(), texts.end(), [](const reports::PdfTextBesidePages& one) {
+            return one.replaces && one.text.find_first_of("0123456789") != std::string::npos;
+        });
+        if (number != texts.end()) {
+            refuse_page(file, "has " + std::string(number->what) + ", " + text::in_quotes(number->text));
+        }
+        std::erase_if(texts, [&](const reports::PdfTextBesidePages& one) {
+            return says_only(one.text, known) || is_head_of_archive(one.text);
+        });
+        for (std::size_t i = 0; i < words_.languages.size() && !texts.empty(); ++i) {
+            reports::RenderAssets assets = assets_;
+            assets.languages = {words_.languages[i]};
+            known += strings_of(reports::view_of_document(record_, assets));
+            std::erase_if(texts, [&](const reports::PdfTextBesidePages& one) { return says_only(one.text, known); });
+        }
+        std::string told;
+        constexpr std::size_t k_most_told = 5;
+        for (std::size_t i = 0; i < std::min(texts.size(), k_most_told); ++i) {
+            told += (told.empty() ? "" : ", ") + std::string(texts[i].what) + " " + text::in_quotes(texts[i].text);
+        }
+        const auto replacing = std::find_if(texts.begin(), texts.end(), [](const auto& one) { return one.replaces; });
+        if (replacing != texts.end()) {
+            refuse_page(file, "has " + std::string(replacing->what) + ", " + text::in_quotes(replacing->text));
+        }
+        if (!texts.empty()) {
+            findings.take({gum::Diagnostic{
+                .code = "GC-ARCHIVE-0071",
+                .where = file.string(),
+                .what = "beside its pages it has texts that they do not print: " + told +
+                        (texts.size() > k_most_told ? " and " + std::to_string(texts.size() - k_most_told) + " more"
+                                                    : std::string()) +
+                        "; not compared",
+                .rule = "pages are made with any template and in any language, and what all of them print is compared",
+                .action = "read these texts when the certificate is reviewed",
+                .severity = gum::Severity::note}});
+        }
+    }
+
+    /// The description of the QR code of a head, which is held against the log.
+    static bool is_head_of_archive(const std::string& text) {
+        const std::vector<archive::PrintedHead> heads = archive::printed_heads_in(text);
+        archive::Head head;
+        if (heads.size() == 1) {
+            head.size = heads.front().size;
+            head.root = heads.front().root;
+        }
+        return heads.size() == 1 && text == archive::mark_of(head);
+    }
+
+    /// Whether each part of a text, between commas and colons, is among others.
+    /// \param known  without blanks and hyphens
+    static bool says_only(const std::string& text, const std::string& known) {
+        if (known.find(reports::without_blanks(text)) != std::string::npos) {
+            return true;
+        }
+        std::string part;
+        for (std::size_t i = 0; i <= text.size(); ++i) {
+            const bool ends = i == text.size() || ((text[i] == ',' || text[i] == ':' || text[i] == ';') &&
+                                                   (i + 1 == text.size() || text[i + 1] == ' '));
+            if (ends && known.find(reports::without_blanks(std::exchange(part, {}))) == std::string::npos) {
+                return false;
+            }
+            part += ends ? "" : std::string(1, text[i]);
+        }
+        return true;
+    }
+
+    /// All texts of a view, without blanks and hyphens.
+    static std::string strings_of(const nlohmann::json& view) {
+        std::string all;
+        std::vector<const nlohmann::json*> left{&view};
+        while (!left.empty()) {
+            const nlohmann::json& one = *left.back();
+            left.pop_back();
+            if (one.is_string()) {
+                all += reports::without_blanks(one.get_ref<const std::string&>()) + '\n';
+            }
+            if (one.is_structured()) {
+                std::transform(one.begin(), one.end(), std::back_inserter(left),
+                               [](const nlohmann::json& inner) { return &inner; });
+            }
+        }
+        return all;
     }
 
     /// With the languages of a document, as the templates name them: "zh-Hant" of "zh".

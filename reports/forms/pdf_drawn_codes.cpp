@@ -39,13 +39,24 @@ public:
                 rest_.remove_prefix(1);
             } else if (c == '%') {
                 rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
-            } else if (c == '(') {
-                read_literal_string();
-            } else if (c == '<' && !rest_.starts_with("<<")) {
-                read_hexadecimal_string();
+            } else if (c == '(' || (c == '<' && !rest_.starts_with("<<"))) {
+                const std::size_t before = strings_.size();
+                if (c == '(') {
+                    read_literal_string();
+                } else {
+                    read_hexadecimal_string();
+                }
+                if (std::exchange(is_beside_, false)) {
+                    beside_.push_back({replaces_, strings_.substr(before)});
+                }
             } else if (c == '/') {
                 rest_.remove_prefix(1);
                 name_ = take_regular();
+                const std::string key = without_escapes(name_);
+                replaces_ = key == "ActualText";
+                is_beside_ = replaces_ || key == "Alt" || key == "E";
+            } else if (rest_.starts_with("<<")) {
+                rest_.remove_prefix(2);  // a dictionary, whose first value may be a string
             } else if (is_delimiter(c)) {
                 rest_.remove_prefix(1);  // of an array or a dictionary
             } else {
@@ -54,8 +65,21 @@ public:
         }
         return std::move(drawn_);
     }
+    [[nodiscard]] std::vector<TextBesideDrawn> take_texts_beside() { return std::move(beside_); }
 
 private:
+    /// "ActualText" of "Actual#54ext".
+    static std::string without_escapes(std::string_view name) {
+        std::string plain;
+        for (std::size_t i = 0; i < name.size(); ++i) {
+            const int high = name[i] == '#' && i + 2 < name.size() ? hexadecimal_value(name[i + 1]) : -1;
+            const int low = high >= 0 ? hexadecimal_value(name[i + 2]) : -1;
+            plain += low >= 0 ? static_cast<char>(16 * high + low) : name[i];
+            i += low >= 0 ? 2 : 0;
+        }
+        return plain;
+    }
+
     std::string_view take_regular() {
         std::size_t length = 0;
         while (length < rest_.size() && !is_white(rest_[length]) && !is_delimiter(rest_[length])) {
@@ -129,6 +153,7 @@ private:
 
     void read_number_or_operator() {
         const std::string_view word = take_regular();
+        is_beside_ = false;
         if ((word.front() >= '0' && word.front() <= '9') || word.front() == '-' || word.front() == '+' ||
             word.front() == '.') {
             return;
@@ -149,12 +174,21 @@ private:
     std::string_view font_;
     std::string strings_;
     std::vector<DrawnCodes> drawn_;
+    bool is_beside_ = false;  ///< the next string is a text beside what is drawn
+    bool replaces_ = false;
+    std::vector<TextBesideDrawn> beside_;
 };
 
 }  // namespace
 
 std::vector<DrawnCodes> drawn_codes(std::string_view content) {
     return ContentReader(content).read();
+}
+
+std::vector<TextBesideDrawn> texts_beside_drawn_codes(std::string_view content) {
+    ContentReader reader(content);
+    (void)reader.read();
+    return reader.take_texts_beside();
 }
 
 }  // namespace gumcert::reports

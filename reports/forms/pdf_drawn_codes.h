@@ -17,4 +17,15 @@ struct DrawnCodes {
 /// \param content  of one page, without its filters
 [[nodiscard]] std::vector<DrawnCodes> drawn_codes(std::string_view content);
 
+/// A text that the content of a page states beside what it draws (ISO 32000-1:2008, 14.9).
+struct TextBesideDrawn {
+    bool replaces =
+        false;  ///< /ActualText, which programs copy and read aloud in place of what is drawn; else /Alt, /E
+    std::string text;
+};
+
+/// Texts as they are encoded.
+/// \param content  of one page, without its filters
+[[nodiscard]] std::vector<TextBesideDrawn> texts_beside_drawn_codes(std::string_view content);
+
 }  // namespace gumcert::reports

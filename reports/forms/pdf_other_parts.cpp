@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <set>
 #include <string>
@@ -95,6 +96,7 @@ public:
 
     PdfOtherParts found() {
         look_at_document(pdf_.getRoot());
+        look_at_properties();
         for (const QPDFObjectHandle& object : pdf_.getAllObjects()) {
             look_at_object(object);
         }
@@ -114,6 +116,74 @@ private:
     QPDF pdf_;
     PdfOtherParts parts_;
     std::set<QPDFObjGen> named_files_;  // streams, of which the contents are known to whoever asks
+
+    void tell(const char* what, QPDFObjectHandle text, bool replaces = false) {
+        if (text.isString() && parts_.texts.size() < k_most_texts) {
+            parts_.texts.push_back({what, text.getUTF8Value(), replaces});
+        }
+    }
+
+    /// The dictionary of properties, and the XMP of the document: what it is called, by whom, and what it is about.
+    void look_at_properties() {
+        QPDFObjectHandle properties = entry_of(pdf_.getTrailer(), "/Info");
+        static constexpr std::array<std::string_view, 5> k_of_the_file = {"/Creator", "/Producer", "/CreationDate",
+                                                                          "/ModDate", "/Trapped"};
+        if (properties.isDictionary()) {
+            for (const auto& [key, value] : properties.getDictAsMap()) {
+                if (std::find(k_of_the_file.begin(), k_of_the_file.end(), key) == k_of_the_file.end()) {
+                    tell("a property", value);
+                }
+            }
+        }
+        QPDFObjectHandle metadata = pdf_.getRoot().getKey("/Metadata");
+        if (!metadata.isStream()) {
+            return;
+        }
+        if (!metadata.getDict().getKey("/Filter").isNull()) {
+            parts_.texts.push_back({"metadata", "(packed)", false});
+            return;
+        }
+        const std::shared_ptr<Buffer> bytes = metadata.getRawStreamData();
+        const std::string_view xmp(reinterpret_cast<const char*>(bytes->getBuffer()), bytes->getSize());
+        for (const std::string_view name : {"dc:title", "dc:description", "dc:subject", "dc:creator", "dc:rights",
+                                            "pdf:Keywords", "photoshop:Headline", "photoshop:Instructions"}) {
+            for (std::size_t at = xmp.find(name); at != std::string_view::npos; at = xmp.find(name, at + 1)) {
+                const char before = at == 0 ? ' ' : xmp[at - 1];
+                const std::size_t end = xmp.find("</" + std::string(name), at);
+                if (before == '<' && end != std::string_view::npos) {
+                    tell_xmp(xmp.substr(at, end - at));
+                } else if (xmp.substr(at + name.size()).starts_with("=")) {  // an attribute
+                    const std::size_t first = xmp.find_first_of("\"'", at);
+                    const std::size_t last = first == std::string_view::npos ? first : xmp.find(xmp[first], first + 1);
+                    if (last != std::string_view::npos) {
+                        tell_xmp('>' + std::string(xmp.substr(first + 1, last - first - 1)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The texts of an element without its tags.
+    void tell_xmp(std::string_view element) {
+        std::string text;
+        bool is_in_tag = true;  // its own begins before
+        for (const char c : element) {
+            is_in_tag = c == '<' || (is_in_tag && c != '>');
+            if (!is_in_tag && c != '>') {
+                text += c;
+            }
+        }
+        for (const auto& [entity, character] :
+             {std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&quot;", "\""), std::pair("&apos;", "'"),
+              std::pair("&amp;", "&")}) {
+            for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at + 1)) {
+                text.replace(at, std::string_view(entity).size(), character);
+            }
+        }
+        if (parts_.texts.size() < k_most_texts) {
+            parts_.texts.push_back({"metadata", std::move(text), false});
+        }
+    }
 
     void refuse(bool is_there, const std::string& what) {
         if (is_there && parts_.refused.empty()) {
@@ -193,6 +263,25 @@ private:
         refuse(dictionary.hasKey("/AA"), "has an action that begins by itself");
         QPDFObjectHandle script = entry_of(dictionary, "/JS");
         refuse(script.isString() || script.isStream(), "has JavaScript");
+        const bool is_signature = dictionary.hasKey("/ByteRange");
+        const bool is_properties = dictionary.isSameObjectAs(entry_of(pdf_.getTrailer(), "/Info"));
+        if (!is_properties) {
+            tell("a bookmark", entry_of(dictionary, "/Title"));
+        }
+        tell("a label of pages", entry_of(dictionary, "/P"));
+        tell("a text in place of what is drawn", entry_of(dictionary, "/ActualText"), true);
+        tell("a description", entry_of(dictionary, "/Alt"));
+        tell("a description", entry_of(dictionary, "/E"));
+        if (name_at(dictionary, "/Type") == "/StructElem") {
+            tell("a description", entry_of(dictionary, "/T"));
+        }
+        if (name_at(dictionary, "/Type") == "/Annot" || dictionary.hasKey("/Subtype")) {
+            tell("a description", entry_of(dictionary, "/Contents"));
+            tell("a description", entry_of(dictionary, "/TU"));
+        }
+        for (const char* const key : {"/Reason", "/Location", "/ContactInfo"}) {
+            tell("what a signature says", is_signature ? entry_of(dictionary, key) : QPDFObjectHandle::newNull());
+        }
         QPDFObjectHandle files = entry_of(dictionary, "/EF");
         if (files.isDictionary()) {
             for (const auto& [key, file] : files.getDictAsMap()) {
@@ -249,6 +338,7 @@ private:
     }
 
     static constexpr std::size_t k_most_files = 100;
+    static constexpr std::size_t k_most_texts = 100'000;
     static constexpr int k_most_levels = 32;
 };
 

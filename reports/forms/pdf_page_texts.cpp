@@ -378,6 +378,20 @@ std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
     return texts;
 }
 
+std::vector<TextBesideDrawn> texts_beside_drawn(std::string_view bytes) {
+    QPDF pdf;
+    pdf.setSuppressWarnings(true);
+    pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
+    Unpacker unpacker;
+    std::vector<TextBesideDrawn> texts;
+    for (const Object& page : pdf.getAllPages()) {
+        for (const TextBesideDrawn& one : texts_beside_drawn_codes(content_of(page, unpacker))) {
+            texts.push_back({one.replaces, Object::newString(one.text).getUTF8Value()});
+        }
+    }
+    return texts;
+}
+
 std::vector<std::string> texts_of_pages(std::string_view bytes) {
     std::vector<std::string> texts = drawn_texts_of_pages(bytes);
     std::transform(texts.begin(), texts.end(), texts.begin(), bare);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gum/quantity/diagnostic.h"
+#include "reports/forms/pdf_drawn_codes.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -23,6 +24,10 @@ inline constexpr char k_end_of_drawn_text = '\x1F';
 /// The same with its blanks and hyphens, and k_end_of_drawn_text.
 /// \throws as texts_of_pages()
 [[nodiscard]] std::vector<std::string> drawn_texts_of_pages(std::string_view pdf);
+
+/// Texts that the contents of pages state beside what they draw.
+/// \throws as texts_of_pages()
+[[nodiscard]] std::vector<TextBesideDrawn> texts_beside_drawn(std::string_view pdf);
 
 /// A text without blanks and hyphens, as texts_of_pages() gives it.
 [[nodiscard]] std::string without_blanks(const std::string& text);

@@ -940,6 +940,19 @@ TEST_F(ArchiveOfALaboratory, KeepsThePdf) {
     const Ended ended = archive({"add", path("out/record.json"), path("out/certificate.pdf")}, "R. Lin");
     EXPECT_EQ(ended.code, 0) << ended.err;
     EXPECT_TRUE(tells(ended, "not compared: other texts")) << ended.err;
+    EXPECT_FALSE(tells(ended, "beside its pages")) << ended.err;
+    // What it is called among its properties is told where the pages say something else.
+    std::string renamed_pdf = bytes_of(folder() / "out" / "certificate.pdf");
+    const std::string title = "Calibration of an end gauge";
+    const std::string other_title = "l = 49 mm; U = 1 nm; passed";
+    const std::size_t at = renamed_pdf.find(title, renamed_pdf.find("<dc:title>"));
+    ASSERT_NE(at, std::string::npos);
+    ASSERT_EQ(title.size(), other_title.size());
+    write_bytes(folder() / "renamed.pdf", renamed_pdf.replace(at, title.size(), other_title));
+    const Ended retitled = archive({"add", path("out/record.json"), path("renamed.pdf")}, "R. Lin");
+    EXPECT_EQ(retitled.code, 0) << retitled.err;
+    EXPECT_TRUE(tells(retitled, "texts that they do not print: metadata")) << retitled.err;
+    EXPECT_TRUE(tells(retitled, other_title)) << retitled.err;
     change_certificate([](json& c) { c["customer"]["name"] = "Another Customer"; });
     evaluate("renamed");
     const Ended renamed = archive({"add", path("renamed.json"), path("out/certificate.pdf")}, "R. Lin");

@@ -27,8 +27,24 @@ TEST(DrawnCodes, AreThoseOfEveryOperatorThatDraws) {
 
 TEST(DrawnCodes, StringsOfOtherOperatorsAreNotDrawn) {
     EXPECT_EQ(drawn("/Span << /MCID 3 /Alt (words) /E <616263> >> BDC /f0 9 Tf (a) Tj EMC"), "f0:a");
+    EXPECT_EQ(drawn("/Span << /Alt (a > \\(words\\) Tj (b) Tj) >> BDC /f0 9 Tf (a) Tj EMC"), "f0:a");
     EXPECT_EQ(drawn("% (words) Tj\n/f0 9 Tf (a) Tj"), "f0:a");
     EXPECT_EQ(drawn("BI /W 1 /H 1 ID (\\(( EI /f0 9 Tf (a) Tj"), "f0:a");
+}
+
+TEST(DrawnCodes, TextsBesideThemAreTold) {
+    const auto beside = [](std::string_view content) {
+        std::string all;
+        for (const TextBesideDrawn& one : texts_beside_drawn_codes(content)) {
+            all += one.text + (one.replaces ? "!;" : ";");
+        }
+        return all;
+    };
+    EXPECT_EQ(beside("/Span << /MCID 3 /Alt (words) /E <616263> /Lang (de) >> BDC /f0 9 Tf (a) Tj EMC"), "words;abc;");
+    EXPECT_EQ(beside("/Span <</ActualText(a(b))>>BDC (c) Tj EMC /Span << /Actual#54ext (d) >> DP"), "a(b)!;d!;");
+    EXPECT_EQ(beside("/E 12 Tf (a) Tj /Alt BMC (b) Tj EMC /P << /MCID 0 >> BDC (c) Tj EMC"), "");
+    EXPECT_EQ(beside("/ActualText"), "");
+    EXPECT_EQ(beside("/ActualText (a"), "a!;");
 }
 
 TEST(DrawnCodes, AStringIsDecoded) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "reports/forms/qpdf_objects.h"
 #include "tests/support/written_pdf.h"
@@ -155,6 +157,51 @@ TEST(PdfOtherParts, HaveFilesWithNamesAlone) {
         EXPECT_NE(other_parts_of_pdf(pdf_with_file(false, with_type, "/AF")).refused, "");
         EXPECT_NE(other_parts_of_pdf(pdf_with_file(true, with_type, "/Resources")).refused, "");
     }
+}
+
+TEST(PdfOtherParts, TellTextsThatNoPageDraws) {
+    struct Case {
+        const char* catalog;
+        const char* page;
+        const char* told;
+    };
+    for (const Case& one :
+         {Case{"/Outlines << /First << /Title (x, y) /Dest [0 /Fit] >> >>", "", "a bookmark: x, y;"},
+          {"/PageLabels << /Nums [0 << /P (x) /S /D >>] >>", "", "a label of pages: x;"},
+          {"/StructTreeRoot << /K << /S /P /ActualText (x) >> >>", "", "a text in place of what is drawn: x!;"},
+          {"/StructTreeRoot << /K << /S /Figure /Alt <FEFF00E9> /P << >> >> >>", "", "a description: \xC3\xA9;"},
+          {"/StructTreeRoot << /K << /Type /StructElem /S /P /T (x) /E (y) >> >>", "",
+           "a description: y;a description: x;"},
+          {"", "/Annots [<< /Subtype /Link /Rect [0 0 9 9] /Contents (x) >>]", "a description: x;"},
+          {"/AcroForm << /Fields [<< /FT /Sig /T (S1) /V << /ByteRange [0 1 2 3] /Reason (x) >> >>] >>", "",
+           "what a signature says: x;"},
+          {"/PageMode /UseOutlines", "", ""}}) {
+        std::string told;
+        for (const PdfTextBesidePages& text : other_parts_of_pdf(pdf_with_parts(one.catalog, one.page)).texts) {
+            told += std::string(text.what) + ": " + text.text + (text.replaces ? "!;" : ";");
+        }
+        EXPECT_EQ(told, one.told) << one.catalog << one.page;
+    }
+    QPDF pdf;
+    pdf.emptyPDF();
+    const std::string xmp =
+        "<x:xmpmeta xmlns:dc=\"x\"><rdf:Description dc:title=\"a &amp; b\"><dc:creator><rdf:Seq><rdf:li>c</rdf:li>"
+        "</rdf:Seq></dc:creator><dc:format>d</dc:format></rdf:Description></x:xmpmeta>";
+    pdf.getRoot().replaceKey("/Metadata", QPDFObjectHandle::newStream(&pdf, xmp));
+    pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(QPDFObjectHandle::parse(
+                                             "<< /Title (e) /Company (f) /Producer (g) /CreationDate (h) >>")));
+    QPDFWriter writer(pdf);
+    writer.setOutputMemory();
+    writer.setCompressStreams(false);
+    writer.write();
+    const auto buffer = writer.getBufferSharedPointer();
+    std::vector<std::string> texts;
+    for (const PdfTextBesidePages& text :
+         other_parts_of_pdf({reinterpret_cast<const char*>(buffer->getBuffer()), buffer->getSize()}).texts) {
+        texts.push_back(text.text);
+    }
+    std::sort(texts.begin(), texts.end());
+    EXPECT_EQ(texts, (std::vector<std::string>{"a & b", "c", "e", "f"}));
 }
 
 TEST(PdfOtherParts, CountFilesAndSeeSignaturesThatAreDrawn) {
