@@ -34,6 +34,13 @@ bool needs_further_fonts(std::string_view utf8) {
     }
     return false;
 }
+bool needs_further_fonts(const nlohmann::json& view) {
+    if (view.is_string()) {
+        return needs_further_fonts(std::string_view(view.get_ref<const std::string&>()));
+    }
+    return view.is_structured() &&
+           std::any_of(view.begin(), view.end(), [](const nlohmann::json& part) { return needs_further_fonts(part); });
+}
 
 /// What the PDF template needs beyond the view that all forms share.
 nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_fonts, bool attachment) {
@@ -54,7 +61,7 @@ nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_font
 
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
                         PdfWorker& worker, const std::string& main) {
-    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view);
     std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts, main);
     std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
     if (findings.empty()) {
@@ -88,7 +95,7 @@ std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets, 
 
 std::vector<std::string> without_glyph(const std::vector<std::string>& characters, const nlohmann::json& view,
                                        const RenderAssets& assets, PdfWorker& worker) {
-    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view);
     if (worker.has_shown(characters, further_fonts)) {
         return {};
     }
