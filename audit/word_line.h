@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gumcert::audit {
 
@@ -26,7 +27,8 @@ public:
     [[nodiscard]] std::optional<std::size_t> count_of(std::initializer_list<std::string_view> beginnings) const;
 
 private:
-    std::string line_ = " ";  ///< a space before and after each word
+    std::string line_ = " ";           ///< a space before and after each word
+    std::vector<std::size_t> starts_;  ///< of the words in it
 };
 
 /// The longest beginning of a text of a number of bytes that does not cut a character.

@@ -10,6 +10,8 @@ Processor time is that of the program and of the process that sets its PDFs.
 
 import argparse
 import json
+import random
+import re
 import resource
 import shutil
 import subprocess
@@ -33,13 +35,39 @@ def timed(*command: str) -> tuple[float, float]:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, clock
 
 
+def other_reading(text: str, chance: random.Random) -> str:
+    """The number with its last digits changed by two at most; the same number of digits."""
+    digits = len(text.partition(".")[2])
+    return f"{float(text) + chance.randint(-2, 2) * 10.0**-digits:.{digits}f}"
+
+
+def with_other_readings(table: str, chance: random.Random) -> str:
+    """Each certificate has readings of its own: columns V_x.1, V_x.2 …, and the resistance R of a fit."""
+    head, *rows = [line.split(",") for line in table.splitlines()]
+    readings: dict[str, list[int]] = {}
+    for i, name in enumerate(head):
+        if found := re.fullmatch(r"(\w+)\.\d+|R", name):
+            readings.setdefault(found[1] or name, []).append(i)
+    for row in rows:
+        for columns in readings.values():
+            changed = [other_reading(row[i], chance) for i in columns]
+            if len(columns) == 1 or len(set(changed)) > 1:  # equal readings are refused
+                for i, text in zip(columns, changed, strict=True):
+                    row[i] = text
+    return "\n".join(",".join(row) for row in [head, *rows]) + "\n"
+
+
 def copy_of(example: Path, folder: Path, number: int, points: int | None = None) -> Path:
-    """The job of an example with another number, and with about so many points in its tables."""
+    """The job of an example with another number and item, and either other readings or about so many points."""
     shutil.copytree(example, folder)
     certificate = json.loads((folder / "certificate.json").read_text(encoding="utf-8"))
     certificate["number"] = f"BENCH-{number:04}"
+    certificate["item"]["serial_number"] = f"{70000 + 17 * number}"
     (folder / "certificate.json").write_text(json.dumps(certificate), encoding="utf-8")
-    tables = list(folder.glob("*.csv"))
+    tables = sorted(folder.glob("*.csv"))
+    chance = random.Random(number)
+    for table in [] if points else tables:
+        table.write_text(with_other_readings(table.read_text(encoding="utf-8"), chance), encoding="utf-8")
     for table in tables if points else []:
         head, *rows = table.read_text(encoding="utf-8").splitlines()
         wanted = points // len(tables)

@@ -244,15 +244,18 @@ const audit::RequiredContributor& required_of(const ContributorKind& kind) {
     });
 }
 
-ContributorView contributor_view(const ContributorKind& kind, const AuditedBudget& budget, double sum_of_squares) {
+/// \param names  of the rows of the budget
+ContributorView contributor_view(const ContributorKind& kind, const AuditedBudget& budget,
+                                 const std::vector<audit::NamedRow>& names, double sum_of_squares) {
     ContributorView view;
     view.id = kind.id;
     const audit::RequiredContributor& required = required_of(kind);
     double squares = 0.0;
-    for (const AuditedRow& row : budget.rows) {
-        if (!audit::stands_for(row, required)) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (!names[i].stands_for(required)) {
             continue;
         }
+        const AuditedRow& row = budget.rows[i];
         view.rows.push_back(printable(row.quantity));
         const double part = contribution_of(row);
         squares += part * part;
@@ -343,8 +346,9 @@ AuditedResultView result_view(const audit::AuditedResult& result, const AuditedB
     }
     std::stable_sort(view.rows.begin(), view.rows.end(),
                      [](const AuditedRowView& a, const AuditedRowView& b) { return a.contribution > b.contribution; });
+    const std::vector<audit::NamedRow> names(budget.rows.begin(), budget.rows.end());
     for (const ContributorKind& kind : k_contributor_kinds) {
-        view.contributors.push_back(contributor_view(kind, budget, whole));
+        view.contributors.push_back(contributor_view(kind, budget, names, whole));
     }
     return view;
 }

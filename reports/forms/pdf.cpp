@@ -5,6 +5,7 @@
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/render.h"
 #include "reports/forms/typeset_drawing.h"
+#include "reports/forms/typeset_table.h"
 #include "text/small_letters.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
@@ -33,10 +34,17 @@ bool needs_further_fonts(std::string_view utf8) {
     }
     return false;
 }
+bool needs_further_fonts(const nlohmann::json& view) {
+    if (view.is_string()) {
+        return needs_further_fonts(std::string_view(view.get_ref<const std::string&>()));
+    }
+    return view.is_structured() &&
+           std::any_of(view.begin(), view.end(), [](const nlohmann::json& part) { return needs_further_fonts(part); });
+}
 
 /// What the PDF template needs beyond the view that all forms share.
 nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_fonts, bool attachment) {
-    nlohmann::json view = with_typeset_drawings(plain_view);
+    nlohmann::json view = with_typeset_tables(with_typeset_drawings(plain_view));
     // Noto Serif CJK has the Chinese, Japanese and Korean characters; TC draws them as in Taiwan and Hong Kong.
     view["fonts"] = further_fonts ? nlohmann::json::array({"Noto Serif CJK TC"}) : nlohmann::json::array();
     view["attachment"] = nlohmann::json::array();
@@ -53,7 +61,7 @@ nlohmann::json with_pdf_keys(const nlohmann::json& plain_view, bool further_font
 
 std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, const std::string& dcc,
                         PdfWorker& worker, const std::string& main) {
-    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view);
     std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts, main);
     std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
     if (findings.empty()) {
@@ -87,10 +95,19 @@ std::string view_as_pdf(const nlohmann::json& view, const RenderAssets& assets, 
 
 std::vector<std::string> without_glyph(const std::vector<std::string>& characters, const nlohmann::json& view,
                                        const RenderAssets& assets, PdfWorker& worker) {
-    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view.dump());
+    const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view);
+    if (worker.has_shown(characters, further_fonts)) {
+        return {};
+    }
+    const auto texts = worker.texts_without_glyph(with_pdf_keys(view, further_fonts, false).dump(), further_fonts);
+    if (!texts) {
+        return {};
+    }
+    if (texts->empty()) {
+        worker.remember_shown(characters, further_fonts);
+    }
     std::string lacking;
-    for (const std::string& quoted :
-         worker.texts_without_glyph(with_pdf_keys(view, further_fonts, false).dump(), further_fonts)) {
+    for (const std::string& quoted : *texts) {
         lacking += quoted + ' ';
     }
     std::vector<std::string> found;

@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -49,9 +50,10 @@ constexpr const char* k_make_room = "make room on the disk of this folder, or na
 constexpr const char* k_package = "@myriaddreamin/typst-ts-node-compiler";
 
 // The pinned Typst package keeps about 1.2 MB for good for each certificate of three pages (measured over 1000), and a
-// fresh process costs about 0.1 s. So a process ends after so many documents, or sooner when they are large.
-constexpr int k_documents_per_process = 50;
-constexpr std::uint64_t k_memory_per_process = 600'000'000;  // bytes
+// fresh process costs about 0.5 s, with what it has to set anew. So a process ends after so many documents, or sooner when
+// they are large.
+constexpr int k_documents_per_process = 200;
+constexpr std::uint64_t k_memory_per_process = 800'000'000;  // bytes
 
 [[noreturn]] void storage_error(const std::string& where, const std::string& what, const std::string& rule,
                                 const std::string& action) {
@@ -245,14 +247,20 @@ public:
         return pdf;
     }
 
-    std::vector<std::string> texts_without_glyph(const std::string& view, bool further_fonts) {
+    std::optional<std::vector<std::string>> texts_without_glyph(const std::string& view, bool further_fonts) {
         const DocumentFolder files(workspace());
         const nlohmann::json answer = answer_to(view, {}, further_fonts, k_certificate);
+        if (!answer.is_object()) {
+            return std::nullopt;
+        }
         std::vector<std::string> texts;
-        if (answer.is_object() && answer.contains("texts")) {
+        if (answer.contains("texts")) {
             for (const nlohmann::json& text : answer["texts"]) {
                 texts.push_back(text.is_string() ? text.get<std::string>() : std::string());
             }
+        }
+        if (texts.empty() && answer.value("status", std::string()) != "done") {
+            return std::nullopt;
         }
         return texts;
     }
@@ -540,13 +548,24 @@ std::vector<TemplateFont> PdfWorker::fonts() {
     }
 }
 
-std::vector<std::string> PdfWorker::texts_without_glyph(const std::string& view, bool further_fonts) {
+std::optional<std::vector<std::string>> PdfWorker::texts_without_glyph(const std::string& view, bool further_fonts) {
     try {
         return running().texts_without_glyph(view, further_fonts);
     } catch (...) {
         process_.reset();
         throw;
     }
+}
+
+bool PdfWorker::has_shown(const std::vector<std::string>& characters, bool further_fonts) const {
+    const auto shown = shown_.find(further_fonts);
+    return shown != shown_.end() && std::ranges::all_of(characters, [&](const std::string& character) {
+               return shown->second.contains(character);
+           });
+}
+
+void PdfWorker::remember_shown(const std::vector<std::string>& characters, bool further_fonts) {
+    shown_[further_fonts].insert(characters.begin(), characters.end());
 }
 
 std::string PdfWorker::set(const std::string& view, const std::string& attachment, bool further_fonts,

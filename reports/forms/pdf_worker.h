@@ -1,6 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,9 +42,15 @@ public:
                                   const std::string& main = k_certificate);
 
     /// Sets a document and throws it away.
-    /// \return the texts in it that no font can show, as Typst quotes them; none where it cannot be set for another reason
+    /// \return the texts in it that no font can show, as Typst quotes them; no list where it cannot be set for another reason
     /// \throws gum::StorageError  as render_pdf()
-    [[nodiscard]] std::vector<std::string> texts_without_glyph(const std::string& view, bool further_fonts);
+    [[nodiscard]] std::optional<std::vector<std::string>> texts_without_glyph(const std::string& view,
+                                                                              bool further_fonts);
+
+    /// Whether a page has been set with all of these characters, and the same fonts. Jobs of one command have most characters
+    /// in common; the first one sets a page also where it has none, so that node and Typst are known to work.
+    [[nodiscard]] bool has_shown(const std::vector<std::string>& characters, bool further_fonts) const;
+    void remember_shown(const std::vector<std::string>& characters, bool further_fonts);
 
     /// Looks for what a page needs, so that it is told before work begins that would be lost: node, the Typst package,
     /// the template, and a folder for its files.
@@ -56,6 +65,7 @@ private:
     class Process;
     RenderAssets assets_;
     std::unique_ptr<Process> process_;
+    std::map<bool, std::set<std::string>> shown_;  ///< characters, by whether there were further fonts
 
     Process& running();
 };

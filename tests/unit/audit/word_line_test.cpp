@@ -1,6 +1,7 @@
 #include "audit/word_line.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,26 @@ TEST(WordLine, finds_beginnings_words_and_parts) {
     EXPECT_FALSE(words.has_word("standard", {"deviation"}));
     EXPECT_TRUE(WordLine("standard deviation of the standard").has_word("standard", {"deviation"}));
     EXPECT_FALSE(WordLine("").has("a"));
+}
+
+/// Law: a beginning is found where it stands behind a space, of all lines that a few words make.
+TEST(WordLine, finds_what_a_search_of_the_whole_line_finds) {
+    const std::vector<std::string> words{"dead", "path", "deadpath", "a", "ad", "pa", "th"};
+    for (const std::string& first : words) {
+        for (const std::string& second : words) {
+            for (const std::string& third : words) {
+                const std::string line = first + ' ' + second + ' ' + third;
+                for (const std::string& one : words) {
+                    for (const std::string& beginning :
+                         {one, one + ' ', one.substr(0, one.size() / 2 + 1), one + " p", first + ' ' + one}) {
+                        EXPECT_EQ(WordLine(line).has(beginning),
+                                  (' ' + line + ' ').find(' ' + beginning) != std::string::npos)
+                            << line << ": " << beginning;
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(WordLine, reads_a_count_in_front_of_a_word) {

@@ -115,7 +115,7 @@ TEST_F(PdfWorkerTest, StartsAFreshProcessAfterManyDocuments) {
     SKIP_WITHOUT_PDF();
     PdfWorker worker(assets_);
     const std::string first = worker.set(view("again"), "");
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 210; ++i) {
         ASSERT_EQ(worker.set(view("again"), ""), first) << i;
     }
 }

@@ -1,4 +1,5 @@
 #include "reports/forms/render.h"
+#include "reports/forms/pdf_worker.h"
 #include "reports/printable_text.h"
 
 #include "gum/quantity/diagnostic.h"
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -433,6 +435,29 @@ TEST(RenderPdf, ShowsTheTextsOfTheRecordAndIsRepeatable) {
     }
     EXPECT_THAT(text, HasSubstr("page 1 of "));
     EXPECT_THAT(text, HasSubstr("End of calibration certificate"));
+}
+
+/// Typst keeps what certificates have in common. A document has the same bytes whatever was set before it, in whatever order:
+/// also one that differs in a number of its pages alone, or has the same tables in another language.
+TEST(RenderPdf, HasTheSameBytesWhateverWasSetBefore) {
+    SKIP_WITHOUT_PDF();
+    EvaluationRecord other_number = test::certified_budget_record();
+    other_number.certificate->data.number = "OTHER-17";
+    const std::vector<EvaluationRecord> records{test::certified_budget_record(), other_number, test::sample_record(),
+                                                test::drafted(test::certified_budget_record())};
+    std::vector<std::string> alone;
+    for (const EvaluationRecord& record : records) {
+        alone.push_back(render_pdf(record, assets()));
+    }
+    PdfWorker worker(assets());
+    for (const std::size_t i : {1U, 0U, 2U, 3U, 0U, 1U, 3U, 2U, 2U, 0U}) {
+        EXPECT_EQ(render_pdf(records[i], assets(), {}, &worker), alone[i]) << i;
+    }
+    // What many documents did not use is forgotten in between.
+    for (int more = 0; more < 32; ++more) {
+        EXPECT_EQ(render_pdf(records[2], assets(), {}, &worker), alone[2]) << more;
+    }
+    EXPECT_EQ(render_pdf(records[0], assets(), {}, &worker), alone[0]);
 }
 
 TEST(RenderPdf, HostileTextsAreShownAsTexts) {

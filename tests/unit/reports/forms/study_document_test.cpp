@@ -52,6 +52,22 @@ TEST(StudyDocument, CharactersWithoutGlyphAreNamed) {
     EXPECT_TRUE(render_pdf(study("plan"), assets(), &worker).starts_with("%PDF-")) << "the process goes on";
 }
 
+/// Jobs of one command have most characters in common: a page is set for those that are new.
+TEST(StudyDocument, CharactersThatWereShownAreNotLookedAtAgain) {
+    SKIP_WITHOUT_PDF();
+    PdfWorker worker(assets());
+    EXPECT_FALSE(worker.has_shown({}, false)) << "node and Typst are not known to work";
+    EXPECT_THAT(characters_without_glyph({"\u03A9", "\u2212"}, assets(), worker), ::testing::IsEmpty());
+    EXPECT_TRUE(worker.has_shown({"\u2212"}, false));
+    EXPECT_FALSE(worker.has_shown({"\u2212", "\u2264"}, false));
+    EXPECT_FALSE(worker.has_shown({"\u2212"}, true)) << "of other fonts nothing is known";
+    EXPECT_THAT(characters_without_glyph({"\u2212", "\uA66E"}, assets(), worker), ::testing::ElementsAre("\uA66E"));
+    EXPECT_THAT(characters_without_glyph({"\uA66E"}, assets(), worker), ::testing::ElementsAre("\uA66E"));
+    EXPECT_FALSE(worker.has_shown({"\uA66E"}, false));
+    EXPECT_THAT(characters_without_glyph({"\u03A9", "\u2264"}, assets(), worker), ::testing::IsEmpty());
+    EXPECT_TRUE(worker.has_shown({"\u2212", "\u2264"}, false));
+}
+
 TEST(StudyDocument, EveryFormSaysThatNothingWasMeasured) {
     for (const auto& [kind, mark] : {std::pair("simulation", "Simulation study – not a calibration certificate"),
                                      std::pair("plan", "Plan – nothing was measured")}) {
