@@ -198,16 +198,6 @@ void report_findings(const reports::EvaluationRecord& record, const CommonOption
     }
 }
 
-gum::Diagnostic usage_problem(const std::string& where, const std::string& what, const std::string& rule,
-                              const std::string& action) {
-    return {"GC-USAGE-0001", where, what, rule, action, gum::Severity::error};
-}
-
-void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
-                  const std::string& action) {
-    throw gum::UsageError(usage_problem(where, what, rule, action));
-}
-
 namespace {
 
 gum::Diagnostic lost_output(const char* action) {

@@ -66,13 +66,18 @@ void report_diagnostics(const reports::EvaluationRecord& record, const CommonOpt
 /// The findings of the gates before issue, one line each; informations only where they are wanted.
 void report_findings(const reports::EvaluationRecord& record, const CommonOptions& common);
 
-/// What is wrong with the command line: GC-USAGE-0001.
-[[nodiscard]] gum::Diagnostic usage_problem(const std::string& where, const std::string& what, const std::string& rule,
-                                            const std::string& action);
+/// What is wrong with the command line: GC-USAGE-0001. Written here, for the program that writes the manual reads a command
+/// line, too, and has nothing else of the terminal.
+[[nodiscard]] inline gum::Diagnostic usage_problem(const std::string& where, const std::string& what,
+                                                   const std::string& rule, const std::string& action) {
+    return {"GC-USAGE-0001", where, what, rule, action, gum::Severity::error};
+}
 
 /// \throws gum::UsageError  GC-USAGE-0001
-[[noreturn]] void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
-                               const std::string& action);
+[[noreturn]] inline void refuse_usage(const std::string& where, const std::string& what, const std::string& rule,
+                                      const std::string& action) {
+    throw gum::UsageError(usage_problem(where, what, rule, action));
+}
 
 /// \throws gum::StorageError  if not all of it arrives
 void write_to_stdout(const std::string& bytes);
