@@ -405,16 +405,10 @@ private:
             texts.push_back({one.replaces ? "a text in place of what is drawn" : "a description", std::move(one.text),
                              one.replaces});
         }
+        // One digit, sign or word in place of another one is among any others: what is drawn has nothing else in its place.
         std::string known;
         for (const std::string& page : reports::texts_of_pages(bytes)) {
             known += page + '\n';
-        }
-        // One digit in place of another one is among any others: a number is drawn, and has nothing in its place.
-        const auto number = std::find_if(texts.begin(), texts.end(), [](const reports::PdfTextBesidePages& one) {
-            return one.replaces && one.text.find_first_of("0123456789") != std::string::npos;
-        });
-        if (number != texts.end()) {
-            refuse_page(file, "has " + std::string(number->what) + ", " + text::in_quotes(number->text));
         }
         std::erase_if(texts, [&](const reports::PdfTextBesidePages& one) {
             return says_only(one.text, known) || is_head_of_archive(one.text);
@@ -429,10 +423,6 @@ private:
         constexpr std::size_t k_most_told = 5;
         for (std::size_t i = 0; i < std::min(texts.size(), k_most_told); ++i) {
             told += (told.empty() ? "" : ", ") + std::string(texts[i].what) + " " + text::in_quotes(texts[i].text);
-        }
-        const auto replacing = std::find_if(texts.begin(), texts.end(), [](const auto& one) { return one.replaces; });
-        if (replacing != texts.end()) {
-            refuse_page(file, "has " + std::string(replacing->what) + ", " + text::in_quotes(replacing->text));
         }
         if (!texts.empty()) {
             findings.take({gum::Diagnostic{
@@ -594,8 +584,11 @@ void state_amendment(CheckedDraft& amendment, const std::string& original) {
         amendment.draft.amends->changes.push_back({change.kind, change.where, change.before, change.after});
     }
     if (amendment.draft.amends->changes.empty()) {
-        refuse("states nothing else than \"" + stated.number + '"', "an amendment changes something",
-               "change what is to be amended, or do not amend it");
+        refuse(
+            "differs from \"" + stated.number +
+                "\" in nothing that is compared: not in texts of the certificate data, and not in what its tables of "
+                "results show; the order of rows, and annexes, are not compared",
+            "an amendment changes something", "change what is to be amended, or do not amend it");
     }
 }
 

@@ -63,6 +63,9 @@ public:
                 read_number_or_operator();
             }
         }
+        while (!marked_.empty()) {
+            end_marked_content();  // it has no EMC
+        }
         return std::move(drawn_);
     }
     [[nodiscard]] std::vector<TextBesideDrawn> take_texts_beside() { return std::move(beside_); }
@@ -158,7 +161,11 @@ private:
             word.front() == '.') {
             return;
         }
-        if (word == "Tf") {
+        if (word == "BDC" || word == "BMC") {
+            marked_.push_back({texts_of_operator_, beside_.size(), drawn_.size()});
+        } else if (word == "EMC" && !marked_.empty()) {
+            end_marked_content();
+        } else if (word == "Tf") {
             font_ = name_;
         } else if (word == "Tj" || word == "TJ" || word == "'" || word == "\"") {
             drawn_.push_back({std::string(font_), strings_});
@@ -167,7 +174,29 @@ private:
             rest_.remove_prefix(std::min(rest_.find("EI"), rest_.size()));
         }
         strings_.clear();
+        texts_of_operator_ = beside_.size();
     }
+
+    void end_marked_content() {
+        const MarkedContent& ended = marked_.back();
+        for (std::size_t i = ended.first_text; i < ended.end_of_texts; ++i) {
+            // Marked contents may stand within each other: what is too much is left out, and then nothing fits the text.
+            const std::size_t count = drawn_.size() - ended.first_drawn;
+            if (count <= k_most_kept - std::min(kept_, k_most_kept)) {
+                beside_[i].drawn.assign(drawn_.begin() + static_cast<std::ptrdiff_t>(ended.first_drawn), drawn_.end());
+                kept_ += count;
+            }
+        }
+        marked_.pop_back();
+    }
+
+    static constexpr std::size_t k_most_kept = 1'000'000;  // strings that texts are taken in place of
+
+    /// From BDC to EMC.
+    struct MarkedContent {
+        std::size_t first_text, end_of_texts;  ///< those of its properties
+        std::size_t first_drawn;
+    };
 
     std::string_view rest_;
     std::string_view name_;
@@ -177,6 +206,9 @@ private:
     bool is_beside_ = false;  ///< the next string is a text beside what is drawn
     bool replaces_ = false;
     std::vector<TextBesideDrawn> beside_;
+    std::size_t texts_of_operator_ = 0;  ///< the first that stands among the operands of the next operator
+    std::vector<MarkedContent> marked_;
+    std::size_t kept_ = 0;
 };
 
 }  // namespace

@@ -19,9 +19,10 @@ struct DrawnCodes {
 
 /// A text that the content of a page states beside what it draws (ISO 32000-1:2008, 14.9).
 struct TextBesideDrawn {
-    bool replaces =
-        false;  ///< /ActualText, which programs copy and read aloud in place of what is drawn; else /Alt, /E
+    /// /ActualText, which programs copy and read aloud in place of what is drawn; else /Alt, /E
+    bool replaces = false;
     std::string text;
+    std::vector<DrawnCodes> drawn = {};  ///< what it is taken in place of: drawn up to the EMC of its BDC
 };
 
 /// Texts as they are encoded.

@@ -118,8 +118,15 @@ private:
     std::set<QPDFObjGen> named_files_;  // streams, of which the contents are known to whoever asks
 
     void tell(const char* what, QPDFObjectHandle text, bool replaces = false) {
-        if (text.isString() && parts_.texts.size() < k_most_texts) {
-            parts_.texts.push_back({what, text.getUTF8Value(), replaces});
+        if (text.isString()) {
+            take_text({what, text.getUTF8Value(), replaces});
+        }
+    }
+
+    void take_text(PdfTextBesidePages text) {
+        refuse(parts_.texts.size() >= k_most_texts, "has more than 5000 texts that no page draws");
+        if (parts_.refused.empty()) {
+            parts_.texts.push_back(std::move(text));
         }
     }
 
@@ -140,18 +147,25 @@ private:
             return;
         }
         if (!metadata.getDict().getKey("/Filter").isNull()) {
-            parts_.texts.push_back({"metadata", "(packed)", false});
+            take_text({"metadata", "(packed)", false});
             return;
         }
         const std::shared_ptr<Buffer> bytes = metadata.getRawStreamData();
         const std::string_view xmp(reinterpret_cast<const char*>(bytes->getBuffer()), bytes->getSize());
+        refuse(xmp.size() > k_largest_metadata, "has metadata of more than 1 MiB");
+        if (xmp.size() > k_largest_metadata) {
+            return;
+        }
         for (const std::string_view name : {"dc:title", "dc:description", "dc:subject", "dc:creator", "dc:rights",
                                             "pdf:Keywords", "photoshop:Headline", "photoshop:Instructions"}) {
             for (std::size_t at = xmp.find(name); at != std::string_view::npos; at = xmp.find(name, at + 1)) {
                 const char before = at == 0 ? ' ' : xmp[at - 1];
-                const std::size_t end = xmp.find("</" + std::string(name), at);
-                if (before == '<' && end != std::string_view::npos) {
+                const std::size_t end = before == '<' ? xmp.find("</" + std::string(name), at) : std::string_view::npos;
+                if (end != std::string_view::npos) {
                     tell_xmp(xmp.substr(at, end - at));
+                    at = end;
+                } else if (before == '<') {
+                    break;                                                   // nor has any that stands behind it an end
                 } else if (xmp.substr(at + name.size()).starts_with("=")) {  // an attribute
                     const std::size_t first = xmp.find_first_of("\"'", at);
                     const std::size_t last = first == std::string_view::npos ? first : xmp.find(xmp[first], first + 1);
@@ -161,6 +175,25 @@ private:
                 }
             }
         }
+    }
+
+    static std::string without_entities(std::string_view text) {
+        std::string plain;
+        while (!text.empty()) {
+            std::size_t taken = 1;
+            char character = text.front();
+            for (const auto& [entity, meant] :
+                 {std::pair("&lt;", '<'), std::pair("&gt;", '>'), std::pair("&quot;", '"'), std::pair("&apos;", '\''),
+                  std::pair("&amp;", '&')}) {
+                if (text.starts_with(entity)) {
+                    taken = std::string_view(entity).size();
+                    character = meant;
+                }
+            }
+            plain += character;
+            text.remove_prefix(taken);
+        }
+        return plain;
     }
 
     /// The texts of an element without its tags.
@@ -173,16 +206,7 @@ private:
                 text += c;
             }
         }
-        for (const auto& [entity, character] :
-             {std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&quot;", "\""), std::pair("&apos;", "'"),
-              std::pair("&amp;", "&")}) {
-            for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity, at + 1)) {
-                text.replace(at, std::string_view(entity).size(), character);
-            }
-        }
-        if (parts_.texts.size() < k_most_texts) {
-            parts_.texts.push_back({"metadata", std::move(text), false});
-        }
+        take_text({"metadata", without_entities(text), false});
     }
 
     void refuse(bool is_there, const std::string& what) {
@@ -338,7 +362,8 @@ private:
     }
 
     static constexpr std::size_t k_most_files = 100;
-    static constexpr std::size_t k_most_texts = 100'000;
+    static constexpr std::size_t k_most_texts = 5000;
+    static constexpr std::size_t k_largest_metadata = std::size_t{1} << 20U;
     static constexpr int k_most_levels = 32;
 };
 

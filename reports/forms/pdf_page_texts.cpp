@@ -232,11 +232,10 @@ private:
 };
 
 /// \param most  length of the text
-std::string text_of_page(Object page, Fonts& fonts, Unpacker& unpacker, std::size_t most) {
-    Object resources = page.getKey("/Resources");
-    resources = resources.isDictionary() ? resources.getKey("/Font") : Object::newNull();
+std::string text_of_codes(const std::vector<DrawnCodes>& codes, const Object& resources, Fonts& fonts,
+                          std::size_t most) {
     std::string text;
-    for (const DrawnCodes& drawn : drawn_codes(content_of(page, unpacker))) {
+    for (const DrawnCodes& drawn : codes) {
         const CodeTexts* font = fonts.find(resources, drawn.font);
         // Two bytes a code (Identity-H).
         for (std::size_t i = 0; font != nullptr && i + 1 < drawn.codes.size(); i += 2) {
@@ -249,6 +248,28 @@ std::string text_of_page(Object page, Fonts& fonts, Unpacker& unpacker, std::siz
         text += k_end_of_drawn_text;
     }
     return text;
+}
+
+Object fonts_of(Object page) {
+    Object resources = page.getKey("/Resources");
+    return resources.isDictionary() ? resources.getKey("/Font") : Object::newNull();
+}
+
+/// Without what draws nothing; the hyphens of the ends of lines are hyphens.
+std::string as_drawn(const std::string& text) {
+    std::string drawn;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t length = 1;
+        while (i + length < text.size() && text::is_continuation(text[i + length])) {
+            ++length;
+        }
+        const std::string character = text.substr(i, length);
+        const bool is_hyphen =
+            character == "-" || character == "\u00AD" || character == "\u2010" || character == "\u2011";
+        drawn += is_hyphen ? "-" : is_left_out(character) ? "" : character;
+        i += length;
+    }
+    return drawn;
 }
 
 std::string digits_of(std::string_view text) {
@@ -366,7 +387,7 @@ std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
     std::vector<std::string> texts;
     std::size_t left = k_largest_text;
     for (const Object& page : pdf.getAllPages()) {
-        texts.push_back(text_of_page(page, fonts, unpacker, left));
+        texts.push_back(text_of_codes(drawn_codes(content_of(page, unpacker)), fonts_of(page), fonts, left));
         left -= std::min(left, texts.back().size());
     }
     for (const QPDFExc& warning : pdf.getWarnings()) {
@@ -383,10 +404,18 @@ std::vector<TextBesideDrawn> texts_beside_drawn(std::string_view bytes) {
     pdf.setSuppressWarnings(true);
     pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
     Unpacker unpacker;
+    Fonts fonts(unpacker);
     std::vector<TextBesideDrawn> texts;
+    std::size_t left = k_largest_text;
     for (const Object& page : pdf.getAllPages()) {
         for (const TextBesideDrawn& one : texts_beside_drawn_codes(content_of(page, unpacker))) {
-            texts.push_back({one.replaces, Object::newString(one.text).getUTF8Value()});
+            const std::string text = Object::newString(one.text).getUTF8Value();
+            const std::string drawn = text_of_codes(one.drawn, fonts_of(page), fonts, left);
+            left -= std::min(left, drawn.size());
+            // Typst says of a hyphen at the end of a line that it is a soft one, and where a line may be broken.
+            if (!one.replaces || as_drawn(text) != as_drawn(drawn)) {
+                texts.push_back({one.replaces, text});
+            }
         }
     }
     return texts;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gumcert::reports {
 namespace {
@@ -45,6 +46,46 @@ TEST(DrawnCodes, TextsBesideThemAreTold) {
     EXPECT_EQ(beside("/E 12 Tf (a) Tj /Alt BMC (b) Tj EMC /P << /MCID 0 >> BDC (c) Tj EMC"), "");
     EXPECT_EQ(beside("/ActualText"), "");
     EXPECT_EQ(beside("/ActualText (a"), "a!;");
+}
+
+TEST(DrawnCodes, ATextStandsInPlaceOfWhatItsMarkedContentDraws) {
+    const auto in_place_of = [](std::string_view content) {
+        std::string all;
+        for (const TextBesideDrawn& one : texts_beside_drawn_codes(content)) {
+            all += one.text + "=";
+            for (const DrawnCodes& drawn : one.drawn) {
+                all += drawn.font + ":" + drawn.codes + " ";
+            }
+            all += ";";
+        }
+        return all;
+    };
+    EXPECT_EQ(in_place_of("/f 9 Tf (x) Tj /Span <</ActualText (a)>> BDC (b) Tj [(c) 1 (d)] TJ EMC (y) Tj"),
+              "a=f:b f:cd ;");
+    EXPECT_EQ(in_place_of("/S <</ActualText (a)>> BDC (b) Tj /S <</ActualText (c)>> BDC (d) Tj EMC (e) Tj EMC"),
+              "a=:b :d :e ;c=:d ;");
+    EXPECT_EQ(in_place_of("/S <</ActualText (a)>> BDC /P BMC (b) Tj EMC (c) Tj EMC (d) Tj"), "a=:b :c ;");
+    EXPECT_EQ(in_place_of("/S <</ActualText (a)>> BDC (b) Tj"), "a=:b ;");  // nor does a program that copies it stop
+    EXPECT_EQ(in_place_of("/S <</ActualText (a)>> DP (b) Tj EMC EMC"), "a=;");
+    EXPECT_EQ(in_place_of("EMC EMC /S <</ActualText (a) /E (b)>> BDC (c) Tj EMC"), "a=:c ;b=:c ;");
+}
+
+/// A thousand marked contents within each other would copy a thousand times what the innermost draws.
+TEST(DrawnCodes, MarkedContentsWithinEachOtherStayBounded) {
+    std::string content;
+    for (int i = 0; i < 3000; ++i) {
+        content += "/S <</ActualText (a)>> BDC ";
+    }
+    for (int i = 0; i < 3000; ++i) {
+        content += "(b) Tj ";
+    }
+    std::size_t kept = 0;
+    const std::vector<TextBesideDrawn> all = texts_beside_drawn_codes(content);
+    for (const TextBesideDrawn& one : all) {
+        kept += one.drawn.size();
+    }
+    EXPECT_EQ(all.size(), 3000U);
+    EXPECT_LE(kept, 1'000'000U);
 }
 
 TEST(DrawnCodes, AStringIsDecoded) {

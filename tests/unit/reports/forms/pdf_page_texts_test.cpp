@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gumcert::reports {
@@ -50,10 +51,10 @@ TEST(PdfPageTexts, RefuseATemplateWithoutNumberOrMark) {
     SKIP_WITHOUT_PDF();
     const fs::path folder = fs::path(::testing::TempDir()) / ("gumcert-marks-" + std::to_string(getpid()));
     const std::vector<std::pair<std::string, std::string>> edits = {
-        {"align(right, breakable(view.header_right))", "[]"},  // no number and mark from page 2 on
-        {"#for mark in view.mark { set-mark(mark) }", ""},     // no mark on page 1
-        {"strong(breakable(page.number))", "[]"},              // no number on page 1
-        {"breakable(view.header_right)", "breakable(view.header_right.slice(0, 12))"}};
+        {"align(right, breakable(head-right))", "[]"},      // no number and mark from page 2 on
+        {"#for mark in view.mark { set-mark(mark) }", ""},  // no mark on page 1
+        {"strong(breakable(page.number))", "[]"},           // no number on page 1
+        {"head-right: view.header_right", "head-right: view.header_right.slice(0, 12)"}};
     for (const auto& [what, with] : edits) {
         fs::remove_all(folder);
         fs::copy(assets().templates, folder, fs::copy_options::recursive);
@@ -89,10 +90,9 @@ TEST(PdfPageTexts, RefuseATemplateThatPrintsAnotherDigit) {
         fs::remove_all(folder);
         fs::copy(assets().templates, folder, fs::copy_options::recursive);
         std::string text = read_asset(folder / "pdf/certificate.typ");
-        const std::string what = "box(grouped(cell.text, cell.pad))";
+        const std::string what = "let content = cell.text";
         EXPECT_NE(text.find(what), std::string::npos);
-        text.replace(text.find(what), what.size(),
-                     "box(grouped(cell.text.replace(\"68.7\", \"" + printed + "\"), cell.pad))");
+        text.insert(text.find(what) + what.size(), ".replace(\"68.7\", \"" + printed + "\")");
         std::ofstream(folder / "pdf/certificate.typ", std::ios::binary) << text;
         try {
             static_cast<void>(render_pdf(record, own));
@@ -167,6 +167,71 @@ TEST(PdfPageTexts, EndWhereADocumentUnpacksToTooMuch) {
     }
     EXPECT_THAT(read(pdf_with("5 0 R", {stream(letters + "> endbfchar"), stream(many + "> Tj ET")})),
                 HasSubstr("256 MiB"));
+}
+
+/// A map of the signs of an ASCII text, of the minus as 2212 and of a soft hyphen as 00AD.
+std::string map_of_signs() {
+    std::string map = "2 beginbfchar <2212> <2212> <00AD> <00AD> endbfchar 95 beginbfchar";
+    const std::string_view digits = "0123456789ABCDEF";
+    for (unsigned code = 0x20; code < 0x7F; ++code) {
+        const std::string hex = {digits[code / 16], digits[code % 16]};
+        map.append(" <00").append(hex).append("> <00").append(hex).append(">");
+    }
+    return map + " endbfchar";
+}
+
+/// The texts beside what a page draws.
+std::string beside(const std::string& content) {
+    std::string all;
+    for (const TextBesideDrawn& one :
+         texts_beside_drawn(pdf_with("5 0 R", {stream(map_of_signs()), stream(content)}))) {
+        all += one.text + (one.replaces ? "!;" : ";");
+    }
+    return all;
+}
+
+/// Typst states a text in place of each hyphen at the end of a line, and of the sign before a place where a line may break.
+TEST(PdfPageTexts, ATextInPlaceOfItselfIsNone) {
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText <FEFF00AD> >> BDC <002D> Tj EMC"), "");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText <FEFF0037200B> >> BDC [<0037> -3] TJ EMC"), "");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText (12.5 mm) >> BDC <00310032> Tj [<002E0035> 9 <006D006D>] TJ EMC"),
+              "");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText (ab) >> BDC /P << /ActualText (b) >> BDC <0062> Tj EMC EMC"),
+              "ab!;");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /Alt (a) >> BDC <0061> Tj EMC"), "a;");
+}
+
+/// Law: whatever stands in place of something else is told, where it is a digit, a sign, a word, or nothing.
+TEST(PdfPageTexts, ATextInPlaceOfAnotherIsTold) {
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText (pass) >> BDC <006600610069006C> Tj EMC"), "pass!;");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText () >> BDC <0031> Tj EMC"), "!;");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText (1) >> BDC EMC <0031> Tj"), "1!;");
+    EXPECT_EQ(beside("/F 1 Tf <0031> Tj /Span << /ActualText (1) >> BDC EMC"), "1!;");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText (1) >> DP <0031> Tj EMC"), "1!;");
+    EXPECT_EQ(beside("/F 1 Tf /Span << /ActualText <FEFF2212> >> BDC <002B> Tj EMC"), "\u2212!;");
+    const std::string_view signs = "0123456789+-.,|<>aZ";
+    const auto hex = [](char sign) {
+        const std::string_view digits = "0123456789ABCDEF";
+        const auto code = static_cast<unsigned char>(sign);
+        return std::string("<FEFF00") + digits[code / 16U] + digits[code % 16U] + '>';
+    };
+    for (const char drawn : signs) {
+        for (const char text : signs) {
+            const std::string told =
+                beside("/F 1 Tf /Span << /ActualText " + hex(text) + " >> BDC <" + hex(drawn).substr(5) + " Tj EMC");
+            EXPECT_EQ(told, text == drawn ? "" : std::string(1, text) + "!;") << text << " in place of " << drawn;
+        }
+    }
+}
+
+TEST(PdfPageTexts, NoCertificateHasATextInPlaceOfAnother) {
+    SKIP_WITHOUT_PDF();
+    RenderAssets a = assets();
+    a.languages = {"de", "en"};  // lines break in long words
+    const std::string pdf = render_pdf(test::certified_budget_record(), a);
+    for (const TextBesideDrawn& one : texts_beside_drawn(pdf)) {
+        EXPECT_FALSE(one.replaces) << one.text;
+    }
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST_F(TemplateReplacement, IsSaidOnEveryPage) {
     EXPECT_THROW(static_cast<void>(render_html(record, own_)), gum::NoResultError);
     SKIP_WITHOUT_PDF();
     EXPECT_FALSE(render_pdf(record, own_).empty());
-    replace("pdf/certificate.typ", "breakable(view.footer_left)", "[Form QM-17]");
+    replace("pdf/certificate.typ", "breakable(foot)", "[Form QM-17]");
     EXPECT_THROW(static_cast<void>(render_pdf(record, own_)), gum::NoResultError);
 }
 
@@ -124,7 +124,7 @@ TEST_F(TemplateReplacement, ChangesThePdf) {
     if (program("pdftotext").empty()) {
         GTEST_SKIP() << "pdftotext is missing";
     }
-    replace("pdf/certificate.typ", "breakable(view.footer_left)", "[Form QM-17]");
+    replace("pdf/certificate.typ", "breakable(foot)", "[Form QM-17]");
     const std::string text = pdf_text(render_pdf(test::certified_budget_record(), own_));
     EXPECT_THAT(text, HasSubstr("Form QM-17"));
     EXPECT_THAT(text, HasSubstr("50000838"));
