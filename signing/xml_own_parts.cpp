@@ -422,10 +422,11 @@ std::vector<std::string> unproven_values(const xmlNode* signature, const Covered
                                          const SignerChain& chain) {
     const OwnValues values(chain);
     std::vector<std::string> all;
+    std::set<std::string> told;
     const auto visit = [&](const xmlNode* element) -> std::string {
         const OwnPart* const own = own_part(element);
         if (own != nullptr && values.is_unproven(element, own->text)) {
-            if (std::string text = text_of(element); std::find(all.begin(), all.end(), text) == all.end()) {
+            if (std::string text = text_of(element); told.insert(text).second) {
                 all.push_back(std::move(text));
             }
         }
@@ -433,6 +434,16 @@ std::vector<std::string> unproven_values(const xmlNode* signature, const Covered
     };
     (void)first_of_own(signature, covered, visit);
     return all;
+}
+
+std::size_t revocation_lists_in(const xmlNode* signature, const CoveredParts& covered) {
+    std::size_t count = 0;
+    const auto visit = [&](const xmlNode* element) -> std::string {
+        count += is_element(element, k_dsig_namespace, "X509CRL") ? 1U : 0U;
+        return {};
+    };
+    (void)first_of_own(signature, covered, visit);
+    return count;
 }
 
 void certificates_in(const xmlNode* signature, const CoveredParts& covered, const char* name_space, const char* name,

@@ -3,6 +3,7 @@
 #include <libxml/tree.h>
 
 #include <array>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
@@ -39,6 +40,9 @@ using UsedNamespaces = std::set<const xmlNs*>;
 /// Names, numbers and digests of certificates for whose content nobody vouches, each once: they are told as not covered.
 [[nodiscard]] std::vector<std::string> unproven_values(const xmlNode* signature, const CoveredParts& covered,
                                                        const SignerChain& chain);
+
+/// How many lists of revoked certificates stand in a signature: nobody asks them, and what they say is not covered.
+[[nodiscard]] std::size_t revocation_lists_in(const xmlNode* signature, const CoveredParts& covered);
 
 /// Certificates of the elements of one name within a signature; those that are none are told by foreign_value().
 /// \param bytes  DER, as they stand in the document

@@ -461,6 +461,11 @@ private:
         }
         listed("an identifier within the signature: ", identifiers_in(signature_, covered()));
         listed("of a certificate that nothing that is trusted vouches for: ", unproven_);
+        if (const std::size_t lists = revocation_lists_in(signature_, covered()); lists > 0) {
+            report_.not_covered.push_back(lists == 1 ? "a list of revoked certificates within the signature"
+                                                     : std::to_string(lists) +
+                                                           " lists of revoked certificates within the signature");
+        }
         std::size_t objects = 0;
         for (const xmlNode* object : children_of(signature_, k_dsig_namespace, "Object")) {
             const xmlNode* qualifying = only_child(object, k_xades_namespace, "QualifyingProperties");

@@ -222,6 +222,11 @@ TEST_F(XmlAttack, UnsignedPropertiesOfXadesAreSaidNotToBeCovered) {
     EXPECT_EQ(error_of(stamped), "valid");
     EXPECT_THAT(verify(stamped).signatures.at(0).not_covered,
                 Contains(HasSubstr("unsigned properties within the signature: xades:SignatureTimeStamp")));
+    const std::string list = "<ds:X509CRL>" + encoding::base64(revocation_list(laboratory_.root, {})) + "</ds:X509CRL>";
+    EXPECT_THAT(verify(in_x509_data(list)).signatures.at(0).not_covered,
+                Contains(HasSubstr("a list of revoked certificates within the signature")));
+    EXPECT_THAT(verify(in_x509_data(list + list)).signatures.at(0).not_covered,
+                Contains(HasSubstr("2 lists of revoked certificates within the signature")));
     EXPECT_THAT(verify(good_).signatures.at(0).not_covered, testing::IsEmpty());
 }
 
