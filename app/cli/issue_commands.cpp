@@ -520,9 +520,6 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
                      "signatures are put into digital certificates and PDF certificates",
                      "leave it out, or ask for --format pdf or dcc");
     }
-    if (!options.languages.empty() && !app::output_form(format).with_templates) {
-        refuse_usage("--language", "--format " + format, "a table for programs has no language", "leave it out");
-    }
     if (to_stdout && several) {
         refuse_usage("-o -", "several records", "standard output takes one document", "render them one by one");
     }

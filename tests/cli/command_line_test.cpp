@@ -209,7 +209,6 @@ TEST_F(WrongCommandLine, AnOptionThatSaysNothingIsRefused) {
             << form;
     }
     const std::vector<std::pair<std::vector<std::string>, std::string>> others{
-        {{"render", "record.json", "--format", "csv", "--language", "de"}, "--language"},
         {{"check", "job/job.json", "--trust", "t.pem"}, "--trust"},
         {{"check", "dcc", "c.xml", "--laboratory", "."}, "--laboratory"},
         {{"self-test", "--case", "gum-h1-end-gauge", "-o", "out"}, "--output"},
