@@ -132,13 +132,14 @@ const WordList k_verbs(
 const WordList k_consent(
     U" agreed accepted approved permitted allowed confirmed vereinbart akzeptiert genehmigt abgestimmt erlaubt "
     U"zugelassen bestatigt acordado acordada aceptado aceptada aprobado aprobada permitido permitida confirmado ");
-/// Who may agree.
-const WordList k_parties(
-    U" customer client supplier manufacturer issuer person body assessor management manager head owner director "
-    U"everybody "
-    U"kunde kundin auftraggeber lieferant hersteller leitung leiter leiterin inhaber begutachter besteller "
-    U"cliente proveedor fabricante direccion director responsable emisor evaluador laboratory labor laboratorium "
-    U"laboratorio ");
+/// What may be agreed on. Whoever else stands before "agreed" is the one who agreed: "Laborleiter genehmigt".
+const WordList k_agreed_things(
+    U" divisor value values limit limits tolerance method procedure uncertainty budget deviation exception omission "
+    U"change waiver it this that all everything factor coverage scope range result results number distribution "
+    U"teiler wert werte grenze grenzwert grenzwerte toleranz methode verfahren unsicherheit abweichung ausnahme "
+    U"weglassung anderung verzicht dies das alles faktor umfang bereich ergebnis ergebnisse verteilung "
+    U"valor valores limite limites tolerancia metodo procedimiento incertidumbre desviacion excepcion omision cambio "
+    U"renuncia esto todo alcance rango resultado resultados distribucion ");
 /// Words in the number of a document that is not issued yet.
 const WordList k_of_a_draft(
     U" draft drafts entwurf vorabzug vorlaufig vorlaeufig borrador preliminar provisional preliminary preview sample "
@@ -357,7 +358,7 @@ bool is_consent_of_nobody(std::string_view text) {
             words.push_back(word);
         }
     }
-    return words.size() == 2 && k_consent.has(words.back()) && !k_parties.has(words.front());
+    return words.size() == 2 && k_consent.has(words.back()) && k_agreed_things.has(words.front());
 }
 
 bool is_sentence_of_fields(std::string_view text) {

@@ -447,7 +447,9 @@ void k_and_sentence(const AuditSubject& subject, FindingCollector& findings) {
         // A sum that a rectangular contribution dominates has a k below that of the normal distribution, 1.65 at 95 %; the rows
         // say whether one does. "1.83" is printed for 1.84. One end alone of an interval has another k.
         constexpr double k_printed = 0.99;
-        const bool is_one_sided = mentions(text::in_small_letters(sentence), {"one-sided", "one sided", "einseitig"});
+        const bool is_one_sided = mentions(text::in_small_letters(sentence),
+                                           {"one-sided", "one sided", "one-tailed", "one tailed", "einseitig",
+                                            "unilateral", "un seul c", "單側", "单侧", "單邊", "单边", "片側"});
         const bool has_rows = !budget.rows.empty();
         const double least_of_all = !has_rows               ? least_k_without_rows(budget.claims.distribution, *words.p)
                                     : k < k_printed * least ? least_k_of_rows(budget, *words.p).value_or(0.0)

@@ -135,14 +135,13 @@ void few_readings(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         // Where s is that of more series, n is how many readings make the mean, and ν how many the scatter comes of.
-        const bool is_of_more = std::isfinite(at.is.used_nu) && at.is.used_nu + 1.0 >= static_cast<double>(k_enough) &&
-                                mentions(at.is, {"pool", "earlier", "previous", "history", "study", " each",
-                                                 "fr\u00FCher", "vorherig", "studie", "je "});
-        if (is_of_more) {
+        const bool tells_of_more = mentions(at.is, {"pool", "earlier", "previous", "history", "study", " each",
+                                                    "fr\u00FCher", "vorherig", "studie", "je "});
+        if (tells_of_more && std::isfinite(at.is.used_nu) && at.is.used_nu + 1.0 >= static_cast<double>(k_enough)) {
             return;
         }
         // s of n readings about their mean has ν = n − 1 (JCGM 100:2008, 4.2.6): n itself is how many they are.
-        if (*n >= 2 && at.is.nu && at.is.used_nu == static_cast<double>(*n)) {
+        if (*n >= 2 && at.is.nu && at.is.used_nu == static_cast<double>(*n) && !tells_of_more) {
             AuditFinding finding = finding_at(
                 at, "ν", say("ν is the number of readings, {count:number}; s has one less", std::to_string(*n)));
             finding.evidence = {equals("n", std::to_string(*n)), equals("ν", nu_in_words(at.is.used_nu))};

@@ -425,8 +425,12 @@ void deviation_by_n(const WorksheetView& view, const RowAt& at, FindingCollector
     constexpr double k_same = 1e-6;
     const double over = spread->s / made.number;  // what the formula divides by
     const bool by_n = is_about(over, 1.0, k_same) || is_about(over, std::sqrt(spread->n), k_same);
-    const bool is_put_right = is_about(over, 1.0, k_same) && at.is.divisor &&
-                              is_about(at.is.divisor->value, std::sqrt(spread->n - 1.0), 1e-3);
+    // Without a column of divisors the row divides by what its u is smaller by; two readings need no divisor.
+    const bool is_divided = !at.is.divisor && at.is.stated && at.is.used_u > 0.0;
+    const double divisor = at.is.divisor ? at.is.divisor->value
+                           : is_divided  ? std::abs(at.is.stated->value) / at.is.used_u
+                                         : 1.0;
+    const bool is_put_right = is_about(over, 1.0, k_same) && is_about(divisor, std::sqrt(spread->n - 1.0), 1e-3);
     if (!by_n || is_put_right) {
         return;
     }

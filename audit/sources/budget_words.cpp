@@ -232,7 +232,6 @@ constexpr std::array k_statement_words = {
     Word{U"standarduncertainty", Statement::u_c},
     Word{U"standardunsicherheit", Statement::u_c},
     Word{U"wc", Statement::u_c},
-    Word{U"quadraticsum", Statement::u_c},
     Word{U"nueff", Statement::nu_eff},
     Word{U"veff", Statement::nu_eff},
     Word{U"effectivedegreesoffreedom", Statement::nu_eff},

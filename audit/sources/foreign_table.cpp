@@ -363,6 +363,9 @@ private:
                 return;
             }
             constexpr double k_digits = 0.01;  // relative, of the divisor and the coefficient
+            if (std::abs(std::abs(c->value) - divisor) <= k_digits * divisor) {
+                return;  // what was multiplied by c may be what was never divided
+            }
             const double part = std::abs(stated->value) / divisor, weighted = std::abs(c->value) * part;
             const double left_open = printed_half_step(*u) + k_digits * std::abs(u->value);
             const bool is_weighted = std::abs(std::abs(u->value) - weighted) <= left_open,
@@ -1069,6 +1072,7 @@ private:
             return "1";
         }
         std::optional<std::string> shared;
+        std::size_t as_they_are = 0;
         for (const AuditedRow& row : budget_.rows) {
             const bool as_it_is = !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
             const std::string unit = is_one(row.unit) ? "1" : row.unit;
@@ -1076,8 +1080,10 @@ private:
                 return "";
             }
             shared = as_it_is ? unit : shared;
+            as_they_are += as_it_is ? 1U : 0U;
         }
-        return shared.value_or("");
+        // One row alone may have a coefficient of 1/A beside another one's of 10 V/A².
+        return as_they_are == budget_.rows.size() || as_they_are > 1 ? shared.value_or("") : "";
     }
 
     const SheetView& sheet_;

@@ -97,6 +97,17 @@ TEST(PlaceholderText, OfANameIsTheNameOfTheField) {
     }
 }
 
+TEST(PlaceholderText, AConsentNamesWhoGaveIt) {
+    for (const char* text : {"Divisor agreed.", "Teiler vereinbart.", "Divisor acordado.", "The method is accepted"}) {
+        EXPECT_TRUE(is_consent_of_nobody(text)) << text;
+    }
+    for (const char* text :
+         {"Laborleiter genehmigt.", "Qualitätsmanagerin genehmigt", "Müller genehmigt.", "QMB approved",
+          "The customer agreed.", "Cliente aceptado", "Divisor agreed with the customer"}) {
+        EXPECT_FALSE(is_consent_of_nobody(text)) << text;
+    }
+}
+
 // Bytes that are no UTF-8 do not lead past the end.
 TEST(PlaceholderText, TakesAnyBytes) {
     for (int first = 0; first < 256; ++first) {

@@ -416,6 +416,9 @@ TEST(WorksheetFindings, W04SeesDeviationsDividedByN) {
         EXPECT_TRUE(of_rule(report, "W04").empty()) << formula;
         EXPECT_NEAR(report.results.at(0).audited.u_c, right, 1e-9) << formula;
     }
+    // s/sqrt(2) of two readings is what STDEV.P makes of them: it needs no divisor, and another one is wrong.
+    EXPECT_TRUE(of_rule(with_readings("=STDEV.P(I2:I3)", "1", "1", "2", k_sum, ""), "W04").empty());
+    EXPECT_EQ(of_rule(with_readings("=STDEV.P(I2:I3)", "=SQRT(2)", "1", "2", k_sum, ""), "W04").size(), 1U);
 }
 
 TEST(WorksheetFindings, NuIsOneLessThanTheReadings) {
