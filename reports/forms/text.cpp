@@ -154,6 +154,25 @@ std::size_t longest_number(const json& rows, std::size_t c) {
     return longest;
 }
 
+/// The width of the longest word of a column that has a digit: an identification, a limit within a text.
+std::size_t longest_word_with_digits(const json& rows, std::size_t c) {
+    constexpr std::size_t k_longest = 40;
+    std::size_t longest = 0;
+    for (const json& row : rows) {
+        const std::string text = both(row.at("cells").at(c), "text");
+        for (std::size_t begin = 0; begin < text.size();) {
+            const std::size_t end = std::min(text.find(' ', begin), text.size());
+            const std::string word = text.substr(begin, end - begin);
+            const std::size_t own = width(word);
+            if (own <= k_longest && word.find_first_of("0123456789") != std::string::npos) {
+                longest = std::max(longest, own);
+            }
+            begin = end + 1;
+        }
+    }
+    return longest;
+}
+
 std::string table(const json& block) {
     const json& columns = block.at("columns");
     const std::size_t count = columns.size();
@@ -211,12 +230,13 @@ std::string table(const json& block) {
     // Heads in two languages take as many lines as they have words before anything else gives way. A number is never broken
     // into two lines, where it would read as another one: a table that is too wide for that is wider than the page.
     std::vector<std::size_t> least = widths;
-    std::vector<std::size_t> of_numbers(count);
+    std::vector<std::size_t> of_numbers(count), of_texts(count);
     for (std::size_t c = 0; c < count; ++c) {
         if (bilingual(columns)) {
             least[c] = std::min(widths[c], longest_word(columns[c], block.at("rows"), c));
         }
         of_numbers[c] = std::max(k_least_column, longest_number(block.at("rows"), c));
+        of_texts[c] = std::max(k_least_column, longest_word_with_digits(block.at("rows"), c));
     }
     while (total() >
            k_columns) {  // the widest column of texts gives way; heads of numbers when no text is left to wrap
@@ -224,7 +244,7 @@ std::string table(const json& block) {
         for (const int step : {0, 1, 2}) {
             for (std::size_t c = 0; c < count; ++c) {
                 const bool candidate = step == 0   ? widths[c] > least[c]
-                                       : step == 1 ? may_shrink[c] && widths[c] > k_least_column
+                                       : step == 1 ? may_shrink[c] && widths[c] > of_texts[c]
                                                    : !may_shrink[c] && widths[c] > of_numbers[c];
                 if (candidate && (widest == count || widths[c] > widths[widest])) {
                     widest = c;

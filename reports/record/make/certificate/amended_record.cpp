@@ -299,8 +299,16 @@ void show_layout(const CertifiedTable& table, std::vector<TableText>& shown) {
                                                          : column.show + "(" + column.of + ")";
         columns += (columns.empty() ? "" : ", ") + (column.show == "value" ? column.of : what);
         shown.push_back({"heading", what, in_all_languages(column.heading)});
-        shown.push_back({"role", what, column.role});
-        shown.push_back({"stage", what, column.stage});
+        // Those of the columns themselves stand below: what is the same is told once.
+        const auto own = std::find_if(layout.columns.begin(), layout.columns.end(),
+                                      [&](const certificate::PointColumn& one) { return one.name == column.of; });
+        const bool is_own = column.show == "column" && own != layout.columns.end();
+        if (!is_own || own->role != column.role) {
+            shown.push_back({"role", what, column.role});
+        }
+        if (!is_own || own->stage != column.stage) {
+            shown.push_back({"stage", what, column.stage});
+        }
     }
     shown.push_back({"group", name, in_all_languages(layout.group_heading)});
     shown.push_back({"role", name, layout.group_role});

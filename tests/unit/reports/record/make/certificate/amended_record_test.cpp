@@ -122,6 +122,8 @@ TEST(AmendedRecord, TellsCellsLimitsAndHeadingsThatDiffer) {
     EXPECT_EQ(changed([](auto& t) { t.columns[0].values[1].verdict->printed.upper = "5"; }),
               "limit_high E [2]: 1.6\u00A0mg -> 5\u00A0mg\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->columns[0].heading = "Marking"; }), "heading mark: Mark -> Marking\n");
+    EXPECT_EQ(changed([](auto& t) { t.layout->shown[0].role = t.layout->columns[0].role = "nominal"; }),
+              "role mark:  -> nominal\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->title = "Weights"; }), "title E:  -> Weights\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->shown.pop_back(); }), "columns E: mark, E, limit(E) -> mark, E\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->group = "class F1"; }),

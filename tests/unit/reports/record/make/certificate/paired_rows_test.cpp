@@ -16,9 +16,8 @@ TEST(PairedRows, FollowARowThatMoved) {
                                          leaf("/standards/1/name", "laser"), leaf("/standards/1/number", "4")};
     const std::vector<StatedLeaf> now{leaf("/standards/0/name", "laser"), leaf("/standards/0/number", "4"),
                                       leaf("/standards/1/name", "gauge"), leaf("/standards/1/number", "18")};
-    EXPECT_THAT(
-        places_of_counterparts(before, now),
-        ElementsAre("/standards/1/name", "/standards/1/number", "/standards/0/name", "/standards/0/number"));
+    EXPECT_THAT(places_of_counterparts(before, now),
+                ElementsAre("/standards/1/name", "/standards/1/number", "/standards/0/name", "/standards/0/number"));
 }
 
 TEST(PairedRows, KeepTheOrderOfSingleValues) {
