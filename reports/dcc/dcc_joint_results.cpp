@@ -74,11 +74,12 @@ struct Region {
     std::string k = "NaN", p = "NaN";
 };
 
-Region region_of(const EvaluationRecord& record) {
+/// \param results  how many of them are in the matrix
+Region region_of(const EvaluationRecord& record, std::size_t results) {
     const auto& region = record.region;
     // The factor of a region depends on the number of results that are in it. One of a part of them would be too large
     // or too small for the matrix.
-    if (!region || record.results.size() != record.covariance->names.size()) {
+    if (!region || record.results.size() != results) {
         return {};
     }
     const bool ellipsoid = region->k_p.number.has_value();
@@ -159,7 +160,7 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
     w.xml.close();
     w.xml.open("si:measurementUncertaintyMultivariateXMLList");
-    const Region region = region_of(w.record());
+    const Region region = region_of(w.record(), c.names.size());
     w.xml.open(region.element);
     matrix_of(w, c);
     w.xml.element("si:coverageFactorXMLList", region.k);
@@ -171,8 +172,7 @@ void joint_quantity(DccWriter& w, const ResultCovariance& c) {
     w.xml.close();
 }
 
-/// Without exact results: they have no covariance, and a standard uncertainty of 0 is no statement of one. The factor of a
-/// region of all results covers the others with the same probability at least.
+/// Without exact results: they have no covariance, and a standard uncertainty of 0 is no statement of one.
 ResultCovariance without_exact_results(const EvaluationRecord& record, const ResultCovariance& all) {
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < all.names.size(); ++i) {
