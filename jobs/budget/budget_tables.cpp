@@ -812,6 +812,7 @@ private:
             std::vector<std::string> without, past;
             std::string problem;
             std::optional<double> end;
+            bool is_past_all = false;  // a point without limits is a little past a step of them
             for (std::size_t p = 0; p < points.points.size() && problems_.refusals() == 0; ++p) {
                 const auto& results = results_[section_of(p)];
                 if (!job_.sections.empty() && std::none_of(results.begin(), results.end(), [&](const auto& known) {
@@ -826,6 +827,7 @@ private:
                 }
                 if (limits.passed && !is_set(s.limits->arguments.front().of)) {
                     end = end ? end : limits.passed;
+                    is_past_all = is_past_all || !limits.problem.empty();
                     past.push_back(text::in_quotes(points.points[p]));
                 }
             }
@@ -835,7 +837,7 @@ private:
                                      text::listed(without, 5) + ": " + problem,
                                  "every point has the limits of a specification that names its result",
                                  s.limits->by == "points" ? "state them in the columns limit_low, limit_high or mpe"
-                                 : past.empty()           ? "complete \"limits\" of the specification"
+                                 : !is_past_all           ? "complete \"limits\" of the specification"
                                                           : k_take_nominal_values);
             } else if (!past.empty()) {
                 const certificate::CapabilityArgument& argument = s.limits->arguments.front();
