@@ -14,6 +14,7 @@ Prints one line for each finding. Exit code 0: sound; 1: not sound; 2: the comma
 
 import argparse
 import base64
+import contextlib
 import datetime
 import errno
 import hashlib
@@ -1075,7 +1076,8 @@ def main():
         name = re.sub(r"(://[^:@\s]*:)\S*@", r"\1xxx@", str(trouble.filename or "standard output"))  # an address in place of a file
         if sys.stdout is not None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of the output is not tried again
-        print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
+        with contextlib.suppress(OSError):  # nor has it a place for messages
+            print(shown(f"{name}: {trouble.strerror}"), file=sys.stderr)
         return 5
     except MemoryError:
         print("there is not enough memory", file=sys.stderr)

@@ -593,9 +593,9 @@ TEST_F(ArchiveOfALaboratory, LooksAtDaysThatAreGiven) {
         EXPECT_EQ(ended.code, 2) << day;
         EXPECT_TRUE(tells(ended, "GC-USAGE-0001")) << ended.err;
     }
-    // The clock goes by UTC, the calendar of the laboratory may be a day before or behind.
+    // The clock goes by UTC, the calendar of the laboratory may be a day before or behind; and midnight may pass meanwhile.
     const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-    for (const int away : {-1, 0, 1, -2, 2}) {
+    for (const int away : {0, 1, -3, 3}) {
         const std::chrono::year_month_day date(day + std::chrono::days(away));
         const auto two = [](unsigned number) { return (number < 10 ? "-0" : "-") + std::to_string(number); };
         const std::string text = std::to_string(static_cast<int>(date.year())) +
