@@ -70,6 +70,9 @@ class Program:
         self.keep = keep
         version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
         self.commit = [(line.split()[1], "COMMIT") for line in version.splitlines() if line.startswith("commit ")]
+        if self.commit == [("unknown", "COMMIT")]:
+            raise RuntimeError(f"{program} was built without git: its documents name no commit that could be left out. "
+                               "Build it in a checkout.")
 
     def run(self, *arguments: str) -> None:
         done = subprocess.run([self.program, *arguments, "--quiet"], capture_output=True, text=True, check=False)
