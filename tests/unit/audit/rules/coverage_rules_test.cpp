@@ -80,6 +80,24 @@ TEST(CoverageRules, K03ReadsTheSentence) {
     EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
 }
 
+/// k = 1.645 is 95 % of one end of an interval, whatever the language that says so.
+TEST(CoverageRules, K03LeavesOneEndOfAnIntervalAlone) {
+    AuditedBudget budget = fixed_budget();
+    budget.claims.k = printed("1.645");
+    budget.coverage.k = 1.645;
+    budget.claims.U = exact_number(1.645 * 0.5, "");
+    const auto found = [&](const std::string& words) {
+        budget.claims.coverage_sentence = words;
+        return findings_of("K03", subject_of(budget)).size();
+    };
+    EXPECT_EQ(found("k = 1.645, p = 95 %"), 1U);
+    for (const char* const words :
+         {"one-sided, k = 1.645, p = 95 %", "k = 1.645, p = 95 % (one-tailed)", "einseitig, k = 1,645, p = 95 %",
+          "intervalo unilateral, k = 1,645, p = 95 %", "單側，k = 1.645，p = 95 %"}) {
+        EXPECT_EQ(found(words), 0U) << words;
+    }
+}
+
 TEST(CoverageRules, K03DoesNotAccuseTheRoundingOfRows) {
     // Rows of one digit give ν_eff = 12.5; from all digits the laboratory has 8.
     AuditedBudget budget = budget_of({row("a", 0.3, 1.0, 6.0), row("b", 0.2)});

@@ -428,6 +428,14 @@ TEST(WorksheetFindings, NuIsOneLessThanTheReadings) {
     ASSERT_TRUE(found[0].effect);
     EXPECT_NEAR(found[0].effect->alone.nu_eff, found[0].effect->claimed.nu_eff * 0.8, 1e-9);
     EXPECT_FALSE(of_rule(with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "4", "2", k_sum), "U02")[0].effect);
+    // Of a pooled s, five degrees of freedom beside five readings are a coincidence.
+    for (const char* const words : {"s; mean of 5 readings; from an earlier study", "pooled s; mean of 5 readings"}) {
+        const AuditReport pooled =
+            with_readings("=STDEV.S(I2:I6)", "=SQRT(5)", "5", "=T.INV.2T(0.0455,B10)", k_sum, words);
+        for (const AuditFinding& one : of_rule(pooled, "U02")) {
+            EXPECT_FALSE(one.effect) << words;
+        }
+    }
 }
 
 TEST(WorksheetFindings, ContributionsMayBeShownAlone) {
