@@ -1,6 +1,7 @@
 #include "app/archive/archive_draft.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <new>
@@ -355,11 +356,37 @@ private:
         }
         refuse_disagreement(file, document.disagreement_with_facts(facts_of(record_.certificate->data), *made_now_));
         if (record_.certificate->tables.empty()) {
-            refuse_disagreement(file,
-                                document.disagreement_with_report(reports::view_of_document(record_, assets_), words_));
+            refuse_disagreement(file, in_any_languages([&](const nlohmann::json& view) {
+                                    return document.disagreement_with_report(view, words_);
+                                }));
         } else {
             refuse_disagreement(file, document.disagreement_with(*record_.certificate, words_));
         }
+    }
+
+    /// A page does not say in which languages it is: the record may have been printed in any, or in any two side by side.
+    /// \param disagreement  with a view, "" for none
+    /// \return of the languages of the record, or "" where there is none in some language or two
+    [[nodiscard]] std::string in_any_languages(
+        const std::function<std::string(const nlohmann::json&)>& disagreement) const {
+        std::string of_the_record = disagreement(reports::view_of_document(record_, assets_));
+        const auto agrees_in = [&](const std::vector<std::string>& languages) {
+            reports::RenderAssets assets = assets_;
+            assets.languages = languages;
+            return disagreement(reports::view_of_document(record_, assets)).empty();
+        };
+        if (of_the_record.empty() || std::any_of(words_.languages.begin(), words_.languages.end(),
+                                                 [&](const std::string& one) { return agrees_in({one}); })) {
+            return {};
+        }
+        for (const std::string& first : words_.languages) {
+            for (const std::string& second : words_.languages) {
+                if (first != second && agrees_in({first, second})) {
+                    return {};
+                }
+            }
+        }
+        return of_the_record;
     }
 
     void require_agreement_of_pages(const fs::path& file, std::string_view bytes) {
@@ -385,15 +412,9 @@ private:
             refuse_disagreement(file, document.disagreement_with_pages(words_));
         }
         require_agreement(file, document);
-        // Each page was held against its view when it was made. In which language it is, is not said.
-        std::string missing = document.disagreement_with_view(reports::view_of_document(record_, assets_));
-        for (std::size_t i = 0; i < words_.languages.size() && !missing.empty(); ++i) {
-            reports::RenderAssets assets = assets_;
-            assets.languages = {words_.languages[i]};
-            if (document.disagreement_with_view(reports::view_of_document(record_, assets)).empty()) {
-                missing.clear();
-            }
-        }
+        // Each page was held against its view when it was made.
+        std::string missing =
+            in_any_languages([&](const nlohmann::json& view) { return document.disagreement_with_view(view); });
         refuse_disagreement(file, std::move(missing));
     }
 

@@ -305,6 +305,26 @@ TEST_F(ArchiveOfALaboratory, TakesNoDocumentThatStatesSomethingElse) {
     EXPECT_TRUE(tells(of_others, "[GC-ARCHIVE-0071]"));
 }
 
+/// The names of stations and reflectors in its tables have digits, which a page in two languages prints twice.
+TEST_F(ArchiveOfALaboratory, TakesPagesInAnyLanguagesOfTheProgram) {
+    if (std::string why = why_no_pdf(); !why.empty()) {
+        GTEST_SKIP() << why;
+    }
+    const std::string job = (fs::path(GUMCERT_SOURCE_DIR) / "examples/certificate/rotary_table.json").string();
+    ASSERT_EQ(gumcert({"evaluate", job, "-o", path("table.json"), "--share", GUMCERT_SOURCE_DIR, "-q"}).code, 0);
+    for (const char* const languages : {"en", "es,de", "zh-Hant,en"}) {
+        const std::string pages = path((std::string(languages) + ".pdf").c_str());
+        ASSERT_EQ(gumcert({"render", path("table.json"), "--format", "pdf", "--language", languages, "-o", pages,
+                           "--share", GUMCERT_SOURCE_DIR, "-q"})
+                      .code,
+                  0);
+        fs::remove(store());
+        begin();
+        const Ended taken = archive({"add", path("table.json"), pages}, "R. Lin");
+        EXPECT_EQ(taken.code, 0) << languages << ": " << taken.err;
+    }
+}
+
 /// Bytes that somebody exchanged in the store are judged by nobody, and neither is an edited table of lists.
 TEST_F(ArchiveOfALaboratory, GoesByTheLogAndItsHashes) {
     begin();
