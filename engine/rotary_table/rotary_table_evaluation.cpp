@@ -230,8 +230,9 @@ void require_determined_components(const std::vector<VarianceComponent>& compone
     for (const VarianceComponent& component : components) {
         if (!component.determined) {
             problems.push_back({"GC-VARIANCE-0008", "variance components, " + component.name,
-                                "the distances do not determine it: they leave up to " +
-                                    size_of(component, component.value) + " plausible",
+                                std::isfinite(component.u) ? "the distances do not determine it: they leave up to " +
+                                                                 size_of(component, component.value) + " plausible"
+                                                           : std::string("the distances say nothing of it"),
                                 "an uncertainty is stated of components that are given, or that the distances bound",
                                 "state the repeatability of the table in table_repeatability with \"mode\": \"given\", "
                                 "or measure more "
