@@ -1201,11 +1201,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     try {
         return adjust_with_reversal(measurement, options, progress);
     } catch (const gum::NoResultError& error) {
-        // An interrupted beam looks like a station whose place is open, like one that fits no table, or like an adjustment
-        // that goes astray.
+        // An interrupted beam looks like a station whose place is open, like one that fits no table, like an adjustment
+        // that goes astray, or like a table that nobody has.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
-                       problem.code == "GC-RANK-0001";
+                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
             refuse_interrupted_beams(measurement);
         }
