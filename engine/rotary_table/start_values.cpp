@@ -941,11 +941,12 @@ private:
 
 /// What the file may say wrongly of the distances of one station.
 struct LabelHypothesis {
-    bool other_sense = false;           ///< the table turned the other way
-    std::size_t first = 0, second = 0;  ///< reflectors that are interchanged; equal: none
-    double lengths = 1.0;               ///< by which the distances are multiplied
-    double fixture = 1.0;               ///< the coordinates of the fixture
-    double angles = 1.0;                ///< the angles, from the home angle on
+    bool other_sense = false;             ///< the table turned the other way
+    std::size_t first = 0, second = 0;    ///< reflectors that are interchanged; equal: none
+    double lengths = 1.0;                 ///< by which the distances are multiplied
+    double fixture = 1.0;                 ///< the coordinates of the fixture
+    double angles = 1.0;                  ///< the angles, from the home angle on
+    std::optional<RotaryAxis> axis = {};  ///< about which the table turned
     friend bool operator==(const LabelHypothesis&, const LabelHypothesis&) = default;
 };
 
@@ -969,6 +970,7 @@ RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_
             angle = 2.0 * home - angle;
         }
     }
+    measurement.axis = hypothesis.axis.value_or(measurement.axis);
     if (hypothesis.angles != 1.0) {
         const double home = measurement.angles[measurement.home];
         for (double& angle : measurement.angles) {
@@ -998,6 +1000,11 @@ public:
         }
         for (const double factor : {0.9, 1.0 / 0.9, 1.5, 1.0 / 1.5, 2.0, 0.5}) {
             hypotheses_.push_back({.angles = factor});
+        }
+        for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+            if (axis != measurement.axis) {
+                hypotheses_.push_back({.axis = axis});
+            }
         }
         for (std::size_t a = 0; a < measurement.reflectors.size(); ++a) {
             for (std::size_t b = a + 1; b < measurement.reflectors.size(); ++b) {
@@ -1166,6 +1173,18 @@ private:
                     "angles are positive about the axis of the table frame by the right-hand rule",
                     "reverse the sign of the angles, or see whether the coordinates of the fixture are those of a "
                     "right-handed frame",
+                    gum::Severity::error};
+        }
+        if (cause.axis) {
+            const auto coordinate = [](RotaryAxis axis) { return std::string(1, "xyz"[axial_coordinate(axis)]); };
+            return {"GC-GEOMETRY-0007",
+                    station.empty() ? "fixture" : "fixture, seen from station " + station,
+                    "the distances agree with a table that turns about " + coordinate(*cause.axis) +
+                        " of the fixture coordinates, and not about " + coordinate(measurement_.axis),
+                    "the axis lies along the coordinate of the fixture that has its letter, within 45°: error motions "
+                    "are named after these coordinates",
+                    "correct the letter of the axis, or state the coordinates in a frame with " +
+                        coordinate(measurement_.axis) + " along the axis",
                     gum::Severity::error};
         }
         if (cause.lengths != 1.0) {

@@ -177,6 +177,26 @@ TEST(PlantedBlunders, WrongUnitsAndSignsAreToldAsSuch) {
     }
 }
 
+TEST(PlantedBlunders, AWrongLetterOfTheAxisIsTold) {
+    for (const RotaryAxis right : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+        for (const RotaryAxis wrong : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+            synthetic::CampaignPlan plan;
+            plan.axis = right;
+            plan.angles_deg = synthetic::full_turn(12);
+            plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
+            RotaryTableMeasurement m = synthetic::simulate(plan).measurement;
+            m.axis = wrong;
+            const std::string message = refusal(m);
+            if (wrong == right) {
+                EXPECT_EQ(message, "");
+            } else {
+                EXPECT_NE(message.find(std::string("turns about ") + "xyz"[axial_coordinate(right)]), std::string::npos)
+                    << message;
+            }
+        }
+    }
+}
+
 // What no label explains is no statement on the layout: these reflectors form no plane and no cone.
 TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
     int told = 0;
