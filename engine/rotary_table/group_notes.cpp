@@ -174,6 +174,22 @@ bool begins_a_pass(const GroupTest& test, const RotaryTableMeasurement& measurem
     return first && follows && measurement.lengths[*first].angle == test.angle;
 }
 
+/// Whether a station drives the table in the other sense from a pass on: with interchanged senses the reversal of the table
+/// moves all its distances alike there.
+bool begins_other_sense(const GroupTest& test, const RotaryTableMeasurement& measurement) {
+    std::optional<Approach> before;
+    for (const LengthObservation& length : measurement.lengths) {
+        if (length.station != test.station) {
+            continue;
+        }
+        if (length.pass == test.pass) {
+            return before && *before != length.approach;
+        }
+        before = length.approach;
+    }
+    return false;
+}
+
 std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measurement) {
     switch (test.kind) {
         case GroupKind::visit_length:
@@ -192,7 +208,12 @@ std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measu
             }
             return "If the beam was interrupted there, give the distances from there on a dead path of their own.";
         case GroupKind::station_place:
-            return "Look at the support of the station; if it was moved, give the lengths from this pass on a station "
+            return (begins_other_sense(test, measurement)
+                        ? std::string(
+                              "The station drives the table in the other sense from this pass on: see whether the "
+                              "senses of its passes are interchanged in the lengths file, which looks alike. ")
+                        : std::string()) +
+                   "Look at the support of the station; if it was moved, give the lengths from this pass on a station "
                    "name of their own, so that its new place is found with the others.";
         case GroupKind::pair_length:
             return "Look along this line of sight: something near the beam, a soiled or damaged reflector; measure "

@@ -230,8 +230,9 @@ void require_determined_components(const std::vector<VarianceComponent>& compone
     for (const VarianceComponent& component : components) {
         if (!component.determined) {
             problems.push_back({"GC-VARIANCE-0008", "variance components, " + component.name,
-                                "the distances do not determine it: they leave up to " +
-                                    size_of(component, component.value) + " plausible",
+                                std::isfinite(component.u) ? "the distances do not determine it: they leave up to " +
+                                                                 size_of(component, component.value) + " plausible"
+                                                           : std::string("the distances say nothing of it"),
                                 "an uncertainty is stated of components that are given, or that the distances bound",
                                 "state the repeatability of the table in table_repeatability with \"mode\": \"given\", "
                                 "or measure more "
@@ -1200,11 +1201,11 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     try {
         return adjust_with_reversal(measurement, options, progress);
     } catch (const gum::NoResultError& error) {
-        // An interrupted beam looks like a station whose place is open, like one that fits no table, or like an adjustment
-        // that goes astray.
+        // An interrupted beam looks like a station whose place is open, like one that fits no table, like an adjustment
+        // that goes astray, or like a table that nobody has.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
-                       problem.code == "GC-RANK-0001";
+                       problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
             refuse_interrupted_beams(measurement);
         }

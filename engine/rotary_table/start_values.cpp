@@ -49,6 +49,12 @@ constexpr double k_linear_eigenvalue_ratio = 1e-10;
 // centimetres; with the right ones next to nothing of that is left.
 constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
 constexpr double k_share_with_right_labels = 0.05;
+// A station that fits this much worse than its neighbours is not what error motions of their table leave.
+constexpr double k_worse_than_others = 20.0;
+// Distances beyond the unknowns that a cause takes: fewer agree with any cause.
+constexpr std::ptrdiff_t k_least_redundancy = 6;
+// Position and set-up of one station.
+constexpr std::ptrdiff_t k_unknowns_of_station = 7;
 
 /// The lengths of one station, free of names.
 struct StationData {
@@ -79,6 +85,14 @@ struct StationFit {
         constexpr double k_hopeless = 1.0;    // [m]
         return set_up.tail<2>().norm() > k_overturned ? k_hopeless : misfit;
     }
+    /// Nothing better has to be looked for: it stands upright and leaves what error motions do.
+    [[nodiscard]] bool is_settled() const { return upright_misfit() <= k_good_misfit; }
+};
+
+/// Which distances a descent follows.
+enum class Pull {
+    of_those_that_agree,  ///< weights of Cauchy's function: gross errors have none
+    of_all,               ///< plain least squares, before the one with weights
 };
 
 /// All that is needed of a measurement, and the robust descent.
@@ -166,7 +180,7 @@ public:
         std::vector<double> misfits;
         fits_.resize(stations_.size());
         for (std::size_t j = 0; j < stations_.size(); ++j) {
-            fits_[j] = fit_alone(j);
+            fits_[j] = fit_alone(j, true);
             misfits.push_back(fits_[j].upright_misfit());
         }
         return misfits;
@@ -193,7 +207,12 @@ public:
             gum::Severity::error};
     }
     /// One station on its own.
-    [[nodiscard]] StationFit fit_of(std::size_t station) const { return fit_alone(station); }
+    /// \param closely  down narrow valleys too
+    [[nodiscard]] StationFit fit_of(std::size_t station, bool closely) const { return fit_alone(station, closely); }
+    /// Whether a station has distances enough to tell one cause from another.
+    [[nodiscard]] bool tells_causes(std::size_t station) const {
+        return redundancy(stations_[station]) >= k_least_redundancy;
+    }
 
     /// Deviations of a station with a fit of its own, and the medians of its dead paths.
     [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j, const StationFit& fit) const {
@@ -282,6 +301,15 @@ private:
         }
     }
 
+    /// Distances of a station beyond what its place, its set-up and its dead paths take.
+    [[nodiscard]] static std::ptrdiff_t redundancy(const StationData& data) {
+        std::ptrdiff_t result = -k_unknowns_of_station;
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            result += std::ssize(members) - 1;  // a single length tells its dead path and nothing else
+        }
+        return result;
+    }
+
     /// Root mean square of the smaller deviations.
     [[nodiscard]] static double misfit(const StationData& data, const Eigen::VectorXd& deviation) {
         std::vector<double> values;
@@ -337,11 +365,23 @@ private:
         return result;
     }
 
+    /// Steps that a set-up and stations take before they are near, in units of which plain least squares are damped
+    /// (Levenberg–Marquardt): damping in units of the distances leaves a narrow valley for another one.
+    [[nodiscard]] static Eigen::VectorXd usual_steps(std::size_t stations) {
+        Eigen::VectorXd steps = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(4 + 3 * stations), 0.1);  // [m]
+        steps.head<4>() << 0.001, 0.001, 0.01, 0.01;  // [m], [m], [rad], [rad]
+        return steps;
+    }
+
     /// Robust Gauss-Newton descent (iterated reweighting, scale from the median absolute deviation, damped) of the
     /// positions of some stations and, with `free_set_up`, of the set-up that they share. Dead paths are eliminated.
+    /// \param pull  of distances that are far off: of all alike, plain least squares, a descent finds its way from any
+    ///              side of the points; with weights it ends where some of the distances agree by chance
     void descend(const std::vector<std::size_t>& of, Eigen::Vector4d& set_up, std::vector<StationFit>& fits,
-                 bool free_set_up, double step_tolerance = k_fine_step) const {
+                 bool free_set_up, double step_tolerance = k_fine_step, Pull pull = Pull::of_those_that_agree) const {
         constexpr int k_steps = 60;
+        constexpr double k_most_usual_steps = 6.0;  // at once
+        const bool plain = pull == Pull::of_all;
         const auto size = static_cast<Eigen::Index>(4 + 3 * of.size());
         double damping = 1e-6;
         std::vector<Positions> at(of.size());
@@ -362,7 +402,14 @@ private:
             for (std::size_t k = 0; k < of.size(); ++k) {
                 collect(stations_[of[k]], raw[k], values);
             }
-            return values.empty() ? 1e-9 : std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
+            if (values.empty()) {
+                return 1e-9;
+            }
+            if (plain) {
+                constexpr double k_far_above_all = 1e3;
+                return std::max(k_far_above_all * *std::ranges::max_element(values), 1e-6);
+            }
+            return std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
         };
         // Weak beside any distance: it only decides what they leave open (k_set_up_offset).
         const auto prior = [&](const Eigen::Vector4d& with, double c) {
@@ -430,13 +477,16 @@ private:
                 }
             }
             const Eigen::VectorXd scale =
-                normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+                plain
+                    ? usual_steps(of.size())
+                    : normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse().eval();
             const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+            const double unit = plain ? scaled.trace() : 1.0;
             bool better = false;
             double largest = 0.0;
             while (damping < 1e8) {
                 Eigen::MatrixXd damped = scaled;
-                damped.diagonal().array() += damping;
+                damped.diagonal().array() += damping * unit;
                 const Eigen::VectorXd change = scale.asDiagonal() * damped.ldlt().solve(scale.asDiagonal() * right);
                 const Eigen::Vector4d next = set_up + change.head<4>();
                 largest = change.cwiseAbs().maxCoeff();
@@ -446,7 +496,8 @@ private:
                 }
                 double after = std::numeric_limits<double>::infinity();
                 // A step of many metres or radians leads nowhere: it is damped before anything is evaluated.
-                if (change.allFinite() && largest < 5.0) {
+                if (change.allFinite() && largest < 5.0 &&
+                    (!plain || change.cwiseQuotient(scale).norm() < k_most_usual_steps)) {
                     evaluate(next, trial, false);
                     after = prior(next, c);
                     for (std::size_t k = 0; k < of.size(); ++k) {
@@ -476,11 +527,15 @@ private:
 
     /// One station with a set-up of its own.
     [[nodiscard]] StationFit refined(std::size_t j, const Eigen::Vector3d& from, const Eigen::Vector4d& set_up,
-                                     bool free_set_up) const {
+                                     bool free_set_up, Pull pull = Pull::of_those_that_agree) const {
         std::vector<StationFit> fits(stations_.size());
         fits[j].position = from;
         Eigen::Vector4d own = set_up;
-        descend({j}, own, fits, free_set_up, free_set_up ? k_coarse_step : k_fine_step);
+        const double tolerance = free_set_up ? k_coarse_step : k_fine_step;
+        if (pull == Pull::of_all) {
+            descend({j}, own, fits, free_set_up, tolerance, Pull::of_all);
+        }
+        descend({j}, own, fits, free_set_up, tolerance);
         fits[j].set_up = own;
         return fits[j];
     }
@@ -578,21 +633,31 @@ private:
         return best;
     }
 
-    [[nodiscard]] StationFit fit_alone(std::size_t j) const {
+    [[nodiscard]] StationFit fit_alone(std::size_t j, bool closely) const {
         const StationData& data = stations_[j];
         const Eigen::Vector4d none = Eigen::Vector4d::Zero();
         const Positions at = positions(j, none, false);
         const std::optional<Eigen::Vector3d>& stated = measurement_.station_start[j];
         StationFit best;
-        const auto consider = [&](const Eigen::Vector3d& from) {
-            if (!from.allFinite()) {
+        const auto consider_fit = [&](const StationFit& fit) {
+            // Few distances fit an overturned fixture as well as one that stands upright, which is what it is then.
+            constexpr double k_as_well = 3.0;
+            constexpr double k_alike = 5.0 * gum::k_micrometre;
+            if (std::isfinite(best.misfit) && fit.is_settled() != best.is_settled()) {
+                const StationFit& upright = fit.is_settled() ? fit : best;
+                const StationFit& other = fit.is_settled() ? best : fit;
+                best = upright.misfit < k_as_well * other.misfit + k_alike ? upright : other;
                 return;
             }
-            const StationFit fit = refined(j, from, none, true);
             const bool nearer = stated && (fit.position - *stated).norm() < (best.position - *stated).norm();
             // Of two that explain the distances alike, the stated position tells the sides apart.
             if (fit.misfit * (nearer ? 1.0 / k_rival_factor : (stated ? k_rival_factor : 1.0)) < best.misfit) {
                 best = fit;
+            }
+        };
+        const auto consider = [&](const Eigen::Vector3d& from) {
+            if (from.allFinite()) {
+                consider_fit(refined(j, from, none, true));
             }
         };
         if (stated) {
@@ -602,6 +667,13 @@ private:
         if (closed.determined) {
             consider(closed.position);
         }
+        const auto consider_while_open = [&](const std::vector<Eigen::Vector3d>& candidates) {
+            for (const Eigen::Vector3d& from : candidates) {
+                if (best.misfit > k_good_misfit) {
+                    consider(from);
+                }
+            }
+        };
         if (best.misfit > k_good_misfit) {
             // The line that the linear form leaves open: κ and l0 are not free of each other, the misfit tells.
             std::vector<Eigen::Vector3d> line;
@@ -611,23 +683,34 @@ private:
                 line.emplace_back(closed.position -
                                   closed.open * (closed.open.dot(closed.position - closed.centre) - 0.125 * k));
             }
-            for (const Eigen::Vector3d& from : best_of(data, at, line, 4)) {
-                if (best.misfit > k_good_misfit) {
-                    consider(from);
-                }
-            }
+            consider_while_open(best_of(data, at, line, 4));
         }
         if (best.misfit > k_good_misfit || !is_hopeless(data, at, mirror_image(at, best.position), best.misfit)) {
             consider(mirror_image(at, best.position));
         }
         if (best.misfit > k_good_misfit) {
-            for (const Eigen::Vector3d& from : best_of(data, at, sphere_grid(closed.centre), 8)) {
-                if (best.misfit > k_good_misfit) {
-                    consider(from);
-                }
+            consider_while_open(best_of(data, at, sphere_grid(closed.centre), 8));
+        }
+        // Seen from near the axis or from afar, reflectors on dead paths of their own have a narrow valley, in which the
+        // descents above stop half way. Plain least squares goes down to its end.
+        for (const Eigen::Vector3d& from : all_sides(closed.centre)) {
+            if (closely && !best.is_settled()) {
+                consider_fit(refined(j, from, none, true, Pull::of_all));
             }
         }
         return best;
+    }
+
+    /// On all six sides of the points. How far off matters little: from 0.6 m and from 1.5 m the same were found.
+    [[nodiscard]] static std::vector<Eigen::Vector3d> all_sides(const Eigen::Vector3d& centre) {
+        constexpr double k_distance = 1.0;  // [m]
+        std::vector<Eigen::Vector3d> result;
+        for (int c = 0; c < 3; ++c) {
+            for (const double side : {1.0, -1.0}) {
+                result.emplace_back(centre + side * k_distance * Eigen::Vector3d::Unit(c));
+            }
+        }
+        return result;
     }
 
     [[nodiscard]] static bool is_hopeless(const StationData& data, const Positions& at, const Eigen::Vector3d& position,
@@ -666,11 +749,22 @@ private:
                 const ClosedSolution closed = closed_solution(stations_[j], at);
                 others.push_back(closed.position);
             }
-            for (const Eigen::Vector3d& other : others) {
-                const StationFit fit = refined(j, other, set_up_, false);
+            const auto consider = [&](const StationFit& fit) {
                 if (fit.misfit * k_rival_factor < fits_[j].misfit) {
                     fits_[j] = fit;
                     changed = true;
+                }
+            };
+            for (const Eigen::Vector3d& other : others) {
+                consider(refined(j, other, set_up_, false));
+            }
+            for (const Eigen::Vector3d& other : all_sides(closed_solution(stations_[j], at).centre)) {
+                if (fits_[j].misfit > k_good_misfit) {
+                    const StationFit fit = refined(j, other, set_up_, false, Pull::of_all);
+                    // Another bad place is none: the set-up may be that of an inclined fixture, which they share yet.
+                    if (fit.misfit <= k_good_misfit) {
+                        consider(fit);
+                    }
                 }
             }
         }
@@ -847,11 +941,12 @@ private:
 
 /// What the file may say wrongly of the distances of one station.
 struct LabelHypothesis {
-    bool other_sense = false;           ///< the table turned the other way
-    std::size_t first = 0, second = 0;  ///< reflectors that are interchanged; equal: none
-    double lengths = 1.0;               ///< by which the distances are multiplied
-    double fixture = 1.0;               ///< the coordinates of the fixture
-    double angles = 1.0;                ///< the angles, from the home angle on
+    bool other_sense = false;             ///< the table turned the other way
+    std::size_t first = 0, second = 0;    ///< reflectors that are interchanged; equal: none
+    double lengths = 1.0;                 ///< by which the distances are multiplied
+    double fixture = 1.0;                 ///< the coordinates of the fixture
+    double angles = 1.0;                  ///< the angles, from the home angle on
+    std::optional<RotaryAxis> axis = {};  ///< about which the table turned
     friend bool operator==(const LabelHypothesis&, const LabelHypothesis&) = default;
 };
 
@@ -875,6 +970,7 @@ RotaryTableMeasurement relabelled(RotaryTableMeasurement measurement, std::size_
             angle = 2.0 * home - angle;
         }
     }
+    measurement.axis = hypothesis.axis.value_or(measurement.axis);
     if (hypothesis.angles != 1.0) {
         const double home = measurement.angles[measurement.home];
         for (double& angle : measurement.angles) {
@@ -905,6 +1001,11 @@ public:
         for (const double factor : {0.9, 1.0 / 0.9, 1.5, 1.0 / 1.5, 2.0, 0.5}) {
             hypotheses_.push_back({.angles = factor});
         }
+        for (const RotaryAxis axis : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+            if (axis != measurement.axis) {
+                hypotheses_.push_back({.axis = axis});
+            }
+        }
         for (std::size_t a = 0; a < measurement.reflectors.size(); ++a) {
             for (std::size_t b = a + 1; b < measurement.reflectors.size(); ++b) {
                 hypotheses_.push_back({.first = a, .second = b});
@@ -912,14 +1013,22 @@ public:
         }
     }
 
+    /// Whether a station fits its distances worse than error motions let any fit.
+    [[nodiscard]] static bool is_suspicious(double misfit, std::vector<double> misfits) {
+        return misfit > k_wrong_labels || (misfit > k_good_misfit && misfit > k_worse_than_others * median(misfits));
+    }
+
     /// \param misfits  of the stations, each on its own, [m]
     void refuse(const std::vector<double>& misfits) const {
         std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
         std::vector<gum::Diagnostic> problems;
+        std::optional<LabelHypothesis> known;  // what one station has is likely what all have
         for (std::size_t j = 0; j < misfits.size(); ++j) {
-            if (misfits[j] > k_wrong_labels) {
-                causes[j] = cause_of(j, misfits[j]);
-                if (!causes[j]) {
+            if (is_suspicious(misfits[j], misfits)) {
+                causes[j] = cause_of(j, misfits[j], known);
+                if (causes[j]) {
+                    known = causes[j];
+                } else {
                     refuse_two_places(j, misfits[j]);
                 }
             }
@@ -937,17 +1046,39 @@ public:
     }
 
 private:
+    /// What the hypothesis leaves of the distances as they were stated: half of all lengths leaves half of any misfit.
+    [[nodiscard]] double misfit_with(const LabelHypothesis& hypothesis, std::size_t station,
+                                     const std::vector<bool>& active, bool closely) const {
+        const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
+        return StartSearch(other, active).fit_of(station, closely).upright_misfit() / std::abs(hypothesis.lengths);
+    }
+
     /// The hypothesis with the smallest misfit, where that is small enough.
-    [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit) const {
+    /// \param known  is tried first, and is it where it leaves what a right one does
+    [[nodiscard]] std::optional<LabelHypothesis> cause_of(std::size_t station, double misfit,
+                                                          const std::optional<LabelHypothesis>& known) const {
         const std::vector<bool> active = of_station(station, std::nullopt);
+        if (!StartSearch(measurement_, active).tells_causes(station)) {
+            return std::nullopt;
+        }
+        // A wrong guess of labels lowers the misfit by chance, and that of a station that fits very badly a good deal. The
+        // right one removes nearly all of it, and leaves what error motions do.
+        double least = std::min(k_share_with_right_labels * misfit, k_good_misfit);
+        if (known && misfit_with(*known, station, active, true) < least) {
+            return known;
+        }
+        // Some visits tell the labels of all: the time does not grow with the measurement.
+        const std::vector<bool> some = some_visits(active);
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t k = 0; k < hypotheses_.size(); ++k) {
+            order.emplace_back(misfit_with(hypotheses_[k], station, some, false), k);
+        }
+        std::ranges::sort(order);
         std::optional<LabelHypothesis> best;
-        // A wrong guess of labels lowers the misfit a little by chance; the right one removes nearly all of it.
-        double least = std::min(k_share_with_right_labels * misfit, k_wrong_labels);
-        for (const LabelHypothesis& hypothesis : hypotheses_) {
-            const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
-            // In the distances as they were stated: half of all lengths leaves half of any misfit.
-            const double reached =
-                StartSearch(other, active).fit_of(station).upright_misfit() / std::abs(hypothesis.lengths);
+        constexpr std::size_t k_looked_at_closely = 3;
+        for (std::size_t k = 0; k < std::min(k_looked_at_closely, order.size()) && order[k].first < least; ++k) {
+            const LabelHypothesis& hypothesis = hypotheses_[order[k].second];
+            const double reached = some == active ? order[k].first : misfit_with(hypothesis, station, active, true);
             if (reached < least) {
                 least = reached;
                 best = hypothesis;
@@ -956,17 +1087,52 @@ private:
         return best;
     }
 
+    /// Of the visits of one station as many as tell its labels, evenly over all of them.
+    [[nodiscard]] std::vector<bool> some_visits(const std::vector<bool>& active) const {
+        constexpr std::size_t k_visits = 24;
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> visits;  // numbered in their order
+        for (std::size_t i = 0; i < active.size(); ++i) {
+            if (active[i]) {
+                visits.try_emplace({measurement_.lengths[i].pass, measurement_.lengths[i].angle}, visits.size());
+            }
+        }
+        if (visits.size() <= k_visits) {
+            return active;
+        }
+        std::vector<bool> kept(visits.size(), false);
+        for (std::size_t k = 0; k < k_visits; ++k) {
+            kept[k * visits.size() / k_visits] = true;
+        }
+        std::vector<bool> some = active;
+        for (std::size_t i = 0; i < active.size(); ++i) {
+            if (active[i]) {
+                some[i] = kept[visits.at({measurement_.lengths[i].pass, measurement_.lengths[i].angle})];
+            }
+        }
+        return some;
+    }
+
     /// Passes of a station that each have a place of their own.
     void refuse_two_places(std::size_t station, double misfit) const {
         constexpr double k_same_place = 0.02;  // [m]
+        // From one place with dead paths of each pass, as after an interruption between them: places that a weak layout
+        // hardly tells apart are not two.
+        RotaryTableMeasurement split = measurement_;
+        for (LengthObservation& length : split.lengths) {
+            length.dead_path += length.pass * measurement_.dead_paths.size();
+        }
+        if (StartSearch(split, of_station(station, std::nullopt)).fit_of(station, true).upright_misfit() <
+            k_share_with_right_labels * misfit) {
+            return;
+        }
         std::optional<std::pair<std::size_t, Eigen::Vector3d>> first;
         for (std::size_t pass = 0; pass < measurement_.passes.size(); ++pass) {
             const std::vector<bool> active = of_station(station, pass);
-            // Position, set-up and dead path are eight unknowns: fewer lengths fit any place.
-            if (std::ranges::count(active, true) < 8) {
+            const StartSearch search(measurement_, active);
+            if (!search.tells_causes(station)) {
                 continue;
             }
-            const StationFit fit = StartSearch(measurement_, active).fit_of(station);
+            const StationFit fit = search.fit_of(station, true);
             if (!(fit.upright_misfit() < k_share_with_right_labels * misfit)) {
                 return;
             }
@@ -1007,6 +1173,18 @@ private:
                     "angles are positive about the axis of the table frame by the right-hand rule",
                     "reverse the sign of the angles, or see whether the coordinates of the fixture are those of a "
                     "right-handed frame",
+                    gum::Severity::error};
+        }
+        if (cause.axis) {
+            const auto coordinate = [](RotaryAxis axis) { return std::string(1, "xyz"[axial_coordinate(axis)]); };
+            return {"GC-GEOMETRY-0007",
+                    station.empty() ? "fixture" : "fixture, seen from station " + station,
+                    "the distances agree with a table that turns about " + coordinate(*cause.axis) +
+                        " of the fixture coordinates, and not about " + coordinate(measurement_.axis),
+                    "the axis lies along the coordinate of the fixture that has its letter, within 45°: error motions "
+                    "are named after these coordinates",
+                    "correct the letter of the axis, or state the coordinates in a frame with " +
+                        coordinate(measurement_.axis) + " along the axis",
                     gum::Severity::error};
         }
         if (cause.lengths != 1.0) {
@@ -1164,9 +1342,13 @@ private:
     /// What a fit of the station leaves, and by how much the dead paths that were split go on differently: the median.
     [[nodiscard]] Interruption deviation(std::size_t station, const SplitPaths& split) const {
         const StartSearch search(split_, active_);
-        const StationFit fit = search.fit_of(station);
-        const auto [deviations, centres] = search.deviations(station, fit);
         Interruption result;
+        // What a few distances beyond the unknowns leave is next to nothing with any further dead path.
+        if (!split.empty() && !search.tells_causes(station)) {
+            return result;
+        }
+        const StationFit fit = search.fit_of(station, split.empty());
+        const auto [deviations, centres] = search.deviations(station, fit);
         // The mean of all deviations. The misfit leaves out the largest ones, which are just those of an interrupted
         // beam.
         result.left = deviations.cwiseAbs().mean();
@@ -1236,7 +1418,7 @@ std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measure
     constexpr double k_factor = 15.0;    // times the standard deviation that the median absolute deviation stands for
     StartSearch search(measurement, {});
     const std::vector<double> misfits = search.fit_each();
-    if (!misfits.empty() && *std::ranges::max_element(misfits) > k_wrong_labels) {
+    if (std::ranges::any_of(misfits, [&](double one) { return LabelSearch::is_suspicious(one, misfits); })) {
         LabelSearch(measurement).refuse(misfits);
     }
     const std::optional<gum::Diagnostic> no_table = search.no_rigid_table();

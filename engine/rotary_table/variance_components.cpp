@@ -507,8 +507,14 @@ VarianceComponentStep estimate_variance_components(const JointAdjustment& adjust
         component.degrees_of_freedom = std::numeric_limits<double>::infinity();
         if (wanted[k]) {
             // At zero the Fisher information of the component alone says how large it could be.
-            const double spread =
-                variance_of_theta > 0.0 ? std::sqrt(variance_of_theta) : std::sqrt(2.0 / fisher(at, at));
+            double spread = std::numeric_limits<double>::infinity();
+            if (variance_of_theta > 0.0) {
+                spread = std::sqrt(variance_of_theta);
+            } else if (fisher(at, at) > 0.0) {
+                spread = std::sqrt(2.0 / fisher(at, at));
+            }
+            // Of what the distances say nothing of, the information is rounding, of either sign.
+            component.determined = std::isfinite(spread);
             // u(√θ) = u(θ)/(2 √θ) grows without limit towards 0; √u(θ) is what a component near 0 may be as large as.
             component.u = next[at] > 0.0
                               ? std::min(0.5 * spread / next[at] * component.value, std::sqrt(spread * scales[k]))
@@ -544,7 +550,7 @@ void take_plausible_components(VarianceComponentStep& step) {
         const double u = std::isfinite(component.degrees_of_freedom)
                              ? variance * std::sqrt(2.0 / component.degrees_of_freedom)
                              : component.u * component.u;
-        if (!(variance < k_determined * u)) {
+        if (!component.determined || !(variance < k_determined * u)) {
             continue;
         }
         const PlausibleVariance plausible = plausible_variance(variance, u);

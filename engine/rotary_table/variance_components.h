@@ -28,7 +28,7 @@ struct VarianceComponent {
     /// Where the residuals say too little of the component to be taken at their word: what they give. `value`, `u` and ν
     /// are then those of what they leave plausible (`take_plausible_components`).
     std::optional<double> residuals_give = {};
-    bool determined = true;  ///< false: what the residuals leave plausible is no table
+    bool determined = true;  ///< false: what the residuals leave plausible is no table, or they say nothing of it
     bool separable = true;   ///< false: it was to be estimated, but too little of the redundancy depends on it
 };
 

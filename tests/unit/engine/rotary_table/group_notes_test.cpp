@@ -32,6 +32,23 @@ GroupTest suspicious(GroupKind kind) {
     return test;
 }
 
+// Interchanged senses move the distances of a pass by the reversal of the table, as a place of its own would.
+TEST(GroupNotes, AStationThatMovedWithTheSenseMayHaveItsSensesInterchanged) {
+    RotaryTableMeasurement measurement = two_stations();
+    measurement.passes = {"down", "up"};
+    const auto action = [&] {
+        return group_notes({.tests = {suspicious(GroupKind::station_place)}, .visits = {}}, measurement)[0].action;
+    };
+    measurement.lengths = {{.station = 1, .pass = 1}, {.station = 1, .pass = 0}};
+    EXPECT_THAT(action(), testing::Not(HasSubstr("senses")));
+    measurement.lengths[1].approach = Approach::negative;
+    // What it does later says nothing of this pass.
+    measurement.passes.emplace_back("down again");
+    measurement.lengths.push_back({.station = 1, .pass = 2, .approach = Approach::negative});
+    EXPECT_THAT(action(), HasSubstr("whether the senses of its passes are interchanged"));
+    EXPECT_THAT(action(), HasSubstr("Look at the support of the station"));
+}
+
 TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
     for (const GroupKind kind :
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,

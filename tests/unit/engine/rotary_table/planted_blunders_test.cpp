@@ -177,6 +177,26 @@ TEST(PlantedBlunders, WrongUnitsAndSignsAreToldAsSuch) {
     }
 }
 
+TEST(PlantedBlunders, AWrongLetterOfTheAxisIsTold) {
+    for (const RotaryAxis right : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+        for (const RotaryAxis wrong : {RotaryAxis::a, RotaryAxis::b, RotaryAxis::c}) {
+            synthetic::CampaignPlan plan;
+            plan.axis = right;
+            plan.angles_deg = synthetic::full_turn(12);
+            plan.dead_paths = synthetic::DeadPaths::per_station_and_reflector;
+            RotaryTableMeasurement m = synthetic::simulate(plan).measurement;
+            m.axis = wrong;
+            const std::string message = refusal(m);
+            if (wrong == right) {
+                EXPECT_EQ(message, "");
+            } else {
+                EXPECT_NE(message.find(std::string("turns about ") + "xyz"[axial_coordinate(right)]), std::string::npos)
+                    << message;
+            }
+        }
+    }
+}
+
 // What no label explains is no statement on the layout: these reflectors form no plane and no cone.
 TEST(PlantedBlunders, DistancesOfNoRigidTableSayNothingOfTheLayout) {
     int told = 0;
@@ -259,7 +279,7 @@ TEST(PlantedBlunders, AnInterruptedBeamIsNamed) {
 /// Whatever its size: a beam that jumps by millimetres is not told as stations with mirror images, nor as wrong labels.
 /// Where the adjustment survives it, it is the first group.
 TEST(PlantedBlunders, AnInterruptedBeamOfMillimetresIsNamedWithItsPlaceAndSize) {
-    for (const std::uint64_t seed : {2U, 5U, 19U, 24U}) {  // once told as something else
+    for (const std::uint64_t seed : {2U, 5U, 19U, 24U, 264U, 357U, 411U}) {  // once told as something else
         const Planted planted = plant(Blunder::large_jump, seed);
         const std::string place = "pass " + planted.measurement.stations[planted.station] + "/1, " +
                                   std::to_string(std::lround(planted.measurement.angles_deg[planted.angle])) + "°";

@@ -13,6 +13,7 @@
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
+#include "tests/support/weak_layout.h"
 
 namespace gumcert::engine {
 namespace {
@@ -277,6 +278,81 @@ TEST(StartValues, SameInputSameBytes) {
     const StartValues second = find_start_values(campaign.measurement);
     EXPECT_EQ(first.stations, second.stations);
     EXPECT_EQ(first.dead_paths, second.dead_paths);
+}
+
+// Three reflectors on dead paths of their own: from the usual start a descent ends where the distances fit badly, and where
+// they fit a station that looks at an overturned fixture, or wrong labels, nearly as well.
+TEST(StartValues, SoundCampaignsOfWeakLayoutsAreNotAccused) {
+    struct Layout {
+        std::vector<Eigen::Vector3d> stations;
+        std::vector<double> angles_deg;
+        bool both_senses;
+    };
+    const std::vector<Layout> layouts{
+        {{{0.651, 0.422, -0.759}, {0.416, -0.605, -0.296}, {1.236, -1.246, -0.440}, {0.295, 1.384, 0.601}},
+         {0, 4, 130, 164, 172, 298, 340, 342},
+         true},
+        {{{0.202, 0.353, -0.025},
+          {1.229, -0.254, 0.232},
+          {1.367, -0.016, 0.699},
+          {1.113, 0.826, 0.775},
+          {0.896, -1.276, -0.021}},
+         synthetic::full_turn(8),
+         true},
+        {{{0.649, 0.355, 0.755}, {1.330, 0.704, 0.331}, {1.156, -1.471, 0.444}, {1.264, 1.128, -0.540}},
+         synthetic::full_turn(6),
+         false},
+        {{{1.441, 0.244, -0.236}, {0.938, 0.326, -0.404}, {0.509, 0.576, 0.307}}, synthetic::full_turn(24), true},
+    };
+    for (const Layout& layout : layouts) {
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            CampaignPlan plan;
+            plan.stations = layout.stations;
+            // Where a descent ends is a matter of millimetres.
+            synthetic::Noise draw(seed);
+            for (Eigen::Vector3d& station : plan.stations) {
+                for (double& coordinate : station) {
+                    coordinate += 0.016 * (draw.uniform() - 0.5);
+                }
+            }
+            plan.reflectors = {{0.033, 0.136, 0.005}, {0.085, 0.028, 0.072}, {0.152, -0.099, 0.117}};
+            plan.angles_deg = layout.angles_deg;
+            plan.both_senses = layout.both_senses;
+            plan.dead_paths = DeadPaths::per_station_and_reflector;
+            plan.cmm_factor = 20.0;
+            plan.table_linear = 1.6e-6;
+            plan.seed = seed;
+            const Campaign campaign = simulate(plan);
+            std::vector<std::size_t> gross;
+            ASSERT_NO_THROW(gross = find_gross_errors(campaign.measurement))
+                << plan.stations[0].transpose() << ", " << seed;
+            EXPECT_TRUE(gross.empty());
+            const StartValues start = find_start_values(campaign.measurement);
+            for (std::size_t j = 0; j < start.stations.size(); ++j) {
+                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 0.3)
+                    << campaign.measurement.stations[j] << ", " << plan.stations[0].transpose() << ", " << seed;
+            }
+        }
+    }
+}
+
+// Of a sound campaign no cause is told, whatever its layout: with few distances or a station that sees all reflectors near a
+// cone wrong labels, or a dead path more, leave next to nothing.
+TEST(StartValues, NoCauseIsToldOfSoundCampaigns) {
+    constexpr std::uint64_t k_campaigns = 500;
+    std::size_t evaluated = 0;
+    for (std::uint64_t seed = 1; seed <= k_campaigns; ++seed) {
+        const Campaign campaign = simulate(synthetic::weak_layout(seed));
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        try {
+            EXPECT_TRUE(find_gross_errors(campaign.measurement).empty());
+            ++evaluated;
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001") << error.what();
+        }
+        EXPECT_NO_THROW(refuse_interrupted_beams(campaign.measurement));
+    }
+    EXPECT_GT(evaluated, k_campaigns * 3 / 4);
 }
 
 TEST(StartValues, GrossErrorsComeLargestFirstAndSoundDistancesStay) {
