@@ -13,6 +13,7 @@
 #include "engine/fixed_parts.h"
 #include "engine/median.h"
 #include "gum/quantity/dense_factors.h"
+#include "gum/quantity/diagnostic.h"
 
 namespace gumcert::engine {
 
@@ -508,7 +509,22 @@ private:
     }
 
     /// Chi-square of one of several tests of a kind, with its probability and its limit.
+    /// \throws gum::NoResultError  GC-ADJUST-0015 where it is no sum of squares: distances that are off by metres leave rounding
+    ///                             that is larger than what the other groups say
     GroupTest judged(GroupKind kind, double chi_square, int degrees_of_freedom, std::size_t count) const {
+        if (!(chi_square >= 0.0)) {
+            throw gum::NoResultError(gum::Diagnostic{
+                "GC-ADJUST-0015", "tests of groups",
+                "the distances fit no rigid table that turns by the stated angles: they differ from it by so much that "
+                "what "
+                "a group of them says is lost in rounding",
+                "a test value is a sum of squares; what a place of a station leaves are error motions, far below a "
+                "millimetre",
+                "compare units and signs of the distances of each station, and the names of reflectors and stations, "
+                "with "
+                "the protocol of the measurement",
+                gum::Severity::error});
+        }
         GroupTest test;
         test.kind = kind;
         test.degrees_of_freedom = degrees_of_freedom;

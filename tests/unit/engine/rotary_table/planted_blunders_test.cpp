@@ -5,6 +5,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/complement.hpp>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/planted_blunders.h"
+#include "tests/support/weak_layout.h"
 
 namespace gumcert::engine {
 namespace {
@@ -194,6 +196,19 @@ TEST(PlantedBlunders, AWrongLetterOfTheAxisIsTold) {
                     << message;
             }
         }
+    }
+}
+
+/// Lengths of one station in inch, read as millimetres, fit a false place in some weak layouts. Whatever is said of them, it is no
+/// message from the inside: "chi-square must not be negative".
+TEST(PlantedBlunders, LengthsOfOneStationInAnotherUnitEndInWords) {
+    for (std::uint64_t seed = 288; seed < 298; ++seed) {
+        RotaryTableMeasurement m = synthetic::simulate(synthetic::weak_layout(seed)).measurement;
+        for (LengthObservation& length : m.lengths) {
+            length.length *= length.station == 1 ? 1.0 / 25.4 : 1.0;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("chi-square — "), std::string::npos) << seed << ": " << message;
     }
 }
 
