@@ -546,6 +546,11 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
               has_unit ? beside.one(at, by_head != nullptr) : std::string(), unit_in_head(name)}) {
             result->unit = result->unit.empty() ? unit : result->unit;
         }
+        // "U reported (CMC)": what is reported is the capability.
+        if (statement == Statement::reported_U &&
+            (name.find("(CMC)") != std::string::npos || name.find("(BMC)") != std::string::npos)) {
+            statements.numbers.emplace(Statement::capability, *result);
+        }
         statements.numbers.emplace(statement, std::move(*result));
     }
     const bool is_number = statement == Statement::k || statement == Statement::nu_eff || statement == Statement::U ||
