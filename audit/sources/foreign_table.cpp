@@ -235,6 +235,7 @@ private:
             in_rows_ = is_near_ = true;
             constexpr std::uint32_t k_near = 2;  // lines
             title_ = number <= line_above_ + k_near ? above_ : "";
+            unit_in_words_ = unit_in_words(title_);
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
@@ -242,6 +243,7 @@ private:
             held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
             above_ = sheet_.words(*held[0]);
             line_above_ = number;
+            unit_in_words_ = heads_ && is_near_ && unit_in_words_.empty() ? unit_in_words(above_) : unit_in_words_;
         }
         if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
             return;
@@ -810,6 +812,7 @@ private:
     void clear() {
         budget_ = {};
         units_ = {};
+        unit_in_words_.clear();
         statements_ = {};
         heads_.reset();
         in_rows_ = is_near_ = false;
@@ -1203,7 +1206,11 @@ private:
                 result.unit = of_head->second;
             }
         }
-        state_claims(budget_, statements_, of_contributions, unit_of_rows(), tables_.not_read);
+        const bool has_no_units = std::all_of(units_.begin(), units_.end(), [](const RowUnits& units) {
+            return units.stated.empty() && units.u.empty() && units.contribution.empty() && units.sensitivity.empty();
+        });
+        state_claims(budget_, statements_, of_contributions, has_no_units ? unit_in_words_ : unit_of_rows(),
+                     tables_.not_read);
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
@@ -1269,6 +1276,7 @@ private:
     std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
     std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
     std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
+    std::string unit_in_words_;                             ///< that a line above or below the table has for all of it
     std::string above_, title_;                             ///< last line of words alone, and that above the heads
     std::uint32_t line_above_ = 0;
     std::vector<std::string>& titles_;
