@@ -247,6 +247,7 @@ constexpr std::array k_statement_words = {
     Word{U"kfaktor", Statement::k},
     Word{U"erweiterungsfaktor", Statement::k},
     Word{U"erweiterungsfaktork", Statement::k},
+    Word{U"expanded", Statement::U},
     Word{U"expandeduncertainty", Statement::U},
     Word{U"expandeduncertaintyu", Statement::U},
     Word{U"u95", Statement::U},

@@ -239,6 +239,10 @@ private:
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
+        if (heads_ && is_near_ && heads_results(sheet_, row)) {
+            in_rows_ = is_near_ = false;
+            return;
+        }
         if (const std::vector<const Cell*> held = cells_with_words(row);
             held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
             above_ = sheet_.words(*held[0]);
@@ -726,6 +730,30 @@ private:
                 row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
         return true;
     }
+    /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, nothing is stated, and their units
+    /// cannot be added, or are not there beside a column that is not read. A sum of their u is a number of nobody.
+    [[nodiscard]] bool has_no_sum() {
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        std::set<std::string> units;
+        bool differ = false;
+        for (const AuditedRow& row : budget_.rows) {
+            if (is_stated || row.sensitivity || row.contribution ||
+                (row.unit != "1" && !row.unit.empty() && !known_unit(row.unit))) {
+                return false;
+            }
+            differ = differ || (!units.empty() && !factor_between(row.unit, *units.begin()));
+            units.insert(row.unit);
+        }
+        const bool have_none = units.size() == 1 && units.contains("") && budget_.unit.empty();
+        if (!differ && !(have_none && !budget_.unread_columns.empty())) {
+            return false;
+        }
+        tables_.not_read.push_back(say(
+            "{table}: the table is not looked at; its rows have no coefficients, their units cannot be added or are "
+            "not stated, and no result is; how do they make it up?",
+            budget_.place));
+        return true;
+    }
     /// Names a line with a number of which nothing is used, and the first of several together.
     void note_unread(const SheetView::Row& row) {
         const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
@@ -775,7 +803,7 @@ private:
             }
             settle_statements();
             settle_correlations();
-            if (needs_unread_column()) {
+            if (needs_unread_column() || has_no_sum()) {
                 tables_.has_unusable = true;
                 clear();
                 return;

@@ -240,6 +240,21 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
     return heads;
 }
 
+bool heads_results(const SheetView& sheet, const SheetView::Row& row) {
+    std::set<Column> columns;
+    for (const Cell* cell : row) {
+        const CellValue held = sheet.value(*cell);
+        if (held.kind == CellKind::text && !held.text.empty()) {
+            if (const std::optional<Column> column = column_of(held.text)) {
+                columns.insert(*column);
+            }
+        } else if (held.kind == CellKind::number) {
+            return false;
+        }
+    }
+    return columns.contains(Column::stated) && columns.contains(Column::estimate) && !heads_of(sheet, row);
+}
+
 std::vector<TablePart> parts_of(const SheetView& sheet) {
     const Rows& rows = sheet.rows();
     std::vector<std::uint32_t> heads;  // rows

@@ -127,6 +127,27 @@ TEST(ResultsByTheirNumbers, KMayBeAColumn) {
         << "results are no budget";
 }
 
+TEST(ResultsByTheirNumbers, OfATableBelowAreNotOfTheBudget) {
+    const AuditReport report = audit_of_lines(
+        voltage_with("u_c,mV,,,,,0.405\nU (k = 2),mV,,,,,0.81\n\nQuantity,Value,Unit,U,k\np1,1.0002,V,0.0008,2\n"
+                     "p2,10.001,V,0.0008,2\n"));
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_NEAR(report.results[0].audited.u_c, k_voltage_u_c, 0.002);
+    EXPECT_EQ(report.subject.budgets[0].claims.U->text, "0.81");
+}
+
+TEST(ResultsByTheirNumbers, AreNotMadeUpWhereNothingSaysHow) {
+    // EURACHEM QUAM, A5: a product of factors, with relative uncertainties.
+    const std::string units = "c,mg/L,0.26,0.018,0.069\nV,L,0.332,0.0018,0.0054\na,dm2,5.73,0.19,0.033\n";
+    EXPECT_TRUE(audit_of_lines("Quantity,Unit,Value,u(x),u(x)/x\n" + units).results.empty());
+    EXPECT_TRUE(audit_of_lines("Quantity,Unit,Value,u(x),Comment\n" + units).results.empty());
+    EXPECT_TRUE(
+        audit_of_lines("Quantity,Value,u(x),u(x)/x\nc,0.26,0.018,0.069\nV,0.332,0.0018,0.0054\n").results.empty());
+    // Rows that can be added are, with or without a stated result.
+    EXPECT_EQ(audit_of_lines("Quantity,Unit,Value,u(x)\na,mm,1.2,0.018\nb,µm,332,1.8\n").results.size(), 1U);
+    EXPECT_EQ(audit_of_lines("Quantity,Unit,Value,u(x),c\na,mm,1.2,0.018,1\nb,K,0.3,0.2,0.01\n").results.size(), 1U);
+}
+
 TEST(ResultsByTheirNumbers, PowersOfTenAreRead) {
     const auto table = [](const std::string& number) {
         return audit_of_lines(
