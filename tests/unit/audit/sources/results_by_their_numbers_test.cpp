@@ -127,6 +127,27 @@ TEST(ResultsByTheirNumbers, KMayBeAColumn) {
         << "results are no budget";
 }
 
+TEST(ResultsByTheirNumbers, SayWhichOfTwoIsUsedAndWhatIsNotStated) {
+    const auto says = [](const AuditReport& report, const std::string& text) {
+        return std::any_of(
+            report.subject.not_read.begin(), report.subject.not_read.end(),
+            [&text](const Sentence& sentence) { return sentence.english().find(text) != std::string::npos; });
+    };
+    const AuditReport of_one = audit_of_lines(voltage_with("U (k = 1),mV,,,,,0.405\nU (k = 2),mV,,,,,0.81\n"));
+    EXPECT_EQ(of_one.subject.budgets.at(0).claims.U->text, "0.81");
+    EXPECT_EQ(of_one.subject.budgets.at(0).claims.u_c->text, "0.405");
+    EXPECT_FALSE(says(of_one, "which one holds"));
+    const AuditReport two =
+        audit_of_lines(voltage_with("u_c,mV,,,,,0.405\nU (k = 2),mV,,,,,0.81\nU (k = 3),mV,,,,,1.2\n"));
+    EXPECT_EQ(two.subject.budgets.at(0).claims.U->text, "0.81");
+    EXPECT_TRUE(says(two, "\"U (k = 3)\" has another number than"));
+    const std::string once = "u_c,mV,,,,,0.405\nk,,2\n";
+    EXPECT_TRUE(says(audit_of_lines(voltage_with(once)), "no U was read"));
+    EXPECT_FALSE(says(audit_of_lines(voltage_with(once + "U,mV,,,,,0.81\nU,µV,,,,,810\nU,%,,,,,0.0081\n")), "U"));
+    // An uncorrected bias that is added (JCGM 100, F.2.4.5) is no k u_c.
+    EXPECT_TRUE(says(audit_of_lines(voltage_with(once + "U = k u_c + |b|,mV,,,,,0.93\n")), "no U was read"));
+}
+
 TEST(ResultsByTheirNumbers, OfATableBelowAreNotOfTheBudget) {
     const AuditReport report = audit_of_lines(
         voltage_with("u_c,mV,,,,,0.405\nU (k = 2),mV,,,,,0.81\n\nQuantity,Value,Unit,U,k\np1,1.0002,V,0.0008,2\n"
