@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr char32_t k_minus_sign = 0x2212, k_times = 0x00D7, k_middle_dot = 0x00B7, k_dot_operator = 0x22C5,
                    k_plus_minus = 0x00B1, k_infinity = 0x221E, k_root = 0x221A, k_no_break_space = 0x00A0,
-                   k_thin_space = 0x2009, k_narrow_no_break_space = 0x202F, k_right_quote = 0x2019;
+                   k_thin_space = 0x2009, k_narrow_no_break_space = 0x202F, k_right_quote = 0x2019, k_en_dash = 0x2013,
+                   k_bullet_operator = 0x2219, k_bullet = 0x2022;
 
 /// Characters of a text in a form that a small reader can walk over: signs of typesetting as the ASCII that they mean.
 std::u32string characters(std::string_view text) {
@@ -66,6 +68,15 @@ std::string beginning(std::string_view text, std::size_t characters) {
 
 bool is_digit(char32_t code) {
     return code >= U'0' && code <= U'9';
+}
+/// A raised digit or sign as the one that it raises; others as they are.
+char32_t lowered(char32_t code) {
+    constexpr std::u32string_view k_raised = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", k_plain = U"0123456789-+";
+    const std::size_t at = k_raised.find(code);
+    return at == std::u32string_view::npos ? code : k_plain[at];
+}
+bool is_times(char32_t code) {
+    return code == k_times || code == U'*' || code == k_bullet_operator || code == k_bullet;
 }
 
 /// Walks over the characters of a text.
@@ -129,6 +140,17 @@ struct Digits {
     bool is_open = false;
 };
 
+/// Whether, behind spaces, a letter of a power of ten stands next with its sign: " E-13". Without a sign it may begin a word.
+bool letter_of_power_follows(const Walk& walk) {
+    std::size_t ahead = 0;
+    while (walk.peek(ahead) == U' ') {
+        ++ahead;
+    }
+    const char32_t letter = walk.peek(ahead), sign = walk.peek(ahead + 1);
+    return (letter == U'e' || letter == U'E') && (sign == U'-' || sign == U'+' || sign == k_en_dash) &&
+           is_digit(walk.peek(ahead + 2));
+}
+
 /// Whether a power of ten stands next: "E-3", "· 10^-3".
 bool exponent_follows(const Walk& walk) {
     std::size_t ahead = 0;
@@ -136,9 +158,8 @@ bool exponent_follows(const Walk& walk) {
         ++ahead;
     }
     const char32_t next = walk.peek(ahead);
-    const bool letter = ahead == 0 && (next == U'e' || next == U'E');
-    return letter || next == k_times || next == U'*' ||
-           (next == U'x' && (walk.peek(ahead + 1) == U' ' || walk.peek(ahead + 1) == U'1'));
+    const bool letter = (ahead == 0 || letter_of_power_follows(walk)) && (next == U'e' || next == U'E');
+    return letter || is_times(next) || (next == U'x' && (walk.peek(ahead + 1) == U' ' || walk.peek(ahead + 1) == U'1'));
 }
 
 /// The digits of a number. A single separator is the decimal sign, unless three digits follow a comma of which there is
@@ -237,19 +258,31 @@ std::optional<Digits> take_digits(Walk& walk, DecimalSign sign) {
 
 std::optional<int> take_exponent(Walk& walk) {
     const std::size_t start = walk.position();
+    if (letter_of_power_follows(walk)) {
+        walk.skip_spaces();
+    }
     const char32_t first = walk.peek();
     const bool letter = first == U'e' || first == U'E';
     if (letter) {
         walk.take();
     } else {
         walk.skip_spaces();
-        const bool times = walk.take_if(k_times) || walk.take_if(U'*') || walk.take_word("x");
+        const bool times = is_times(walk.peek());
+        if (times) {
+            walk.take();
+        }
+        const bool is_multiplied = times || walk.take_word("x");
         walk.skip_spaces();
-        if (!times || !walk.take_word("10")) {
+        if (!is_multiplied || !walk.take_word("10")) {
             walk.go_to(start);
             return std::nullopt;
         }
-        const bool is_raised = walk.take_if(U'^');
+        bool is_raised = walk.take_if(U'^') || lowered(walk.peek()) != walk.peek();
+        if (!is_raised && walk.peek() == U'*' && walk.peek(1) == U'*') {
+            walk.take();
+            walk.take();
+            is_raised = true;
+        }
         const bool is_bracketed = walk.take_if(U'(');
         // "× 100" is a hundred, and no power of ten without its sign.
         if (!is_raised && !is_bracketed && (walk.peek() == U'0' || walk.peek() == U'.' || walk.peek() == U',')) {
@@ -258,14 +291,17 @@ std::optional<int> take_exponent(Walk& walk) {
         }
     }
     int sign = 1;
-    if (walk.take_if(U'-')) {
+    if (const char32_t code = lowered(walk.peek()); code == U'-' || code == k_en_dash) {
         sign = -1;
-    } else {
-        walk.take_if(U'+');
+        walk.take();
+    } else if (code == U'+') {
+        walk.take();
     }
+    // "10⁻⁶" ends where digits are no longer raised.
+    const bool by_raised = lowered(walk.peek()) != walk.peek();
     int exponent = 0, count = 0;
-    while (is_digit(walk.peek()) && count < 4) {
-        exponent = exponent * 10 + static_cast<int>(walk.take() - U'0');
+    while (is_digit(lowered(walk.peek())) && (lowered(walk.peek()) != walk.peek()) == by_raised && count < 4) {
+        exponent = exponent * 10 + static_cast<int>(lowered(walk.take()) - U'0');
         ++count;
     }
     if (count == 0) {

@@ -247,13 +247,25 @@ constexpr std::array k_statement_words = {
     Word{U"kfaktor", Statement::k},
     Word{U"erweiterungsfaktor", Statement::k},
     Word{U"erweiterungsfaktork", Statement::k},
+    Word{U"expanded", Statement::U},
     Word{U"expandeduncertainty", Statement::U},
     Word{U"expandeduncertaintyu", Statement::U},
     Word{U"u95", Statement::U},
     Word{U"erweitertemessunsicherheit", Statement::U},
     Word{U"erweitertemessunsicherheitu", Statement::U},
     Word{U"erweiterteunsicherheit", Statement::U},
+    Word{U"ucalculated", Statement::U},
+    Word{U"calculatedu", Statement::U},
+    Word{U"uberechnet", Statement::U},
+    Word{U"calculatedexpandeduncertainty", Statement::U},
+    Word{U"berechnetemessunsicherheit", Statement::U},
     Word{U"ureported", Statement::reported_U},
+    Word{U"uangegeben", Statement::reported_U},
+    Word{U"statedu", Statement::reported_U},
+    Word{U"statedexpandeduncertainty", Statement::reported_U},
+    Word{U"reportedexpandeduncertainty", Statement::reported_U},
+    Word{U"expandeduncertaintyreported", Statement::reported_U},
+    Word{U"angegebeneerweitertemessunsicherheit", Statement::reported_U},
     Word{U"reporteduncertainty", Statement::reported_U},
     Word{U"reportedu", Statement::reported_U},
     Word{U"ustated", Statement::reported_U},
@@ -698,8 +710,108 @@ std::optional<Column> column_of(std::string_view head) {
 
 namespace {
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// What is said of coverage as one of U: k above those of u_c, or a probability above 68 %.
+bool is_of_expanded(const CoverageText& coverage) {
+    constexpr double k_least_k = 1.6, k_least_p = 0.9;
+    const std::optional<LeadingNumber> k =
+        coverage.k.empty() ? std::nullopt : read_leading_number(coverage.k, "", Percent::unit);
+    return k ? k->number.value >= k_least_k : coverage.p.has_value() && *coverage.p >= k_least_p;
+}
+
+/// What a name in words says of an uncertainty: "standard uncertainty of the result", "Overall uncertainty", "Messunsicherheit U".
+/// Nothing where it may be that of anything else, "uncertainty of calibration", or is one of the two only with its coverage, and
+/// that says nothing.
+/// \param coverage  what follows it, "(k = 2)"
+std::optional<Statement> uncertainty_in_words(std::string_view name, std::string_view coverage) {
+    constexpr std::size_t k_longest = 80;
+    bool is_standard = false, is_expanded = false, is_total = false, is_noun = false;
+    bool is_tail = false, has_tail = false;  // behind "of"
+    if (name.size() > k_longest) {
+        return std::nullopt;
+    }
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t end = std::min(name.find(' ', at), name.size());
+        const std::string_view symbol = name.substr(at, end - at);
+        const std::string word = text::in_small_letters(symbol);
+        at = name.find_first_not_of(' ', end);
+        at = at == std::string_view::npos ? name.size() : at;
+        if (is_tail) {
+            has_tail =
+                has_tail || is_one_of(word, {"result", "results", "measurement", "measurand", "output", "ergebnisses",
+                                             "messergebnisses", "messung", "messgröße", "messgrösse"});
+            if (!has_tail && !is_one_of(word, {"the", "a", "des", "der", "dem"})) {
+                return std::nullopt;
+            }
+            if (has_tail &&
+                !is_one_of(word, {"result", "results", "measurement", "measurand", "output", "ergebnisses",
+                                  "messergebnisses", "messung", "messgröße", "messgrösse"}) &&
+                !is_one_of(symbol, {"u", "U", "u_c", "uc", "u(y)", "U(y)", "u_c(y)", "uc(y)"})) {
+                return std::nullopt;
+            }
+        } else if (is_one_of(word, {"of", "des", "der", "von"}) && is_noun) {
+            is_tail = true;
+        } else if (is_one_of(word, {"expanded", "extended", "erweiterte"})) {
+            is_expanded = true;
+        } else if (is_one_of(word, {"standard", "std", "std."})) {
+            is_standard = true;
+        } else if (is_one_of(word, {"combined", "overall", "total", "resulting", "final", "kombinierte", "gesamte",
+                                    "resultierende"})) {
+            is_total = true;
+        } else if (is_one_of(word, {"uncertainty", "unsicherheit", "messunsicherheit"})) {
+            is_noun = true;
+        } else if (is_one_of(word, {"standardunsicherheit", "standardmessunsicherheit"})) {
+            is_noun = is_standard = true;
+        } else if (is_one_of(word, {"gesamtunsicherheit", "gesamtmessunsicherheit"})) {
+            is_noun = is_total = true;
+        } else if (is_noun && is_one_of(symbol, {"U", "U(y)", "U95", "U_95"})) {
+            is_expanded = true;
+        } else if (is_noun && is_one_of(symbol, {"u", "u_c", "uc", "u(y)", "u_c(y)", "uc(y)"})) {
+            is_standard = true;
+        } else if (word != "measurement") {
+            return std::nullopt;
+        }
+    }
+    if (!is_noun || (is_tail && !has_tail) || (is_standard && is_expanded)) {
+        return std::nullopt;
+    }
+    const CoverageText said = coverage_in(coverage);
+    if (is_expanded || (!is_standard && is_of_expanded(said))) {
+        return Statement::U;
+    }
+    // "Measurement uncertainty" alone may be that of a certificate, in a row.
+    return is_standard || is_total || said.says_any() || has_tail ? std::optional(Statement::u_c) : std::nullopt;
+}
+
+/// What "U =" is a product of: "k·u_c", "2 · u(y)"; the number or "k". Empty where it is none, or something is added to it.
+std::string_view factor_of_u(std::string_view product) {
+    product = trimmed(product);
+    const bool is_k = product.starts_with('k');
+    const std::size_t factor = is_k ? 1 : product.find_first_not_of("0123456789.,");
+    if (factor == 0 || factor == std::string_view::npos || product.find_first_of("+|-/") != std::string_view::npos) {
+        return {};
+    }
+    std::string_view behind = product.substr(factor);
+    bool has_sign = false;
+    for (bool any = true; any;) {
+        any = false;
+        for (const std::string_view sign : {" ", "·", "×", "*", "⋅", "x "}) {
+            if (behind.starts_with(sign)) {
+                behind.remove_prefix(sign.size());
+                any = has_sign = true;
+            }
+        }
+    }
+    const bool is_u = behind == "u" || behind.starts_with("u_") || behind.starts_with("uc") || behind.starts_with("u(");
+    return has_sign && is_u ? product.substr(0, factor) : std::string_view();
+}
+
 /// Of a name that is a statement as it stands, or before what it has in brackets.
-std::optional<NamedStatement> whole_statement(std::string_view name) {
+/// \param further  what is said of coverage behind it
+std::optional<NamedStatement> whole_statement(std::string_view name, std::string_view further = {}) {
     name = trimmed(name);
     const std::string_view short_name = trimmed(without_brackets(name));
     for (std::string_view text = name;; text = short_name) {
@@ -725,10 +837,15 @@ std::optional<NamedStatement> whole_statement(std::string_view name) {
                 named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
             }
         }
+        const std::string_view behind = name.substr(static_cast<std::size_t>(text.data() - name.data()) + text.size());
+        const std::string coverage = std::string(behind) + std::string(further);
+        if (const std::optional<Statement> by_words = uncertainty_in_words(text, coverage);
+            by_words && (!named || named->statement == Statement::u_c)) {
+            named = NamedStatement{.statement = *by_words};
+        }
         if (named) {
-            const std::size_t end = static_cast<std::size_t>(text.data() - name.data()) + text.size();
-            if (coverage_in(name.substr(end)).says_any()) {
-                named->coverage = name.substr(end);
+            if (coverage_in(behind).says_any()) {
+                named->coverage = behind;
                 named->may_be_quantity = false;
             }
             return named;
@@ -751,8 +868,14 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
         return std::nullopt;
     }
     if (const std::size_t sign = name.find_first_of("=:"); sign != std::string_view::npos) {
+        const std::string_view behind = trimmed(name.substr(sign + 1));
+        const std::string_view symbol = trimmed(name.substr(0, sign));
+        if (const std::string_view factor = factor_of_u(behind);
+            !factor.empty() && (symbol == "U" || symbol.starts_with("U(") || symbol == "U95" || symbol == "U_95")) {
+            return NamedStatement{.statement = Statement::U,
+                                  .coverage = factor == "k" ? std::string() : "k = " + std::string(factor)};
+        }
         if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {
-            const std::string_view behind = trimmed(name.substr(sign + 1));
             (begins_with_coverage(behind) && named->statement != Statement::coverage_probability ? named->coverage
                                                                                                  : named->assigned) =
                 behind;
@@ -765,7 +888,7 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
         if (!begins_with_coverage(name.substr(at))) {
             continue;
         }
-        if (std::optional<NamedStatement> named = whole_statement(name.substr(0, at))) {
+        if (std::optional<NamedStatement> named = whole_statement(name.substr(0, at), name.substr(at))) {
             named->coverage = name.substr(at);
             named->may_be_quantity = false;
             return named;

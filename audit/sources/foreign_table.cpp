@@ -235,13 +235,19 @@ private:
             in_rows_ = is_near_ = true;
             constexpr std::uint32_t k_near = 2;  // lines
             title_ = number <= line_above_ + k_near ? above_ : "";
+            unit_in_words_ = unit_in_words(title_);
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
+            return;
+        }
+        if (heads_ && is_near_ && heads_results(sheet_, row)) {
+            in_rows_ = is_near_ = false;
             return;
         }
         if (const std::vector<const Cell*> held = cells_with_words(row);
             held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
             above_ = sheet_.words(*held[0]);
             line_above_ = number;
+            unit_in_words_ = heads_ && is_near_ && unit_in_words_.empty() ? unit_in_words(above_) : unit_in_words_;
         }
         if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
             return;
@@ -619,16 +625,18 @@ private:
     /// The root of the sum of squares of the rows, in the unit of a number.
     /// \param without_last  not of the last one
     [[nodiscard]] std::optional<Interval> sum_above(const StatedResult& of, bool without_last = false) const {
+        return sum_of_first(of, budget_.rows.size() - (without_last ? 1U : 0U));
+    }
+    /// \param count  rows from the first one on
+    [[nodiscard]] std::optional<Interval> sum_of_first(const StatedResult& of, std::size_t count) const {
         std::string unit = of.unit;
         if (const auto head = heads_->all_units.find(of.column); unit.empty() && head != heads_->all_units.end()) {
             unit = head->second;
         }
         std::vector<AuditedRow> rows = budget_.rows;
         std::vector<RowUnits> units = units_;
-        if (without_last) {
-            rows.pop_back();
-            units.pop_back();
-        }
+        rows.resize(count);
+        units.resize(count);
         std::vector<Sentence> unused;
         if (rows.empty() || !settle_units(rows, units, unit, unused)) {
             return std::nullopt;
@@ -722,6 +730,30 @@ private:
                 row->place, text::in_quotes(row->quantity), text::in_quotes(budget_.unread_columns.front())));
         return true;
     }
+    /// Whether nothing says how rows make up a result: they have no coefficients and no contributions, nothing is stated, and their units
+    /// cannot be added, or are not there beside a column that is not read. A sum of their u is a number of nobody.
+    [[nodiscard]] bool has_no_sum() {
+        const bool is_stated = budget_.claims.u_c || budget_.claims.U;
+        std::set<std::string> units;
+        bool differ = false;
+        for (const AuditedRow& row : budget_.rows) {
+            if (is_stated || row.sensitivity || row.contribution ||
+                (row.unit != "1" && !row.unit.empty() && !known_unit(row.unit))) {
+                return false;
+            }
+            differ = differ || (!units.empty() && !factor_between(row.unit, *units.begin()));
+            units.insert(row.unit);
+        }
+        const bool have_none = units.size() == 1 && units.contains("") && budget_.unit.empty();
+        if (!differ && !(have_none && !budget_.unread_columns.empty())) {
+            return false;
+        }
+        tables_.not_read.push_back(say(
+            "{table}: the table is not looked at; its rows have no coefficients, their units cannot be added or are "
+            "not stated, and no result is; how do they make it up?",
+            budget_.place));
+        return true;
+    }
     /// Names a line with a number of which nothing is used, and the first of several together.
     void note_unread(const SheetView::Row& row) {
         const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
@@ -761,6 +793,7 @@ private:
             budget_.title = title_;
             settle_constants();
             tell_unknown_columns();
+            settle_last_lines();
             settle_last_row();
             settle_result_line();
             if (is_open_) {
@@ -770,7 +803,7 @@ private:
             }
             settle_statements();
             settle_correlations();
-            if (needs_unread_column()) {
+            if (needs_unread_column() || has_no_sum()) {
                 tables_.has_unusable = true;
                 clear();
                 return;
@@ -807,6 +840,7 @@ private:
     void clear() {
         budget_ = {};
         units_ = {};
+        unit_in_words_.clear();
         statements_ = {};
         heads_.reset();
         in_rows_ = is_near_ = false;
@@ -914,6 +948,165 @@ private:
         };
         const std::optional<StatedNumber> k = stated(Statement::k);
         return is(Statement::u_c, 1.0) || (k && (is(Statement::U, k->value) || is(Statement::reported_U, k->value)));
+    }
+
+    /// The number of a row under the contributions, or under u, as a statement has it.
+    [[nodiscard]] StatedResult amount_of(std::size_t row) const {
+        const AuditedRow& of = budget_.rows[row];
+        const bool by_u = !of.contribution;
+        const Column column = by_u ? Column::u : Column::contribution;
+        return {.number = by_u ? *of.u : *of.contribution,
+                .unit = by_u ? units_[row].u : units_[row].contribution,
+                .column = heads_->columns.at(column)};
+    }
+    /// The k that makes U of a sum of this number: that of its name, or the one that is stated. 0 where none does.
+    [[nodiscard]] double k_to(const StatedResult& amount, const std::string& name, const Interval& sum) const {
+        const std::string_view in_name = coverage_in(name).k;
+        const std::optional<LeadingNumber> named =
+            in_name.empty() ? std::nullopt : read_leading_number(in_name, "", Percent::unit);
+        for (const std::optional<StatedNumber>& k :
+             {named ? std::optional(named->number) : std::nullopt, stated(Statement::k)}) {
+            if (k && k->value > 1.0 && seen(amount.number, k->value).meets(sum)) {
+                return k->value;
+            }
+        }
+        return 0.0;
+    }
+    /// Lines at the end of the rows that have an amount alone, where the rows above them have what makes up theirs, are results
+    /// whatever their names: u_c where their number is the root of the sum of squares of the rows above, U where it is k times that.
+    void settle_last_lines() {
+        constexpr std::size_t k_least = 2, k_most = 6;
+        settle_divided_result();
+        const std::size_t count = budget_.rows.size();
+        std::size_t first = count;
+        const auto is_amount_alone = [](const AuditedRow& row) {
+            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
+        };
+        while (first > 0 && is_amount_alone(budget_.rows[first - 1])) {
+            --first;
+        }
+        const bool is_distinct =
+            std::all_of(budget_.rows.begin(), budget_.rows.begin() + static_cast<std::ptrdiff_t>(first),
+                        [](const AuditedRow& row) { return has_columns_of_a_row(row); });
+        if (first < k_least || first == count || count - first > k_most || !is_distinct) {
+            return;
+        }
+        const std::optional<Interval> all = sum_of_first(amount_of(count - 1), count);
+        if (all && gives_statements(*all).value_or(false)) {
+            return;
+        }
+        for (std::size_t i = first; i < count; ++i) {
+            const StatedResult amount = amount_of(i);
+            const std::optional<Interval> sum = sum_of_first(amount, i);
+            if (!sum) {
+                return;
+            }
+            const bool is_u_c = seen(amount.number, 1.0).meets(*sum);
+            const bool is_last = i + 1 == count;
+            if (is_u_c && is_last) {
+                return;  // settle_last_row() knows more of one line
+            }
+            if ((is_u_c || k_to(amount, budget_.rows[i].quantity, *sum) > 0.0) && have_no_influence(i + 1, *sum)) {
+                take_last_lines(i, *sum);
+                return;
+            }
+        }
+        ask_for_last_lines(first);
+    }
+    /// Whether no row from one on is named as an influence and has a number that is not U of a sum.
+    [[nodiscard]] bool have_no_influence(std::size_t from, const Interval& sum) const {
+        for (std::size_t i = from; i < budget_.rows.size(); ++i) {
+            const AuditedRow& row = budget_.rows[i];
+            const bool is_other = contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
+            if (!is_other && !(k_to(amount_of(i), row.quantity, sum) > 0.0)) {
+                return false;
+            }
+        }
+        return true;
+    }
+    void take_last_lines(std::size_t from, const Interval& sum) {
+        const std::vector<AuditedRow> lines(budget_.rows.begin() + static_cast<std::ptrdiff_t>(from),
+                                            budget_.rows.end());
+        std::vector<StatedResult> amounts;
+        for (std::size_t i = from; i < budget_.rows.size(); ++i) {
+            amounts.push_back(amount_of(i));
+        }
+        constexpr double k_least_k = 1.6, k_most_k = 3.5;  // of a U without a k in its line
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const double k = k_to(amounts[i], lines[i].quantity, sum);
+            const double ratio = amounts[i].number.value / sum.high;
+            const bool is_u_c = seen(amounts[i].number, 1.0).meets(sum);
+            const CoverageText said = coverage_in(lines[i].quantity);
+            const bool is_U = k > 0.0 || (i > 0 && (said.says_any() || (ratio > k_least_k && ratio < k_most_k)));
+            if (is_u_c) {
+                state(Statement::u_c, amounts[i]);
+                if (lines[i].nu) {
+                    state(Statement::nu_eff,
+                          StatedResult{.number = *lines[i].nu, .unit = "", .column = heads_->columns[Column::nu]});
+                }
+            } else if (is_U) {
+                state(Statement::U, amounts[i]);
+                if (said.says_any() && statements_.coverage.empty()) {
+                    statements_.coverage = lines[i].quantity;
+                    statements_.coverage_place = lines[i].place;
+                }
+            } else {
+                tables_.not_read.push_back(
+                    say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used",
+                        lines[i].place, text::in_quotes(lines[i].quantity)));
+            }
+        }
+        budget_.rows.resize(from);
+        units_.resize(from);
+    }
+    /// Lines at the end that are called an uncertainty, and give no result of the rows above them, may be one all the same.
+    void ask_for_last_lines(std::size_t first) {
+        for (std::size_t i = first; i < budget_.rows.size(); ++i) {
+            const AuditedRow& row = budget_.rows[i];
+            const std::string name = text::in_small_letters(row.quantity);
+            constexpr std::string_view k_words[] = {"uncertaint", "unsicherheit", "incertidumbre",
+                                                    "不確定",     "u =",          "u="};
+            const bool is_called_so =
+                std::any_of(std::begin(k_words), std::end(k_words),
+                            [&name](std::string_view word) { return name.find(word) != name.npos; });
+            if (is_called_so && contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other) {
+                is_open_ = true;
+                tables_.not_read.push_back(say(
+                    "{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
+                    "looked at; which one is it?",
+                    row.place, text::in_quotes(row.quantity)));
+                return;
+            }
+        }
+    }
+    /// "Total | 0.64 | 2 | 0.32" below rows with coefficients: U, k and u_c in one line, where the last is the sum of the rows.
+    void settle_divided_result() {
+        constexpr std::size_t k_least = 3;
+        if (budget_.rows.size() < k_least) {
+            return;
+        }
+        const AuditedRow last = budget_.rows.back();
+        const bool has_all = last.stated && last.divisor && last.divisor->value > 1.0 && (last.u || last.contribution);
+        const bool is_distinct = !last.sensitivity && last.shape_text.empty() && !last.type_a &&
+                                 std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
+                                             [](const AuditedRow& row) { return row.sensitivity.has_value(); });
+        if (!has_all || !is_distinct ||
+            contributor_of(name_in_words(last), last.comment, last.source) != Contributor::other) {
+            return;
+        }
+        const StatedResult amount = amount_of(budget_.rows.size() - 1);
+        const std::optional<Interval> sum = sum_above(amount, true);
+        if (!sum || !seen(amount.number, 1.0).meets(*sum)) {
+            return;
+        }
+        const RowUnits units = units_.back();
+        budget_.rows.pop_back();
+        units_.pop_back();
+        state(Statement::u_c, amount);
+        state(Statement::U,
+              StatedResult{.number = *last.stated, .unit = units.stated, .column = heads_->columns.at(Column::stated)});
+        state(Statement::k,
+              StatedResult{.number = *last.divisor, .unit = "", .column = heads_->columns.at(Column::divisor)});
     }
 
     /// The last row of a table may be its result: u_c under u or the contributions, without anything that is divided, a distribution
@@ -1041,7 +1234,11 @@ private:
                 result.unit = of_head->second;
             }
         }
-        state_claims(budget_, statements_, of_contributions, unit_of_rows(), tables_.not_read);
+        const bool has_no_units = std::all_of(units_.begin(), units_.end(), [](const RowUnits& units) {
+            return units.stated.empty() && units.u.empty() && units.contribution.empty() && units.sensitivity.empty();
+        });
+        state_claims(budget_, statements_, of_contributions, has_no_units ? unit_in_words_ : unit_of_rows(),
+                     tables_.not_read);
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
@@ -1107,6 +1304,7 @@ private:
     std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
     std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
     std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
+    std::string unit_in_words_;                             ///< that a line above or below the table has for all of it
     std::string above_, title_;                             ///< last line of words alone, and that above the heads
     std::uint32_t line_above_ = 0;
     std::vector<std::string>& titles_;

@@ -479,6 +479,45 @@ void take_others(const SheetView& sheet, Statement statement, const NumbersUnder
     }
 }
 
+/// The k that words beside U state; 0 where they state none.
+double k_in_words(std::string_view words) {
+    const std::string_view k = coverage_in(words).k;
+    const std::optional<LeadingNumber> number = k.empty() ? std::nullopt : read_leading_number(k, "", Percent::unit);
+    return number ? number->number.value : 0.0;
+}
+
+/// "U (k = 1)" is u_c where "U (k = 2)" follows.
+void replace_U_of_one(const NamedLine& line, Statement statement, Statements& statements) {
+    const auto held = statements.numbers.find(Statement::U);
+    if (statement == Statement::U && held != statements.numbers.end() && k_in_words(statements.coverage) == 1.0 &&
+        k_in_words(line.named.coverage) > 1.0) {
+        statements.numbers.emplace(Statement::u_c, std::move(held->second));
+        statements.numbers.erase(Statement::U);
+        statements.coverage.clear();
+    }
+}
+
+/// Names a u_c or U that is stated again with another number.
+void tell_second(Statement statement, const StatedResult& second, const std::string& name, const Statements& statements,
+                 std::vector<Sentence>& not_read) {
+    const auto first = statements.numbers.find(statement);
+    const bool is_told = statement == Statement::u_c || statement == Statement::U || statement == Statement::reported_U;
+    if (!is_told || first == statements.numbers.end()) {
+        return;
+    }
+    const std::optional<double> factor = factor_between(second.unit, first->second.unit);
+    if (!factor) {
+        return;  // a relative one beside it
+    }
+    const StatedNumber &one = first->second.number, &other = second.number;
+    const double step =
+        printed_half_step(one) + std::abs(*factor) * printed_half_step(other) + 1e-9 * std::abs(one.value);
+    if (std::abs(one.value - *factor * other.value) > step) {
+        not_read.push_back(say("{cell}: {text} has another number than {other}; the latter is used; which one holds?",
+                               other.place, text::in_quotes(name), one.place));
+    }
+}
+
 }  // namespace
 
 std::optional<Statement> take_statement(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
@@ -546,6 +585,13 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
               has_unit ? beside.one(at, by_head != nullptr) : std::string(), unit_in_head(name)}) {
             result->unit = result->unit.empty() ? unit : result->unit;
         }
+        // "U reported (CMC)": what is reported is the capability.
+        if (statement == Statement::reported_U &&
+            (name.find("(CMC)") != std::string::npos || name.find("(BMC)") != std::string::npos)) {
+            statements.numbers.emplace(Statement::capability, *result);
+        }
+        replace_U_of_one(*line, statement, statements);
+        tell_second(statement, *result, name, statements, not_read);
         statements.numbers.emplace(statement, std::move(*result));
     }
     const bool is_number = statement == Statement::k || statement == Statement::nu_eff || statement == Statement::U ||

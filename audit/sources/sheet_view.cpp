@@ -155,9 +155,26 @@ std::optional<StatedNumber> SheetView::number(const Cell& cell) const {
                                                                                : std::nullopt;
 }
 
+namespace {
+
+/// Whether behind a number stands what it is multiplied by or divided by: "2×0.10", "0.20/2". The first number alone is another one.
+bool goes_on(std::string_view rest) {
+    for (const std::string_view sign : {"×", "*", "∙", "•", "/"}) {
+        if (!rest.starts_with(sign)) {
+            continue;
+        }
+        const std::size_t next = rest.find_first_not_of(' ', sign.size());
+        return next != std::string_view::npos &&
+               ((rest[next] >= '0' && rest[next] <= '9') || rest.substr(next).starts_with("√"));
+    }
+    return false;
+}
+
+}  // namespace
+
 std::optional<NumberWithUnit> SheetView::number_in_text(std::string_view text, const Cell& cell) const {
     std::optional<LeadingNumber> leading = read_leading_number(text, place(cell.address), Percent::unit, sign_);
-    if (!leading) {
+    if (!leading || goes_on(leading->rest)) {
         return std::nullopt;
     }
     leading->number.text = without_groups(leading->number);

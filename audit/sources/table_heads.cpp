@@ -103,6 +103,23 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
     }
 }
 
+/// A column of k directly behind U, with u of the rows beside them, divides the one to give the other. Without u, "U | k" heads a table of results.
+void take_k_for_divisor(const SheetView& sheet, Heads& heads) {
+    const auto has = [&heads](Column column) { return heads.columns.contains(column); };
+    if (has(Column::divisor) || !has(Column::stated) || (!has(Column::u) && !has(Column::contribution))) {
+        return;
+    }
+    const std::uint32_t behind = heads.columns.at(Column::stated) + 1;
+    const auto k = std::find_if(heads.unknown.begin(), heads.unknown.end(), [&sheet, behind](const Cell* cell) {
+        return cell->address.column == behind && statement_of(sheet.words(*cell)) == Statement::k;
+    });
+    if (k != heads.unknown.end()) {
+        heads.columns.emplace(Column::divisor, (*k)->address.column);
+        heads.units[Column::divisor] = "";
+        heads.unknown.erase(k);
+    }
+}
+
 /// Of a row of heads: the columns of each of several points, in the order of the points; empty where it has one point, or nobody can
 /// tell which.
 struct PointColumns {
@@ -205,15 +222,37 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
         }
     }
     take_relative_and_first(sheet, row, heads);
+    take_k_for_divisor(sheet, heads);
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };
     const bool uncertainty = has(Column::u) || has(Column::stated) || has(Column::contribution);
-    // "name | limit" heads many tables: what is divided needs a third column, as that of the divisors.
-    const bool is_alone = heads.columns.size() < 3 && !has(Column::u) && !has(Column::contribution);
+    // "name | limit" heads many tables, and "name | value | unit | U" those of results: what is divided needs another column, as that
+    // of the divisors.
+    const bool is_explained =
+        std::any_of(heads.columns.begin(), heads.columns.end(), [](const std::pair<const Column, std::uint32_t>& head) {
+            return head.first != Column::quantity && head.first != Column::estimate && head.first != Column::unit &&
+                   head.first != Column::stated;
+        });
+    const bool is_alone = !is_explained && !has(Column::u) && !has(Column::contribution);
     if (!has(Column::quantity) || !uncertainty || is_alone) {
         return std::nullopt;
     }
     keep_unknown_of_table(heads, row);
     return heads;
+}
+
+bool heads_results(const SheetView& sheet, const SheetView::Row& row) {
+    std::set<Column> columns;
+    for (const Cell* cell : row) {
+        const CellValue held = sheet.value(*cell);
+        if (held.kind == CellKind::text && !held.text.empty()) {
+            if (const std::optional<Column> column = column_of(held.text)) {
+                columns.insert(*column);
+            }
+        } else if (held.kind == CellKind::number) {
+            return false;
+        }
+    }
+    return columns.contains(Column::stated) && columns.contains(Column::estimate) && !heads_of(sheet, row);
 }
 
 std::vector<TablePart> parts_of(const SheetView& sheet) {

@@ -28,6 +28,9 @@ struct Heads {
 /// The heads of a table, where a row has them; nothing of other rows.
 [[nodiscard]] std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row);
 
+/// Whether a row heads a table of results, "quantity | value | U | k": no budget, and no line of the one above it.
+[[nodiscard]] bool heads_results(const SheetView& sheet, const SheetView::Row& row);
+
 /// Rows of a sheet that are read together.
 struct TablePart {
     SheetView::Rows rows;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::audit {
@@ -228,6 +230,33 @@ std::string unit_in_head(const std::string& head) {
     // "U / k", "Half-width / U": what the column has in the language of formulas.
     const bool is_symbol = unit == "U" || unit == "u" || unit == "a" || unit == "k";
     return is_symbol || is_value(unit) ? "" : unit;
+}
+
+std::string unit_in_words(const std::string& line) {
+    constexpr std::string_view k_of_all[] = {"all ",    "all in",     "alle ",        "values",        "werte",
+                                             "angaben", "uncertaint", "unsicherheit", "contributions", "beiträge",
+                                             "valores", "todo",       "incertidumbre"};
+    const std::string lower = text::in_small_letters(line);
+    if (lower.size() != line.size() ||
+        std::none_of(std::begin(k_of_all), std::end(k_of_all), [&lower](std::string_view word) {
+            const std::size_t at = lower.find(word);
+            const bool begins_word = at != lower.npos && (at == 0 || lower[at - 1] < 'a' || lower[at - 1] > 'z');
+            return begins_word || (at != lower.npos && word == "unsicherheit");
+        })) {
+        return "";
+    }
+    for (const std::string_view word : {" in ", " en "}) {
+        const std::size_t at = line.rfind(word);
+        if (at == std::string::npos) {
+            continue;
+        }
+        const std::size_t from = at + word.size();
+        const std::string unit(bare_unit(line.substr(from, line.find_first_of(",;.()", from) - from)));
+        if (known_unit(unit)) {
+            return unit;
+        }
+    }
+    return "";
 }
 
 std::string unit_in_rest(const std::string& rest) {

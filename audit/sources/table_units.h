@@ -21,6 +21,9 @@ namespace gumcert::audit {
 /// The unit that follows a number in its cell: "µm" of "µm, k = 2"; "" where what follows is none.
 [[nodiscard]] std::string unit_in_rest(const std::string& rest);
 
+/// The unit that a line of words states for all numbers of a table: "all values in mm", "Angaben in mbar"; "" where it states none.
+[[nodiscard]] std::string unit_in_words(const std::string& line);
+
 /// What a number in one unit is multiplied by to be in another one, as a difference: °C and K are the same. 1 where both are
 /// written alike, or one of them is not stated; nothing where one cannot be turned into the other.
 [[nodiscard]] std::optional<double> factor_between(const std::string& from, const std::string& to);

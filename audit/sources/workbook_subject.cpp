@@ -360,6 +360,12 @@ AuditSubject subject_of(workbook::Workbook workbook, const std::string& name) {
         }
         subject.workbook = std::move(held);
     }
+    for (const AuditedBudget& budget : subject.budgets) {
+        if (!budget.claims.U && budget.claims.broken.U.empty()) {
+            subject.not_read.push_back(
+                say("{table}: no U was read; what stands as claimed U is what the rows give", budget.place));
+        }
+    }
     return subject;
 }
 
