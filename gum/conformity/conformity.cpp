@@ -163,7 +163,8 @@ bool Application::ratio_holds() {
         }
     }
     if (p_.largest_U) {
-        condition += (condition.empty() ? "U ≤ " : " and U ≤ ") + text::shortest(*p_.largest_U);
+        // Not its number: here it has the unit of the value, and beside the parameters of the rule the one that was agreed.
+        condition += condition.empty() ? "U ≤ U_max" : " and U ≤ U_max";
         if (y_.expanded_uncertainty > *p_.largest_U * (1.0 + k_rounding)) {
             holds = false;
             cannot("the expanded uncertainty is above the largest one of the rule");

@@ -197,8 +197,10 @@ Text coverage_sentence(const CoverageGroup& group, const Wording& words) {
     if (!nu_low) {
         return words.fill("coverage_normal", {{"k", k}, {"p", p}});
     }
-    const Text nu = nu_differs ? words.fill("nu_between", {{"low", certificate::whole_degrees_of_freedom(*nu_low)}})
-                               : words.fill("nu_one", {{"nu", degrees_of_freedom(nu_low, words)}});
+    const std::string low =
+        nu_differs ? certificate::whole_degrees_of_freedom(*nu_low) : certificate::printed_degrees_of_freedom(nu_low);
+    const Text nu = nu_differs && !low.starts_with('>') ? words.fill("nu_between", {{"low", low}})
+                                                        : stated_degrees_of_freedom(low, words);
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 

@@ -114,6 +114,11 @@ Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words) {
     return nu ? words.number(certificate::printed_degrees_of_freedom(nu)) : words("document", "infinite");
 }
 
+Text stated_degrees_of_freedom(const std::string& printed, const Wording& words) {
+    return printed.starts_with('>') ? words.fill("nu_above", {{"nu", words.number(printed.substr(1))}})
+                                    : words.fill("nu_one", {{"nu", words.number(printed)}});
+}
+
 void add_fact(Facts& facts, const Text& label, const Text& value) {
     if (!value.empty()) {
         facts.emplace_back(label, value);

@@ -110,5 +110,7 @@ void put(nlohmann::json& object, const std::string& key, const Text& text, const
 
 /// Degrees of freedom, as certificate::printed_degrees_of_freedom prints them; a word for infinitely many.
 [[nodiscard]] Text degrees_of_freedom(const std::optional<double>& nu, const Wording& words);
+/// "ν_eff = 12"; "ν_eff > 9999" of a number that is printed as ">9999".
+[[nodiscard]] Text stated_degrees_of_freedom(const std::string& printed, const Wording& words);
 
 }  // namespace gumcert::reports

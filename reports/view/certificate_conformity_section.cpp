@@ -119,8 +119,9 @@ std::string role_in_tables(const Certificate& certificate, const std::string& na
 
 /// ±(0.005 % of the reading + 0.0035 % of 100 mV + 2 · 0.0001 mV)
 /// \param role  of what the percentage is of: what was computed is said, whatever a data sheet calls it
+/// \param is_rest  entries for ranges stand before it, and one without a range holds for all others
 Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecification& s, const std::string& role,
-              const Wording& words) {
+              bool is_rest, const Wording& words) {
     const std::string unit = gum::unit_for_people(from.unit.empty() ? s.unit : from.unit);
     const bool is_set = role == "nominal" || role == "setting" || role == "reference";
     Text sum;
@@ -142,14 +143,17 @@ Text accuracy(const certificate::PointLimits::Accuracy& from, const AgreedSpecif
         add(with_unit(number(*from.constant), unit));
     }
     const Text whole = "±(" + sum + ")";
-    return from.range.empty() ? whole : from.range + ": " + whole;
+    if (!from.range.empty()) {
+        return from.range + ": " + whole;
+    }
+    return is_rest ? words("point_table", "other_ranges") + ": " + whole : whole;
 }
 
 Text limits_of_points(const certificate::PointLimits& limits, const AgreedSpecification& s, bool in_results,
                       const Certificate& certificate, const Wording& words) {
     Text text;
     for (const certificate::PointLimits::Accuracy& entry : limits.accuracy) {
-        const Text one = accuracy(entry, s, role_in_tables(certificate, limits.of), words);
+        const Text one = accuracy(entry, s, role_in_tables(certificate, limits.of), !text.empty(), words);
         text += text.empty() ? one : "; " + one;
     }
     if (text.empty()) {

@@ -108,10 +108,10 @@ Text student_t_sentence(const std::vector<const CertifiedValue*>& values, const 
         nus.push_back(v->printed_nu_eff);
         least = v->nu_eff.value_or(0.0) < least->nu_eff.value_or(0.0) ? v : least;
     }
-    const std::string key = common(nus) ? "nu_one" : "nu_between";
-    const Text lowest = words.number(
-        key == "nu_one" ? nus.front() : certificate::whole_degrees_of_freedom(least->nu_eff.value_or(0.0)));
-    const Text nu = words.fill(key, {{key == "nu_one" ? "nu" : "low", lowest}});
+    const bool is_one = common(nus).has_value();
+    const std::string low = is_one ? nus.front() : certificate::whole_degrees_of_freedom(least->nu_eff.value_or(0.0));
+    const Text nu = is_one || low.starts_with('>') ? stated_degrees_of_freedom(low, words)
+                                                   : words.fill("nu_between", {{"low", words.number(low)}});
     return words.fill("coverage_student_t", {{"k", k}, {"nu_eff", nu}, {"p", p}});
 }
 

@@ -274,8 +274,10 @@ void uncertainty_statement(CertificateBuilder& builder, const Wording& words, co
         const Text k = low == high
                            ? words.fill("k_one", {{"k", words.number(low)}})
                            : words.fill("k_between", {{"low", words.number(low)}, {"high", words.number(high)}});
-        const Text nu_eff = nu_low == nu_high ? words.fill("nu_one", {{"nu", nu_low}})
-                                              : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
+        const std::string least = certificate::printed_degrees_of_freedom(coverage.nu_low);
+        const Text nu_eff = nu_low == nu_high || least.starts_with('>')
+                                ? stated_degrees_of_freedom(least, words)
+                                : words.fill("nu_between", {{"low", nu_low}, {"high", nu_high}});
         const Text reason = coverage.nu_low ? words.fill("student", {{"nu_eff", nu_eff}}) : words("sentence", "normal");
         builder.paragraph(
             words.fill("uncertainty",

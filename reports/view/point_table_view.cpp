@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -486,13 +488,13 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
     LayoutColumns layout(table, words, overview, shown);
     const std::vector<LayoutColumn> columns = layout.all();
     Rows lines;
-    std::vector<const CertifiedValue*> marked;
+    std::multimap<std::string, const CertifiedValue*> marked;  // by the result
     for (std::size_t row = 0; row < table.argument->printed.size(); ++row) {
         bool any = false;
         for (const CertifiedColumn& c : table.columns) {
             if (shown(c.values[row])) {
                 any = true;
-                marked.push_back(&c.values[row]);
+                marked.emplace(c.result, &c.values[row]);
             }
         }
         if (!any) {
@@ -507,14 +509,15 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
     if (lines.empty()) {
         return;
     }
-    const Text marks = overview.meaning_of_marks(words, marked);
     const std::vector<std::vector<std::size_t>> parts = columns_of_parts(columns, lines, words);
     for (std::size_t p = 0; p < parts.size(); ++p) {
         std::vector<const LayoutColumn*> of_part;
         std::vector<Column> heads;
         Rows cells(lines.size());
         Text names;
+        std::set<std::string> results;
         for (const std::size_t i : parts[p]) {
+            results.insert(columns[i].result);
             of_part.push_back(&columns[i]);
             heads.push_back(columns[i].column);
             for (std::size_t row = 0; row < lines.size(); ++row) {
@@ -530,6 +533,13 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
         if (parts.size() > 1 && !names.empty()) {
             caption += " " + names + ".";
         }
+        std::vector<const CertifiedValue*> of_results;
+        for (const auto& [result, value] : marked) {
+            if (results.contains(result)) {
+                of_results.push_back(value);
+            }
+        }
+        const Text marks = overview.meaning_of_marks(words, of_results);
         caption += marks.empty() ? Text() : " " + marks;
         builder.table(id + (p == 0 ? "" : "-" + std::to_string(p)), caption, heads, cells, stages_of(of_part, words));
     }

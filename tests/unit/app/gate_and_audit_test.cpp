@@ -274,6 +274,82 @@ TEST_F(GateAndAudit, TheLargestUOfARuleIsInTheUnitOfItsSpecification) {
     }
 }
 
+// The page says by which rule it was decided, and on which condition: the U that it prints has to keep it, or not.
+TEST_F(GateAndAudit, StateTheRuleWhoseConditionThePrintedNumbersKeep) {
+    json profile = json::parse(test::file_content(k_tree / "templates" / "profiles" / "ilac.json"));
+    profile["id"] = "own";
+    std::size_t moved = 0, kept = 0, missed = 0;
+    for (const char* rounding : {"half_even", "up"}) {
+        profile["rounding"] = rounding;
+        for (const double U : {0.196, 0.199, 0.2, 0.2012, 0.2049, 0.2055, 0.25}) {
+            for (const double largest : {0.197, 0.2, 0.2025}) {  // µm
+                json data = data_;
+                data["profile"] = "own.json";
+                data["annexes"] = "none";
+                data["specifications"][0]["rule"] = {
+                    {"id", "DR-02"}, {"largest_U", 1e-3 * largest}, {"alternative", "DR-03"}};
+                SCOPED_TRACE(std::string(rounding) + " " + std::to_string(U) + " " + std::to_string(largest));
+                const Evaluation evaluation = evaluated(data, 0.5 * U, profile.dump());
+                EXPECT_EQ(blocking(evaluation, "audit-"), "");
+                for (const auto& value : evaluation.record.certificate->tables.at(0).columns.at(0).values) {
+                    if (value.verdict->verdict_from_printed != value.verdict->verdict) {
+                        EXPECT_NE(blocking(evaluation, "D04"), "");
+                        continue;
+                    }
+                    constexpr double k_noise = 1e-9;
+                    const double printed = certificate::number_of(value.printed_U).value_or(0.0);
+                    const bool keeps = printed <= largest * (1.0 + k_noise);
+                    EXPECT_EQ(value.verdict->rule, keeps ? "DR-02" : "DR-03") << value.printed_value;
+                    moved += keeps != (value.U.value_or(0.0) <= largest * (1.0 + k_noise)) ? 1U : 0U;
+                    kept += keeps ? 1U : 0U;
+                    missed += keeps ? 0U : 1U;
+                }
+                const std::string page = text_of(evaluation.record);
+                EXPECT_THAT(page, testing::Not(HasSubstr("U ≤ 0")));
+                EXPECT_EQ(page.find("if U ≤ U_max") != std::string::npos,
+                          page.find("decided by rule DR-02") != std::string::npos);
+            }
+        }
+    }
+    EXPECT_GE(moved, 20U);
+    EXPECT_GE(kept, 100U);
+    EXPECT_GE(missed, 100U);
+}
+
+TEST_F(GateAndAudit, StateWhatLimitsWithoutARangeHoldFor) {
+    const auto page = [&](bool with_range) {
+        json data = data_;
+        data["annexes"] = "none";
+        json first = {{"constant", 1.0}};
+        if (with_range) {
+            first["range"] = "fine";
+        }
+        json& specification = data["specifications"][0];
+        specification.erase("lower");
+        specification.erase("upper");
+        specification["unit"] = "um";
+        specification["limits"] = {{"by", "accuracy"}, {"of", "n"}, {"about", "n"}, {"accuracy", json::array({first})}};
+        if (with_range) {
+            specification["limits"]["accuracy"].push_back({{"constant", 2.0}});
+        }
+        const json points = {{"columns", {{"range", "text"}}},
+                             {"list", json::array({{{"range", "fine"}, {"d", 0.1}}, {{"range", "wide"}, {"d", 0.2}}})}};
+        return text_of(evaluated_with(data, {{"unit", "um"}, {"u", 0.1}}, {{"points", points}}).record);
+    };
+    EXPECT_THAT(page(true), HasSubstr("fine: ±(1 µm); other ranges: ±(2 µm)"));
+    EXPECT_THAT(page(false), testing::Not(HasSubstr("other ranges")));
+    EXPECT_THAT(page(false), HasSubstr("±(1 µm)"));
+}
+
+TEST_F(GateAndAudit, StateDegreesOfFreedomThatAreTooManyToPrintAsSuch) {
+    for (const double nu : {12.0, 9999.0, 10000.0, 5e4}) {
+        const std::string page =
+            text_of(evaluated_with(data_, {{"unit", "um"}, {"u", 0.1}, {"nu", nu}}, json::object()).record);
+        EXPECT_THAT(page, testing::Not(HasSubstr("= >")));
+        EXPECT_THAT(page, HasSubstr(nu < 1e4 ? "ν_eff = " + std::to_string(static_cast<int>(nu)) : "ν_eff > 9999"));
+    }
+}
+
 TEST_F(GateAndAudit, HoldUAgainstTheCapabilityAlikeByEveryProfile) {
     std::size_t outside = 0, refused = 0, raised = 0, profiles = 0;
     for (const auto& file : std::filesystem::directory_iterator(k_tree / "templates" / "profiles")) {

@@ -136,8 +136,17 @@ bool is_left_out(std::string_view at) {
 
 /// Numbers of the data with the unit that stands beside them: "upper" of a specification, "minimum" of a condition.
 void add_units(Texts& texts) {
-    static constexpr std::array<std::string_view, 9> k_with_unit = {
-        "lower", "upper", "minimum", "maximum", "value", "U", "guard_band", "largest_U", "population_deviation"};
+    static constexpr std::array<std::string_view, 11> k_with_unit = {"lower",
+                                                                     "upper",
+                                                                     "minimum",
+                                                                     "maximum",
+                                                                     "value",
+                                                                     "U",
+                                                                     "U_to",
+                                                                     "guard_band",
+                                                                     "largest_U",
+                                                                     "population_deviation",
+                                                                     "population_centre"};
     std::map<std::string, std::string> units;
     for (const StatedLeaf& leaf : texts) {
         if (leaf.at.ends_with("/unit")) {
@@ -398,19 +407,28 @@ void compare_results(const Certificate& earlier, const Certificate& later, std::
     const std::vector<TableText> after = shown_in_tables(later);
     const TableTexts of_before(before);
     const TableTexts of_after(after);
+    // What is said of a result stands with it in the table of each group of rows: it is told once.
+    const auto tell = [&](const TableText& one, const std::string& old, const std::string& now) {
+        const bool is_told = std::any_of(changes.begin(), changes.end(), [&](const Change& c) {
+            return c.kind == one.kind && c.where == one.where && c.before == old && c.after == now;
+        });
+        if (!is_told || tells_a_place(one)) {
+            changes.push_back({.kind = one.kind, .where = one.where, .before = old, .after = now});
+        }
+    };
     std::map<std::pair<std::string, std::string>, std::size_t> seen;
     for (const TableText& one : after) {
         const std::optional<std::string> old = of_before.text(one, seen[{one.kind, one.where}]++);
-        const bool is_told = of_before.has(one.where) || tells_a_place(one);
-        if (old.value_or("") != one.text && is_told) {
-            changes.push_back({.kind = one.kind, .where = one.where, .before = old.value_or(""), .after = one.text});
+        const bool is_shown = of_before.has(one.where) || tells_a_place(one);
+        if (old.value_or("") != one.text && is_shown) {
+            tell(one, old.value_or(""), one.text);
         }
     }
     seen.clear();
     for (const TableText& one : before) {
         const bool has_gone = !of_after.text(one, seen[{one.kind, one.where}]++);
         if (has_gone && !one.text.empty() && (of_after.has(one.where) || tells_a_place(one))) {
-            changes.push_back({.kind = one.kind, .where = one.where, .before = one.text, .after = ""});
+            tell(one, one.text, "");
         }
     }
 }

@@ -258,7 +258,12 @@ Verdict verdict_of(const AgreedSpecification& specification, const certificate::
             by_hand.verdict == gum::ConformityVerdict::not_applicable) {
             fill(verdict, by_hand);  // nobody could follow that a value fails where none can pass
         }
-        if (by_hand.rule == shown.rule) {  // else rounding has moved a ratio past the one where an alternative begins
+        // Where rounding has moved U or a ratio past the condition of the rule, and both rules say the same, the page states
+        // the one whose condition the printed U keeps or not; where they say different things, that is a finding (D04).
+        if (by_hand.rule != shown.rule && by_hand.verdict == shown.verdict) {
+            fill(verdict, by_hand);
+            shown = by_hand;
+        } else if (by_hand.rule == shown.rule) {
             shown = by_hand;
         }
     } catch (const gum::DiagnosedError& error) {

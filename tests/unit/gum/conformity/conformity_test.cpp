@@ -135,7 +135,7 @@ TEST(DecideConformity, Dr02OnlyWithAGoodMeasurement) {
     EXPECT_EQ(verdict(rule, 10.01, {.test_uncertainty_ratio = 5.0}), fail);
     EXPECT_EQ(verdict(rule, 9.99, {.largest_U = 0.1}), pass);
     EXPECT_EQ(decide(rule, 9.99, {.test_uncertainty_ratio = 4.0, .largest_U = 0.1}).formula,
-              "AL = TL, AU = TU, if TUR ≥ 4 and U ≤ 0.1");
+              "AL = TL, AU = TU, if TUR ≥ 4 and U ≤ U_max");
     const ConformityDecision coarse = decide(rule, 9.99, {.test_uncertainty_ratio = 5.1});
     EXPECT_EQ(coarse.verdict, not_applicable);
     EXPECT_EQ(coarse.note, "DR-02 cannot be applied: the test uncertainty ratio is below the least one of the rule.");

@@ -392,5 +392,25 @@ TEST(PointTableView, ManyResultsBecomeSeveralTablesWithTheSamePoints) {
     EXPECT_GE(tables_in(table_of_results(3, "10000.0045"), "de").size(), 2U);
 }
 
+// What a mark means stands with the rows that have it, and not with those of other results.
+TEST(PointTableView, EachPartOfATableExplainsItsOwnMarks) {
+    std::size_t without = 0;
+    for (std::size_t results = 1; results <= 6; ++results) {
+        for (std::size_t marked = 0; marked < results; ++marked) {
+            certificate::Certificate certificate = table_of_results(results, "10000.0045");
+            certificate.tables.front().columns.at(marked).values.front().raised = true;
+            std::size_t with = 0;
+            for (const json& table : tables_in(certificate, "en")) {
+                const bool has_mark = table.at("rows").dump().find('#') != std::string::npos;
+                const std::string caption = table.at("caption");
+                EXPECT_EQ(caption.find('#') != std::string::npos, has_mark) << caption;
+                (has_mark ? with : without) += 1;
+            }
+            EXPECT_EQ(with, 1U);
+        }
+    }
+    EXPECT_GE(without, 10U);
+}
+
 }  // namespace
 }  // namespace gumcert::reports

@@ -141,6 +141,45 @@ TEST(AmendedRecord, TellsOnceWhatWasAgreedForAllValues) {
     EXPECT_EQ(said(changes_between(earlier, later)), "limit_high E: 1.6\u00A0mg -> 5\u00A0mg\n");
 }
 
+// Rows of two groups are two tables, and the result of both is one.
+TEST(AmendedRecord, TellsOnceWhatIsSaidOfAResultInTheTablesOfItsGroups) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::CertifiedTable second = earlier.tables.front();
+    for (std::string& point : second.argument->printed) {
+        point += "b";
+    }
+    earlier.tables.push_back(second);
+    for (certificate::CertifiedTable& table : earlier.tables) {
+        table.columns.front().values.front().verdict->rule = "DR-01";
+    }
+    certificate::Certificate later = earlier;
+    for (certificate::CertifiedTable& table : later.tables) {
+        table.columns.front().name = "deviation";
+        table.columns.front().values.front().verdict->rule = "DR-03";
+    }
+    const std::string found = said(changes_between(earlier, later));
+    for (const char* once : {"heading E: ", "rule E: "}) {
+        EXPECT_NE(found.find(once), std::string::npos) << found;
+        EXPECT_EQ(found.find(once), found.rfind(once)) << found;
+    }
+}
+
+TEST(AmendedRecord, GivesBothEndsOfAUTheirUnit) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::StandardUsed standard;
+    standard.name = "Source";
+    standard.U = 0.5;
+    standard.U_to = 3.0;
+    standard.unit = "MHz";
+    earlier.data.standards = {standard};
+    certificate::Certificate later = earlier;
+    later.data.standards.front().U = 0.6;
+    later.data.standards.front().U_to = 4.0;
+    const std::string found = said(changes_between(earlier, later));
+    EXPECT_NE(found.find("/U: 0.5\u00A0MHz -> 0.6\u00A0MHz"), std::string::npos) << found;
+    EXPECT_NE(found.find("/U_to: 3\u00A0MHz -> 4\u00A0MHz"), std::string::npos) << found;
+}
+
 /// Where the table of results shows the verdicts the certificate has no table of them.
 TEST(AmendedRecord, TellsNothingOfADecisionThatIsNotPrinted) {
     certificate::Certificate earlier = certificate_with_layout();
