@@ -153,6 +153,18 @@ TEST(ComparisonReport, TestOfASubsetNamesThoseOutsideIt) {
     EXPECT_THAT(answer_of(record), HasSubstr("consistent without Lab 3: "));
 }
 
+TEST(ComparisonReport, FirstPageSaysThatAnIndependentValueContradictsTheConsensus) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.consensus = ConsensusCheck{};
+    item.consensus->consistent = true;
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("contradict each other: they differ")));
+    item.consensus->consistent = false;
+    EXPECT_THAT(answer_of(record), HasSubstr("the independent reference value contradict each other: they differ"));
+    item.consensus.reset();
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("contradict each other: they differ")));
+}
+
 TEST(ComparisonReport, TheTestSaysThatItHoldsTheUncertaintyOfTheItems) {
     EvaluationRecord record = one_item(6);
     ComparisonItemEvaluation& item = record.comparison->items[0];
