@@ -501,8 +501,9 @@ AuditedItem audited_item(const reports::ComparisonItemEvaluation& stated) {
         item.by_chance = test.by_chance;
         // What a subset has left out of the test makes it too good.
         if (item.inconsistent.empty() && test.degrees_of_freedom > 0) {
-            item.p_low =
-                gum::chi_square_lower_tail(test.chi_square.number, static_cast<double>(test.degrees_of_freedom));
+            // Of the stated uncertainties: what the items add is none that a laboratory has stated too large.
+            item.p_low = gum::chi_square_lower_tail(test.chi_square_of_statements.value_or(test.chi_square.number),
+                                                    static_cast<double>(test.degrees_of_freedom));
         }
     }
     return item;

@@ -5,6 +5,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/comparison/random_effects.h"
+#include "gum/comparison/reference_estimates.h"
 #include "gum/comparison/refusal_place.h"
 #include "gum/comparison/robust_statistics.h"
 #include "gum/comparison/shared_sources.h"
@@ -327,7 +328,7 @@ AssignedValue median_by_trials(const ComparisonScheme& scheme, const LaboratoryD
 }
 
 AssignedValue largest_subset(const LaboratoryData& data, double alpha) {
-    const ConsistentSubset subset = largest_consistent_subset(data.at(data.contributing), alpha);
+    const ConsistentSubset subset = consistent_subset_of(data, alpha);
     AssignedValue assigned = linear_value(data, data.contributing, subset.mean);
     assigned.degrees_of_freedom = degrees_of_freedom_of(data, assigned);
     for (std::size_t i = 0; i < data.contributing.size(); ++i) {

@@ -58,7 +58,8 @@ void describe(const ComparisonScheme& scheme, const LaboratoryData& data, const 
         }
     }
     if (!assigned.not_consistent.empty()) {
-        result.consistency_of_all = consistency_test(data.at(data.contributing), data.item->assigned_value.alpha);
+        result.consistency_of_all = consistency_test(with_items(data.at(data.contributing), data.between_items()),
+                                                     data.item->assigned_value.alpha);
     }
     result.subset_unique = assigned.subset_unique;
     result.u_by_statements = assigned.u_by_statements;
@@ -249,6 +250,13 @@ void add_uncertainty(const ComparisonScheme& scheme, const LaboratoryData& data,
     }
 }
 
+/// What the items add to each result. A subset is looked for before a limit for its drift is known.
+ItemUncertainty items_of(const LaboratoryData& data, const AssignedValue& assigned, const ItemResult& result) {
+    ItemUncertainty items = data.between_items();
+    items.drift = assigned.subset ? 0.0 : result.u_stability.value_or(0.0);
+    return items;
+}
+
 void add_consensus_check(const LaboratoryData& data, ItemResult& result) {
     const ComparisonItem& item = *data.item;
     if (!item.reference_value || !item.u_reference_value || !result.u) {
@@ -314,7 +322,7 @@ ItemResult item_result(const ComparisonScheme& scheme, const LaboratoryData& dat
         result.criterion = *result.u / *result.sigma_pt;
         result.criterion_met = *result.criterion <= k_assigned_value_criterion * k_rounding_of_criterion;
     }
-    result.consistency = consistency_of(data, assigned);
+    result.consistency = consistency_of(data, assigned, items_of(data, assigned, result));
     result.estimates = reference_estimates(data, assigned, scheme.coverage_probability);
     result.s_star = robust_standard_deviation(data);
     result.pooled_standard_deviation = pooled_standard_deviation(data);

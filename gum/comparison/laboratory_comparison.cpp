@@ -37,7 +37,7 @@ EvaluatedItem evaluated(const ComparisonScheme& scheme, LaboratoryData data, boo
     item.result = item_result(scheme, item.data, item.assigned);
     item.scores = scored_results(scheme, item.data, item.assigned, item.result);
     if (with_pairs) {
-        item.result.pairs = pair_equivalences(item.data, scheme.coverage_probability);
+        item.result.pairs = pair_equivalences(item.data, scheme.coverage_probability, item.result.u_of_item());
     }
     return item;
 }

@@ -7,6 +7,7 @@
 
 #include "gum/argument_check.h"
 #include "gum/comparison/laboratory_covariance.h"
+#include "gum/comparison/proficiency_scheme.h"
 #include "gum/comparison/refusal_place.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -53,6 +54,14 @@ std::vector<std::size_t> LaboratoryData::with_u() const {
         }
     }
     return positions;
+}
+
+ItemUncertainty LaboratoryData::between_items() const {
+    if (!item->homogeneity) {
+        return {};
+    }
+    const HomogeneityCheck check = check_homogeneity(*item->homogeneity, 1.0);  // s_s does not depend on σ_pt
+    return {.between = check.s_s, .degrees_of_freedom = check.degrees_of_freedom};
 }
 
 LaboratoryResults LaboratoryData::at(const std::vector<std::size_t>& positions) const {

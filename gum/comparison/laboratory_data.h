@@ -41,6 +41,8 @@ struct LaboratoryData {
     [[nodiscard]] bool all_have_u(const std::vector<std::size_t>& positions) const;
     /// Those at some positions, for gum; their covariance only where something correlates.
     [[nodiscard]] LaboratoryResults at(const std::vector<std::size_t>& positions) const;
+    /// What the check of homogeneity says of the items, which needs no limit; 0 without one.
+    [[nodiscard]] ItemUncertainty between_items() const;
     [[nodiscard]] Eigen::VectorXd values(const std::vector<std::size_t>& positions) const;
 };
 

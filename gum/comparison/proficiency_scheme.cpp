@@ -123,6 +123,13 @@ HomogeneityCheck check_homogeneity(const Eigen::MatrixXd& results, double sigma_
     const Real between = statistics.s_means * statistics.s_means -
                          statistics.s_within * statistics.s_within / static_cast<Real>(results.cols());
     check.s_s = between > 0.0L ? static_cast<double>(std::sqrt(between)) : 0.0;
+    if (check.s_s > 0.0) {
+        const double of_means = std::pow(check.s_x / check.s_s, 4.0) / static_cast<double>(check.items - 1);
+        const auto within_degrees = static_cast<double>(check.items * (check.replicates - 1));
+        const double of_within = std::pow(check.s_w / check.s_s, 4.0) /
+                                 (within_degrees * static_cast<double>(check.replicates * check.replicates));
+        check.degrees_of_freedom = std::max(1.0, 1.0 / (of_means + of_within));
+    }
     check.limit = k_assigned_value_criterion * sigma_pt;
     const HomogeneityFactors factors = homogeneity_factors(check.items, check.replicates);
     // 0.3 σ_pt is allowed between items; F1 and F2 add what the scatter of g items in m replicates may show by chance,

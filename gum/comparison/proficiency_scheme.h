@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace gumcert::gum {
@@ -33,10 +34,12 @@ struct HomogeneityFactors {
 struct HomogeneityCheck {
     std::size_t items = 0, replicates = 0;
     double mean = 0.0;
-    double mean_remainder = 0.0;       ///< what the rounding of the mean has cut off
-    double s_x = 0.0;                  ///< standard deviation of the means of the items
-    double s_w = 0.0;                  ///< within items
-    double s_s = 0.0;                  ///< between items, √max(0, s_x² − s_w²/m)
+    double mean_remainder = 0.0;  ///< what the rounding of the mean has cut off
+    double s_x = 0.0;             ///< standard deviation of the means of the items
+    double s_w = 0.0;             ///< within items
+    double s_s = 0.0;             ///< between items, √max(0, s_x² − s_w²/m)
+    /// Of s_s², the difference of two estimates, by Welch and Satterthwaite; 1 at least.
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();
     double limit = 0.0;                ///< 0.3 σ_pt
     double expanded_limit = 0.0;       ///< √(F1 (0.3 σ_pt)² + F2 s_w²)
     bool sufficient = false;           ///< s_s ≤ limit

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <numbers>
 #include <span>
 
 #include "gum/comparison/consensus_spread.h"
@@ -109,7 +111,7 @@ void add_by_uncertainty(Estimates& estimates, const LaboratoryData& data, const 
     const bool asked = request.method == AssignedValueMethod::largest_consistent_subset;
     if (asked || (independent && data.contributing.size() <= k_most_laboratories_in_pairs)) {
         estimates.add(AssignedValueMethod::largest_consistent_subset, [&](ReferenceEstimate& estimate) {
-            const ConsistentSubset subset = largest_consistent_subset(results, request.alpha);
+            const ConsistentSubset subset = consistent_subset_of(data, request.alpha);
             take(estimate, subset.mean);
             estimate.results = subset.members.size();
         });
@@ -197,7 +199,20 @@ std::vector<ReferenceEstimate> reference_estimates(const LaboratoryData& data, c
     return estimates.take();
 }
 
-std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, const AssignedValue& assigned) {
+ConsistentSubset consistent_subset_of(const LaboratoryData& data, double alpha) {
+    const LaboratoryResults results = data.at(data.contributing);
+    const ItemUncertainty items = data.between_items();
+    ConsistentSubset subset = largest_consistent_subset(with_items(results, items), alpha);
+    if (items.total() > 0.0) {
+        subset.mean = spread_weights(weighted_mean(selected_results(results, subset.members)), subset.members,
+                                     data.contributing.size());
+        subset.test.of_finite_degrees = results.degrees_of_freedom.size() > 0;
+    }
+    return subset;
+}
+
+std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, const AssignedValue& assigned,
+                                                const ItemUncertainty& items) {
     if (data.contributing.size() < 2 || !data.all_have_u(data.contributing)) {
         return std::nullopt;
     }
@@ -211,12 +226,15 @@ std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, cons
                    assigned.not_consistent.end();
         });
     } else {
-        at_place(data.where, [&] { test = consistency_test(data.at(tested), alpha); });
+        at_place(data.where, [&] { test = consistency_test(data.at(tested), items, alpha); });
     }
-    ResultConsistency consistency{.test = *test, .alpha = alpha};
+    ResultConsistency consistency{.test = *test, .alpha = alpha, .u_items = items.total()};
+    if (consistency.u_items > 0.0 && !assigned.subset) {
+        consistency.chi_square_of_statements = consistency_test(data.at(tested), alpha).chi_square;
+    }
     if (const std::size_t n = tested.size(); n <= k_most_results_of_pair_count) {
         consistency.pairs = n * (n - 1) / 2;
-        consistency.incompatible_pairs = incompatible_pairs(data.at(tested));
+        consistency.incompatible_pairs = incompatible_pairs(with_items(data.at(tested), items));
     }
     return consistency;
 }
@@ -254,7 +272,13 @@ std::size_t count_pairs(const LaboratoryData& data) {
     return n < 2 || n > k_most_laboratories_in_pairs ? 0 : n * (n - 1) / 2;
 }
 
-std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, double coverage_probability) {
+std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, double coverage_probability,
+                                               double u_items) {
+    // Of two items, with the factor of a normal quantity.
+    const double u_of_both = std::numbers::sqrt2 * u_items;
+    const double U_of_both =
+        coverage_factor(en_coverage_probability(coverage_probability), std::numeric_limits<double>::infinity()) *
+        u_of_both;
     const std::vector<std::size_t> with_u = data.with_u();
     std::vector<PairEquivalence> pairs;
     if (count_pairs(data) == 0) {
@@ -275,15 +299,17 @@ std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, doubl
             pair.first = first.participant;
             pair.second = second.participant;
             pair.d = difference.d;
-            pair.u = difference.u;
+            pair.u = std::hypot(difference.u, u_of_both);
             // E_n takes both U for one probability of about 95 %, as that of a laboratory against the value (ADR 0028).
             const auto U_of = [&](const ResultUncertainty& stated) {
                 return en_uncertainty(stated, coverage_probability).U;
             };
             // Rounding may take |r| above 1.
-            pair.U = expanded_uncertainty_of_difference(
-                {first.value, first.uncertainty->u, U_of(*first.uncertainty)},
-                {second.value, second.uncertainty->u, U_of(*second.uncertainty)}, std::clamp(r, -1.0, 1.0));
+            pair.U = std::hypot(
+                expanded_uncertainty_of_difference({first.value, first.uncertainty->u, U_of(*first.uncertainty)},
+                                                   {second.value, second.uncertainty->u, U_of(*second.uncertainty)},
+                                                   std::clamp(r, -1.0, 1.0)),
+                U_of_both);
             if (pair.U > 0.0) {
                 pair.en = pair.d / pair.U;
             }

@@ -43,10 +43,18 @@ struct ReferenceEstimate {
                                                                  const AssignedValue& assigned,
                                                                  double coverage_probability);
 
+/// The largest consistent subset of the contributing results, whose items differ as the check of homogeneity says; its
+/// mean is that of the stated uncertainties.
+[[nodiscard]] ConsistentSubset consistent_subset_of(const LaboratoryData& data, double alpha);
+
 /// Test of consistency with the pairs of results that are not metrologically compatible, κ = 2.
 struct ResultConsistency {
     ConsistencyTest test;
     double alpha = 0.05;
+    /// In the test and in the pairs, beside the uncertainty of each result; of a subset without a drift.
+    double u_items = 0.0;
+    /// χ² of the stated uncertainties alone; none where that is the one of the test.
+    std::optional<double> chi_square_of_statements = {};
     /// None for more than k_most_results_of_pair_count results.
     std::optional<std::size_t> pairs = {}, incompatible_pairs = {};
     /// It fails (of a subset: the test of all results does), no clearer and in no more of several items than chance
@@ -54,10 +62,10 @@ struct ResultConsistency {
     bool by_chance = false;
 };
 
-/// Test whether the contributing results agree within their uncertainties: of those that the assigned value rests on
+/// Test whether the contributing results agree within their uncertainties and what their items differ by: of those that the assigned value rests on
 /// where it is the largest consistent subset. Nothing where they do not all state one, or are fewer than two.
-[[nodiscard]] std::optional<ResultConsistency> consistency_of(const LaboratoryData& data,
-                                                              const AssignedValue& assigned);
+[[nodiscard]] std::optional<ResultConsistency> consistency_of(const LaboratoryData& data, const AssignedValue& assigned,
+                                                              const ItemUncertainty& items = {});
 
 /// Robust standard deviation s* of the contributing results by algorithm A; nothing for fewer than three, or where more
 /// than half of them are equal.
@@ -78,6 +86,8 @@ struct PairEquivalence {
 [[nodiscard]] std::size_t count_pairs(const LaboratoryData& data);
 
 /// Bilateral degrees of equivalence of all results with an uncertainty; none for more than 40.
-[[nodiscard]] std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, double coverage_probability);
+/// \param u_items  of the item of each result
+[[nodiscard]] std::vector<PairEquivalence> pair_equivalences(const LaboratoryData& data, double coverage_probability,
+                                                             double u_items = 0.0);
 
 }  // namespace gumcert::gum

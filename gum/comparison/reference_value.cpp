@@ -385,6 +385,34 @@ double critical_chi_square(std::size_t results, double alpha, double degrees_of_
                           common_t_quantile(std::vector<double>(of_chi_square, 1.0), degrees_of_freedom, 1.0 - alpha));
 }
 
+double ItemUncertainty::total() const {
+    return std::hypot(between, drift);
+}
+
+LaboratoryResults with_items(const LaboratoryResults& results, const ItemUncertainty& items) {
+    const double of_items = items.total();
+    LaboratoryResults whole = results;
+    if (!(of_items > 0.0)) {
+        return whole;
+    }
+    if (std::isfinite(items.degrees_of_freedom) && whole.degrees_of_freedom.size() == 0) {
+        whole.degrees_of_freedom = Eigen::VectorXd::Constant(whole.x.size(), k_infinity);
+    }
+    for (Index i = 0; i < whole.x.size(); ++i) {
+        whole.u(i) = std::hypot(results.u(i), of_items);
+        if (whole.degrees_of_freedom.size() != 0) {
+            const double nu = results.degrees_of_freedom.size() == 0 ? k_infinity : results.degrees_of_freedom(i);
+            const std::vector<UncertaintyContribution> parts = {
+                {results.u(i), nu}, {items.between, items.degrees_of_freedom}, {items.drift}};
+            whole.degrees_of_freedom(i) = effective_degrees_of_freedom(parts);
+        }
+        if (whole.covariance.size() != 0) {
+            whole.covariance(i, i) = whole.u(i) * whole.u(i);
+        }
+    }
+    return whole;
+}
+
 LaboratoryResults selected_results(const LaboratoryResults& results, const std::vector<std::size_t>& members) {
     const auto size = static_cast<Index>(members.size());
     const bool correlated = results.covariance.size() != 0;
@@ -472,6 +500,27 @@ ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha)
     test.birge_ratio = std::sqrt(test.chi_square / nu);
     test.birge_limit = std::sqrt(1.0 + std::sqrt(8.0 / nu));
     test.of_finite_degrees = has_finite_degrees(results);
+    return test;
+}
+
+ConsistencyTest consistency_test(const LaboratoryResults& results, const ItemUncertainty& items, double alpha) {
+    require_results(results);
+    if (!(items.total() > 0.0)) {
+        return consistency_test(results, alpha);
+    }
+    ItemUncertainty known = items;
+    known.degrees_of_freedom = k_infinity;
+    const LaboratoryResults whole = with_items(results, known);
+    ConsistencyTest test = consistency_test(whole, alpha);
+    const double part = (items.between / whole.u.array()).square().mean();
+    const double of_estimate = items.degrees_of_freedom / (part * part);
+    if (part > 0.0 && std::isfinite(of_estimate)) {
+        test.critical_value =
+            std::max(test.critical_value, critical_chi_square(test.degrees_of_freedom + 1, alpha, of_estimate));
+        test.p_value = std::max(test.p_value, common_t_upper_tail(std::vector<double>(test.degrees_of_freedom, 1.0),
+                                                                  of_estimate, test.chi_square));
+        test.consistent = test.chi_square <= test.critical_value;
+    }
     return test;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace gumcert::gum {
@@ -25,6 +26,18 @@ void require_results(const LaboratoryResults& results);
 /// The results with these numbers, in this order, with their part of the covariance. Nothing is checked.
 [[nodiscard]] LaboratoryResults selected_results(const LaboratoryResults& results,
                                                  const std::vector<std::size_t>& members);
+
+/// What results differ by because laboratories did not measure the same: items that are not alike, or that change. It is
+/// another one in each result.
+struct ItemUncertainty {
+    double between = 0.0;                                                 ///< standard deviation between items
+    double degrees_of_freedom = std::numeric_limits<double>::infinity();  ///< of it: one estimate for all results
+    double drift = 0.0;                                                   ///< standard uncertainty
+
+    [[nodiscard]] double total() const;
+};
+/// The results with the uncertainty of their items in each of them, and with the ν of both by Welch and Satterthwaite.
+[[nodiscard]] LaboratoryResults with_items(const LaboratoryResults& results, const ItemUncertainty& items);
 
 /// A number as the sum of two: the nearest double, and what it leaves. A mean may be known to a fraction of the last
 /// binary digit of its value, where results have many digits in common and one of them nearly all of the weight.
@@ -80,6 +93,11 @@ struct ConsistencyTest {
 /// \param alpha  0.05 in key comparisons
 /// \throws  as weighted_mean(); InputError GC-GUM-0004 for alpha
 [[nodiscard]] ConsistencyTest consistency_test(const LaboratoryResults& results, double alpha = 0.05);
+/// The same of results that hold the uncertainty of their items as well. Their standard deviation is one estimate that
+/// all of them share: where it is a part φ of the variances, the critical value is that of (n − 1) F(n − 1, ν/φ²), if
+/// that is the larger one, and p belongs to it.
+[[nodiscard]] ConsistencyTest consistency_test(const LaboratoryResults& results, const ItemUncertainty& items,
+                                               double alpha);
 
 /// Largest subset of results that passes the consistency test; among several of that size the one with the smallest
 /// chi-square.                                                             (Cox 2007, Metrologia 44, 187-200)

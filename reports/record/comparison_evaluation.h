@@ -50,6 +50,8 @@ struct ConsistencySummary {
     bool consistent = true;
     bool by_chance = false;  ///< it fails, no clearer and in no more of several items than chance makes
     Shown<double> birge_ratio = {}, birge_limit = {};
+    Shown<double> u_items = {};  ///< in the test beside the uncertainty of each result; 0: none
+    std::optional<double> chi_square_of_statements = {};  ///< of the stated uncertainties alone, where u_items is not 0
     std::optional<std::int64_t> pairs = {}, incompatible_pairs = {};  ///< metrological compatibility, κ = 2
 };
 

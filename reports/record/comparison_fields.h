@@ -61,6 +61,8 @@ void describe(Archive& a, Struct& r) {
     a.added("by_chance", r.by_chance);
     a("birge_ratio", r.birge_ratio, Range::not_negative);
     a("birge_limit", r.birge_limit, Range::not_negative);
+    a.added("u_items", r.u_items, Range::not_negative);
+    a.added("chi_square_of_statements", r.chi_square_of_statements, Range::not_negative);
     a("pairs", r.pairs, Range::not_negative);
     a("incompatible_pairs", r.incompatible_pairs, Range::not_negative);
 }

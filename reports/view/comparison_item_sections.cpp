@@ -132,6 +132,10 @@ void consistency(CertificateBuilder& builder, const Wording& words, const Compar
                                 {"critical", words.number(s.critical_value.text)},
                                 {"alpha", percent_of(words, s.alpha)},
                                 {"p", words.number(s.p_value.text)}}));
+    if (!s.u_items.text.empty()) {
+        builder.paragraph(sentence(words, "consistency_of_items",
+                                   {{"u", printed_quantity(words, s.u_items.text, item.difference_unit)}}));
+    }
     if (!s.birge_ratio.text.empty()) {
         builder.paragraph(
             sentence(words, "birge",

@@ -205,7 +205,12 @@ bool is_not_cleared(const ComparisonPoint& p) {
     return p.signal == "inconclusive" && p.signal_by.empty();
 }
 
-/// That the results contradict each other, and whom the scores cannot clear.
+/// Whether an independent value contradicts the consensus that the results are scored against.
+bool differs_from_reference(const ComparedItem& compared) {
+    return compared.item->consensus && !compared.item->consensus->consistent;
+}
+
+/// That the results contradict each other or an independent value, and whom the scores cannot clear.
 void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, const ComparedItem& compared) {
     const ComparisonItemEvaluation& item = *compared.item;
     if (is_refuted(item)) {
@@ -218,6 +223,9 @@ void what_scores_cannot_say(CertificateBuilder& builder, const Wording& words, c
         if (item.U_rests_on == "uncertainties") {
             builder.paragraph(words.filled("comparison_scores", "contradicted_U", {{"item", compared.name}}));
         }
+    }
+    if (differs_from_reference(compared)) {
+        builder.paragraph(words.filled("comparison_scores", "consensus_differs", {{"item", compared.name}}));
     }
     if (!item.in_another_subset.empty()) {
         builder.paragraph(words.filled("comparison_scores",
@@ -275,6 +283,7 @@ void answer_of_many_items(CertificateBuilder& builder, const Wording& words, con
     sentence_of_items(builder, words, items, "contradicted_U_items", [](const ComparedItem& i) {
         return is_refuted(*i.item) && i.item->U_rests_on == "uncertainties";
     });
+    sentence_of_items(builder, words, items, "consensus_differs_items", differs_from_reference);
     sentence_of_items(builder, words, items, "another_subset_items",
                       [](const ComparedItem& i) { return !i.item->in_another_subset.empty(); });
     sentence_of_items(builder, words, items, "inconclusive_items", [](const ComparedItem& i) {

@@ -154,6 +154,10 @@ reports::ConsistencySummary consistency_record(const gum::ResultConsistency& con
     summary.by_chance = consistency.by_chance;
     summary.birge_ratio = shown(test.birge_ratio, printed_score);
     summary.birge_limit = shown(test.birge_limit, printed_score);
+    if (consistency.u_items > 0.0) {
+        summary.u_items = shown(consistency.u_items, printed_uncertainty);
+    }
+    summary.chi_square_of_statements = consistency.chi_square_of_statements;
     summary.pairs = count(consistency.pairs);
     summary.incompatible_pairs = count(consistency.incompatible_pairs);
     return summary;

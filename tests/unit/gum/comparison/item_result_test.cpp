@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "gum/quantity/diagnostic.h"
 #include "tests/unit/gum/comparison/stated_comparison.h"
@@ -72,6 +74,116 @@ TEST(ItemResult, WhatTheItemsAddIsInTheUncertainty) {
     EXPECT_NEAR(*result.u, std::hypot(0.0041, std::sqrt(3.75)), 1e-14);
     EXPECT_NEAR(result.u_of_item(), std::sqrt(3.75), 1e-14);
     EXPECT_FALSE(result.homogeneity->sufficient_expanded);
+}
+
+class NormalNumbers {
+public:
+    explicit NormalNumbers(unsigned seed) : random_(seed) {}
+    // Polar method: std::normal_distribution is not the same in every library.
+    double operator()() {
+        const double radius = std::sqrt(-2.0 * std::log(uniform()));
+        return radius * std::cos(2.0 * std::numbers::pi * uniform());
+    }
+
+private:
+    double uniform() { return (static_cast<double>(random_()) + 0.5) / 4294967296.0; }
+    std::mt19937 random_;
+};
+
+/// Right results of nine laboratories with u = 0.1, of items that differ by s, and ten such items measured twice.
+test::StatedComparison of_different_items(NormalNumbers& normal, double s, AssignedValueMethod method) {
+    std::vector<double> x(9);
+    for (double& value : x) {
+        value = 10.0 + s * normal() + 0.1 * normal();
+    }
+    test::StatedComparison stated = test::comparison_of(x, std::vector<double>(x.size(), 0.1));
+    ComparisonItem& item = stated.scheme.items.front();
+    item.assigned_value.method = method;
+    item.sigma_pt.emplace().value = 1.0;
+    Eigen::MatrixXd measured(10, 2);
+    for (Eigen::Index i = 0; i < measured.rows(); ++i) {
+        const double value = 10.0 + s * normal();
+        measured(i, 0) = value + 0.03 * normal();
+        measured(i, 1) = value + 0.03 * normal();
+    }
+    item.homogeneity = measured;
+    return stated;
+}
+
+// By the stated uncertainties alone nearly all sets of right results would contradict each other where s is 3 u.
+TEST(ItemResult, ItemsThatDifferAreNoContradiction) {
+    constexpr int k_sets = 200;
+    for (const double s : {0.0, 0.05, 0.1, 0.3, 1.0}) {
+        NormalNumbers normal(static_cast<unsigned>(1000.0 * s) + 5U);
+        int refuted = 0;
+        int by_statements = 0;
+        int left_out = 0;
+        for (int set = 0; set < k_sets; ++set) {
+            const test::StatedComparison stated = of_different_items(normal, s, AssignedValueMethod::weighted_mean);
+            const ItemResult item = result_of(stated);
+            refuted += item.consistency->test.consistent ? 0 : 1;
+            const LaboratoryData data = stated.data();
+            by_statements += consistency_test(data.at(data.contributing)).consistent ? 0 : 1;
+            EXPECT_EQ(item.consistency->u_items, *item.u_homogeneity);
+            if (set < 50) {
+                test::StatedComparison asked = stated;
+                asked.scheme.items.front().assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+                left_out += result_of(asked).not_consistent.empty() ? 0 : 1;
+            }
+        }
+        EXPECT_LE(refuted, 0.09 * k_sets) << s;
+        EXPECT_LE(left_out, 9) << s;
+        if (s >= 0.3) {
+            EXPECT_GE(by_statements, 0.9 * k_sets) << s;
+        }
+    }
+}
+
+TEST(ItemResult, AContradictionIsOneWhateverItsItemsAre) {
+    NormalNumbers normal(3);
+    for (const double s : {0.0, 0.1, 0.3}) {
+        test::StatedComparison stated = of_different_items(normal, s, AssignedValueMethod::weighted_mean);
+        stated.results[4].value = stated.results[4].value + 20.0 * std::hypot(s, 0.1);
+        EXPECT_FALSE(result_of(stated).consistency->test.consistent) << s;
+        stated.scheme.items.front().assigned_value.method = AssignedValueMethod::largest_consistent_subset;
+        const ItemResult item = result_of(stated);
+        EXPECT_EQ(item.not_consistent, std::vector<std::size_t>{4}) << s;
+        EXPECT_NEAR(*item.u_characterisation, 0.1 / std::sqrt(8.0), 1e-12) << "the mean of the stated uncertainties";
+    }
+}
+
+TEST(ItemResult, ADriftAndDifferentItemsAreInTheTestAndInThePairs) {
+    test::StatedComparison stated = test::comparison_of({10.0, 10.6, 10.1}, {0.1, 0.2, 0.1});
+    ComparisonItem& item = stated.scheme.items.front();
+    item.assigned_value.method = AssignedValueMethod::weighted_mean;
+    item.sigma_pt.emplace().value = 0.1;
+    item.homogeneity = (Eigen::MatrixXd(3, 2) << 1.0, 1.2, 1.4, 1.2, 1.5, 1.7).finished();
+    item.stability = (Eigen::MatrixXd(2, 2) << 2.4, 2.5, 2.3, 2.6).finished();
+    const ItemResult result = result_of(stated);
+    ASSERT_GT(*result.u_stability, 0.0);
+    ASSERT_GT(*result.u_homogeneity, 0.0);
+    const double u = result.u_of_item();
+    EXPECT_NEAR(result.consistency->u_items, u, 1e-15);
+    // About the mean with these weights.
+    const std::vector<double> x = {10.0, 10.6, 10.1};
+    const std::vector<double> variance = {0.01 + u * u, 0.04 + u * u, 0.01 + u * u};
+    double weights = 0.0;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        weights += 1.0 / variance[i];
+        mean += x[i] / variance[i];
+    }
+    mean /= weights;
+    double chi_square = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        chi_square += (x[i] - mean) * (x[i] - mean) / variance[i];
+    }
+    EXPECT_NEAR(result.consistency->test.chi_square, chi_square, 1e-12);
+    const LaboratoryData data = stated.data();
+    EXPECT_EQ(*result.consistency->chi_square_of_statements, consistency_test(data.at(data.contributing)).chi_square);
+    const PairEquivalence pair = pair_equivalences(data, 0.9545, u).front();
+    EXPECT_NEAR(pair.u, std::sqrt(0.05 + 2.0 * u * u), 1e-12);
+    EXPECT_NEAR(pair.U, 2.0 * pair.u, 1e-4 * pair.U);
 }
 
 TEST(ItemResult, StandardDeviationsForAssessment) {

@@ -153,6 +153,27 @@ TEST(ComparisonReport, TestOfASubsetNamesThoseOutsideIt) {
     EXPECT_THAT(answer_of(record), HasSubstr("consistent without Lab 3: "));
 }
 
+TEST(ComparisonReport, FirstPageSaysThatAnIndependentValueContradictsTheConsensus) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.consensus = ConsensusCheck{};
+    item.consensus->consistent = true;
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("contradict each other: they differ")));
+    item.consensus->consistent = false;
+    EXPECT_THAT(answer_of(record), HasSubstr("the independent reference value contradict each other: they differ"));
+    item.consensus.reset();
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("contradict each other: they differ")));
+}
+
+TEST(ComparisonReport, TheTestSaysThatItHoldsTheUncertaintyOfTheItems) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.consistency = ConsistencySummary{};
+    EXPECT_THAT(text_of(record), Not(HasSubstr("the uncertainty of the items")));
+    item.consistency->u_items = {0.25, "0.25"};
+    EXPECT_THAT(text_of(record), HasSubstr("the uncertainty of the items, 0.25"));
+}
+
 TEST(ComparisonReport, FirstPageNamesResultsWhoseAgreementIsOpen) {
     EvaluationRecord record = one_item(6);
     for (ComparisonPoint& p : record.comparison->points) {
