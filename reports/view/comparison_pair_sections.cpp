@@ -87,6 +87,10 @@ void pairs_of_item(CertificateBuilder& builder, const Wording& words, const Comp
     } else if (names.size() <= k_most_in_matrix) {
         pair_matrix(builder, words, compared, id, names);
     }
+    if (compared.item->u_homogeneity.number.value_or(0.0) > 0.0 ||
+        compared.item->u_stability.number.value_or(0.0) > 0.0) {
+        builder.paragraph(words("comparison", "pairs_of_items"));
+    }
     const std::string plot = "plot-pairs-" + id;
     figure_if_any(builder, plot, words.filled("comparison", "figure_pairs", {{"item", compared.name}}),
                   words("plot", "pairs_description"), pairs_plot(*compared.item, plot, words));

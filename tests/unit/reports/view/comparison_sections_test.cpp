@@ -623,6 +623,16 @@ TEST(ComparisonReport, ThePairsAreListedDrawnOrBoth) {
     }
 }
 
+TEST(ComparisonReport, PairsSayThatTheyHoldTheUncertaintyOfTheItems) {
+    EvaluationRecord record = one_item(6);
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.u_homogeneity.number = std::nullopt;
+    item.u_stability.number = std::nullopt;
+    EXPECT_THAT(text_of(record), Not(HasSubstr("of pairs hold the uncertainty of both items")));
+    item.u_homogeneity.number = 0.1;
+    EXPECT_THAT(text_of(record), HasSubstr("of pairs hold the uncertainty of both items"));
+}
+
 TEST(ComparisonReport, LongNamesAreNoHeadsOfColumns) {
     EvaluationRecord record = one_item(12);
     for (PairEquivalence& pair : record.comparison->items[0].pairs) {
