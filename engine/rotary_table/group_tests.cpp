@@ -518,8 +518,7 @@ private:
                 "the distances fit no rigid table that turns by the stated angles: they differ from it by so much that "
                 "what "
                 "a group of them says is lost in rounding",
-                "a test value is a sum of squares; what a place of a station leaves are error motions, far below a "
-                "millimetre",
+                "what a place of the station leaves are error motions, far below a millimetre",
                 "compare units and signs of the distances of each station, and the names of reflectors and stations, "
                 "with "
                 "the protocol of the measurement",
