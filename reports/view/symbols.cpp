@@ -24,9 +24,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 34> k_greek{
 }};
 
 // Of the sentences of the program. Those of a quantity come from the record.
-constexpr std::array<std::string_view, 23> k_of_the_program = {
-    "T_L", "T_U",  "A_L", "A_U", "p_c", "ν_eff", "ν_i", "X_i", "x_i",   "c_i", "c_j", "u_i",
-    "x_j", "r_ij", "y_j", "k_p", "k_q", "u_c",   "y_i", "η_j", "U_max", "s_0", "y_0"};
+constexpr std::array<std::string_view, 26> k_of_the_program = {
+    "T_L", "T_U",  "A_L", "A_U",  "p_c", "ν_eff", "ν_i", "X_i", "x_i", "c_i", "c_j",   "u_i", "u_j",
+    "d_i", "d_ij", "x_j", "r_ij", "y_j", "k_p",   "k_q", "u_c", "y_i", "η_j", "U_max", "s_0", "y_0"};
 
 std::string_view as_letter(std::string_view word) {
     const auto found = std::find_if(k_greek.begin(), k_greek.end(), [&](const auto& g) { return g.first == word; });
