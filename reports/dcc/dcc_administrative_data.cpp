@@ -169,6 +169,7 @@ void pieces_of_set(DccWriter& w, const std::string& item, bool has_numbers_of_cu
     w.xml.close();
 }
 
+/// \param id  "" for one that no result is of
 void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
     const Wording& words = w.words();
     w.xml.open("dcc:item", {{"id", id}});
@@ -212,7 +213,12 @@ void item(DccWriter& w, const certificate::Item& i, const std::string& id) {
 /// The item of the certificate, then those of sections that have one of their own.
 void items(DccWriter& w) {
     w.xml.open("dcc:items");
-    item(w, w.data().item, "item_1");
+    const std::vector<SectionSummary>& sections = w.record().sections;
+    const bool is_of_results =
+        sections.empty() || std::any_of(sections.begin(), sections.end(), [&](const SectionSummary& section) {
+            return w.item_id(section.name) == "item_1";
+        });
+    item(w, w.data().item, is_of_results ? "item_1" : "");
     for (const certificate::SectionData& section : w.data().sections) {
         if (section.item) {
             item(w, *section.item, w.item_id(section.section));

@@ -10,6 +10,7 @@
 
 #include "reports/dcc/dcc_element.h"
 #include "reports/dcc/dcc_reader.h"
+#include "reports/dcc/dcc_rules.h"
 #include "reports/dcc/dcc_writer.h"
 #include "tests/unit/reports/dcc/dcc_samples.h"
 
@@ -557,14 +558,16 @@ TEST(DccDocument, WritesASectionAsAMeasurementResult) {
     c.data.sections = {own};
     const std::string text = checked(record);
     EXPECT_THAT(text, HasSubstr("<dcc:measurementResult refId=\"item_2\">"));
-    EXPECT_THAT(text, HasSubstr("<dcc:item id=\"item_1\">"));
+    EXPECT_THAT(text, HasSubstr("<dcc:item>")) << "that of the certificate, which no result is of";
     EXPECT_THAT(text, HasSubstr("<dcc:item id=\"item_2\">"));
+    EXPECT_TRUE(business_rule_breaches(read_dcc_root(text, "own"), "own").empty());
     EXPECT_THAT(text, HasSubstr("SN-OTHER"));
     EXPECT_THAT(text, HasSubstr("CP-OTHER"));
     EXPECT_THAT(text, HasSubstr("First part"));
     record.sections.push_back({.name = "other", .title = {}, .quantities = {}});
     const std::string two = checked(record);
     EXPECT_THAT(two, HasSubstr("<dcc:measurementResult refId=\"item_1\">")) << "one without an item of its own";
+    EXPECT_THAT(two, HasSubstr("<dcc:item id=\"item_1\">"));
 }
 
 /// Three points of a table, two of which are about pieces of a set.
