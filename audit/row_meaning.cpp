@@ -543,20 +543,6 @@ std::string trimmed(std::string_view text) {
                : std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
 }
 
-/// Divisor of a half-width of a shape.
-std::optional<double> divisor_of(Shape shape) {
-    switch (shape) {
-        case Shape::rectangular:
-            return std::numbers::sqrt3;
-        case Shape::triangular:
-            return std::sqrt(6.0);
-        case Shape::arcsine:
-            return std::numbers::sqrt2;
-        default:
-            return std::nullopt;
-    }
-}
-
 StatedNumber quotient(const StatedNumber& a, const StatedNumber& b) {
     StatedNumber result;
     result.value = a.value / b.value;
@@ -614,6 +600,19 @@ Contributor contributor_of(std::string_view quantity, std::string_view comment, 
         }
     }
     return Contributor::other;
+}
+
+std::optional<double> divisor_of_shape(Shape shape) {
+    switch (shape) {
+        case Shape::rectangular:
+            return std::numbers::sqrt3;
+        case Shape::triangular:
+            return std::sqrt(6.0);
+        case Shape::arcsine:
+            return std::numbers::sqrt2;
+        default:
+            return std::nullopt;
+    }
 }
 
 Shape shape_of(std::string_view text) {
@@ -736,7 +735,7 @@ void complete_row(AuditedRow& row) {
         u = quotient(*row.contribution, factor);
     } else if (is_usable(row.stated)) {
         const std::optional<double> implied =
-            row.origin == Origin::certificate && row.certificate_k ? row.certificate_k : divisor_of(row.shape);
+            row.origin == Origin::certificate && row.certificate_k ? row.certificate_k : divisor_of_shape(row.shape);
         u = quotient(*row.stated, exact_number(implied.value_or(1.0), ""));
     }
     // A quotient beyond all numbers is none.

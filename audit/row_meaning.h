@@ -22,6 +22,10 @@ namespace gumcert::audit {
 /// or a dash, `other` of words that name no distribution known here.
 [[nodiscard]] Shape shape_of(std::string_view text);
 
+/// What the half-width of a distribution with bounds is divided by: √3, √6, √2 (JCGM 100:2008, 4.3.7 and 4.3.9);
+/// nothing of other shapes.
+[[nodiscard]] std::optional<double> divisor_of_shape(Shape shape);
+
 /// Reads origin and numbers of a row out of its comment, and where that says nothing out of quantity and source:
 /// "MPE 0.4 µm", "resolution 0.1", "U = 0.36 µm, k = 2", "±1 K", "mean of 10".
 ///

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include "audit/row_meaning.h"
 #include "gum/expression/name.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
@@ -76,17 +76,8 @@ double reach_of(const AuditedRow& row, double k) {
     if (!row.in_sum) {
         return 0.0;
     }
-    switch (row.shape) {
-        // A quantity between limits has no values beyond them, whatever k is.
-        case Shape::rectangular:
-            return std::numbers::sqrt3 * row.used_u;
-        case Shape::triangular:
-            return std::sqrt(6.0) * row.used_u;
-        case Shape::arcsine:
-            return std::numbers::sqrt2 * row.used_u;
-        default:
-            return k * row.used_u;
-    }
+    // A quantity between limits has no values beyond them, whatever k is.
+    return divisor_of_shape(row.shape).value_or(k) * row.used_u;
 }
 
 /// The unit of a row; nothing for a text that is none. "-" stands for one.

@@ -105,24 +105,12 @@ void wrong_divisor(const AuditSubject& subject, FindingCollector& findings) {
             return;
         }
         const double half_width = number_divided(row);
-        double divisor = k_root_3;
-        switch (row.shape) {
-            case Shape::rectangular:
-                break;
-            case Shape::triangular:
-                divisor = std::sqrt(6.0);
-                break;
-            case Shape::arcsine:
-                divisor = std::numbers::sqrt2;
-                break;
-            case Shape::not_stated:
-                break;
-            default:
-                return;  // another shape has no divisor of its own
+        const std::optional<double> of_shape =
+            divisor_of_shape(row.shape == Shape::not_stated ? Shape::rectangular : row.shape);
+        if (!of_shape || !(half_width > 0.0)) {
+            return;  // another shape has no divisor of its own
         }
-        if (!(half_width > 0.0)) {
-            return;
-        }
+        const double divisor = *of_shape;
         const double expected = half_width / divisor;
         if (!u_differs(row, expected, 0.01, left_open(row, half_width) / divisor)) {
             return;

@@ -139,19 +139,6 @@ const std::array<Divisor, 7> k_divisors = {
     Divisor{1.3160740129524924, say("the root of √3")},
 };
 
-std::optional<double> divisor_of_shape(Shape shape) {
-    switch (shape) {
-        case Shape::rectangular:
-            return std::numbers::sqrt3;
-        case Shape::triangular:
-            return std::sqrt(6.0);
-        case Shape::arcsine:
-            return std::numbers::sqrt2;
-        default:
-            return std::nullopt;
-    }
-}
-
 /// Whether a divisor is √n of readings: of a row of Type A, or where words, ν = n − 1 or a formula that counts say n
 /// (JCGM 100:2008, 4.2.3). The distribution that stands beside it is that of their mean.
 bool is_root_of_readings(const AuditedRow& row, const SheetFormula* divisor) {

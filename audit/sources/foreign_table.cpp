@@ -319,6 +319,12 @@ private:
         move(heads_->units);
         move(heads_->unit_columns);
     }
+    static constexpr double k_digits_of_factors = 0.01;  // relative, of a divisor and a coefficient
+    /// Whether a printed number is that of a size that follows from factors, which are rounded as well.
+    [[nodiscard]] static bool is_printed_as(const StatedNumber& number, double size) {
+        const double printed = std::abs(number.value);
+        return std::abs(printed - size) <= printed_half_step(number) + k_digits_of_factors * printed;
+    }
     /// "Value" beside a column of divisors is what is divided, where u of most rows is the quotient: the layout of UKAS M3003,
     /// without its ±.
     void take_value_for_stated(std::uint32_t line) {
@@ -336,12 +342,9 @@ private:
             if (!value || !divisor || !u || !(divisor->value > 0.0) || !(std::abs(u->value) > 0.0)) {
                 return;
             }
-            constexpr double k_digits = 0.01;  // relative, of the divisor
-            const double part = std::abs(value->value) / divisor->value, size = std::abs(u->value);
+            const double part = std::abs(value->value) / divisor->value;
             const double weighted = c ? part * std::abs(c->value) : part;
-            const double left_open = printed_half_step(*u) + k_digits * size;
-            const bool is_quotient = std::abs(size - part) <= left_open || std::abs(size - weighted) <= left_open;
-            ++(is_quotient ? quotients : others);
+            ++(is_printed_as(*u, part) || is_printed_as(*u, weighted) ? quotients : others);
         });
         if (quotients > 1 && quotients > 2 * others) {
             rename_column(Column::estimate, Column::stated);
@@ -363,32 +366,22 @@ private:
             const auto distribution = heads_->columns.find(Column::distribution);
             const Cell* shape = distribution == heads_->columns.end() ? nullptr : cell_in(row, distribution->second);
             const double divisor = divided_by         ? divided_by->value
-                                   : shape != nullptr ? divisor_of_shape(shape_of(sheet_.words(*shape)))
+                                   : shape != nullptr ? divisor_of_shape(shape_of(sheet_.words(*shape))).value_or(0.0)
                                                       : 0.0;
             if (!u || !stated || !c || !(divisor > 0.0)) {
                 return;
             }
-            constexpr double k_digits = 0.01;  // relative, of the divisor and the coefficient
-            if (std::abs(std::abs(c->value) - divisor) <= k_digits * divisor) {
+            if (std::abs(std::abs(c->value) - divisor) <= k_digits_of_factors * divisor) {
                 return;  // what was multiplied by c may be what was never divided
             }
             const double part = std::abs(stated->value) / divisor, weighted = std::abs(c->value) * part;
-            const double left_open = printed_half_step(*u) + k_digits * std::abs(u->value);
-            const bool is_weighted = std::abs(std::abs(u->value) - weighted) <= left_open,
-                       is_part = std::abs(std::abs(u->value) - part) <= left_open;
+            const bool is_weighted = is_printed_as(*u, weighted), is_part = is_printed_as(*u, part);
             with_coefficient += is_weighted && !is_part ? 1U : 0U;
             without += is_part && !is_weighted ? 1U : 0U;
         });
         if (with_coefficient > without) {
             rename_column(Column::u, Column::contribution);
         }
-    }
-    /// √3, √6 or √2 of a distribution with bounds; 0 of others.
-    [[nodiscard]] static double divisor_of_shape(Shape shape) {
-        return shape == Shape::rectangular  ? std::sqrt(3.0)
-               : shape == Shape::triangular ? std::sqrt(6.0)
-               : shape == Shape::arcsine    ? std::sqrt(2.0)
-                                            : 0.0;
     }
 
     [[nodiscard]] std::vector<const Cell*> cells_with_words(const SheetView::Row& row) const {

@@ -94,6 +94,15 @@ TEST(ShapeOf, reads_words_of_both_languages) {
     }
 }
 
+TEST(DivisorOfShape, is_the_root_that_makes_u_of_a_half_width) {
+    EXPECT_EQ(divisor_of_shape(Shape::rectangular), std::sqrt(3.0));
+    EXPECT_EQ(divisor_of_shape(Shape::triangular), std::sqrt(6.0));
+    EXPECT_EQ(divisor_of_shape(Shape::arcsine), std::sqrt(2.0));
+    for (const Shape other : {Shape::normal, Shape::student_t, Shape::not_stated, Shape::other}) {
+        EXPECT_FALSE(divisor_of_shape(other));
+    }
+}
+
 TEST(ReadComment, finds_origin_and_number) {
     struct Case {
         std::string comment;
