@@ -740,15 +740,14 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
         at = name.find_first_not_of(' ', end);
         at = at == std::string_view::npos ? name.size() : at;
         if (is_tail) {
-            has_tail =
-                has_tail || is_one_of(word, {"result", "results", "measurement", "measurand", "output", "ergebnisses",
-                                             "messergebnisses", "messung", "messgröße", "messgrösse"});
+            const bool names_result =
+                is_one_of(word, {"result", "results", "measurement", "measurand", "output", "ergebnisses",
+                                 "messergebnisses", "messung", "messgröße", "messgrösse"});
+            has_tail = has_tail || names_result;
             if (!has_tail && !is_one_of(word, {"the", "a", "des", "der", "dem"})) {
                 return std::nullopt;
             }
-            if (has_tail &&
-                !is_one_of(word, {"result", "results", "measurement", "measurand", "output", "ergebnisses",
-                                  "messergebnisses", "messung", "messgröße", "messgrösse"}) &&
+            if (has_tail && !names_result &&
                 !is_one_of(symbol, {"u", "U", "u_c", "uc", "u(y)", "U(y)", "u_c(y)", "uc(y)"})) {
                 return std::nullopt;
             }
