@@ -314,6 +314,14 @@ private:
                                                       reports::structure_of_html(made), "is made as "));
     }
 
+    /// What a page prints of the head of an archive.
+    static archive::Head head_of(const archive::PrintedHead& printed) {
+        archive::Head head;
+        head.size = printed.size;
+        head.root = printed.root;
+        return head;
+    }
+
     /// The head of an archive as a page prints it, with the place where it can be checked; none where it prints none. Whether
     /// it is one of this archive, the archive says.
     [[nodiscard]] std::optional<reports::HeadToPrint> head_on_page(std::string_view bytes,
@@ -322,9 +330,7 @@ private:
         if (printed.empty()) {
             return std::nullopt;
         }
-        archive::Head head;
-        head.size = printed.front().size;
-        head.root = printed.front().root;
+        const archive::Head head = head_of(printed.front());
         reports::HeadToPrint asked{.entries = std::to_string(head.size),
                                    .digits = archive::short_form(head),
                                    .mark = archive::mark_of(head),
@@ -364,6 +370,12 @@ private:
         }
     }
 
+    [[nodiscard]] nlohmann::json view_in(const std::vector<std::string>& languages) const {
+        reports::RenderAssets assets = assets_;
+        assets.languages = languages;
+        return reports::view_of_document(record_, assets);
+    }
+
     /// A page does not say in which languages it is: the record may have been printed in any, or in any two side by side.
     /// \param disagreement  with a view, "" for none
     /// \return of the languages of the record, or "" where there is none in some language or two
@@ -371,9 +383,7 @@ private:
         const std::function<std::string(const nlohmann::json&)>& disagreement) const {
         std::string of_the_record = disagreement(reports::view_of_document(record_, assets_));
         const auto agrees_in = [&](const std::vector<std::string>& languages) {
-            reports::RenderAssets assets = assets_;
-            assets.languages = languages;
-            return disagreement(reports::view_of_document(record_, assets)).empty();
+            return disagreement(view_in(languages)).empty();
         };
         if (of_the_record.empty() || std::any_of(words_.languages.begin(), words_.languages.end(),
                                                  [&](const std::string& one) { return agrees_in({one}); })) {
@@ -435,9 +445,7 @@ private:
             return says_only(one.text, known) || is_head_of_archive(one.text);
         });
         for (std::size_t i = 0; i < words_.languages.size() && !texts.empty(); ++i) {
-            reports::RenderAssets assets = assets_;
-            assets.languages = {words_.languages[i]};
-            known += strings_of(reports::view_of_document(record_, assets));
+            known += strings_of(view_in({words_.languages[i]}));
             std::erase_if(texts, [&](const reports::PdfTextBesidePages& one) { return says_only(one.text, known); });
         }
         std::string told;
@@ -462,12 +470,7 @@ private:
     /// The description of the QR code of a head, which is held against the log.
     static bool is_head_of_archive(const std::string& text) {
         const std::vector<archive::PrintedHead> heads = archive::printed_heads_in(text);
-        archive::Head head;
-        if (heads.size() == 1) {
-            head.size = heads.front().size;
-            head.root = heads.front().root;
-        }
-        return heads.size() == 1 && text == archive::mark_of(head);
+        return heads.size() == 1 && text == archive::mark_of(head_of(heads.front()));
     }
 
     /// Whether each part of a text, between commas and colons, is among others.
