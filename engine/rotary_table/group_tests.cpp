@@ -516,12 +516,10 @@ private:
             throw gum::NoResultError(gum::Diagnostic{
                 "GC-ADJUST-0015", "tests of groups",
                 "the distances fit no rigid table that turns by the stated angles: they differ from it by so much that "
-                "what "
-                "a group of them says is lost in rounding",
+                "what a group of them says is lost in rounding",
                 "what a place of the station leaves are error motions, far below a millimetre",
                 "compare units and signs of the distances of each station, and the names of reflectors and stations, "
-                "with "
-                "the protocol of the measurement",
+                "with the protocol of the measurement",
                 gum::Severity::error});
         }
         GroupTest test;
