@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/read_file.h"
+#include "encoding/file_bytes.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/certificate/certificate_statement.h"
 #include "text/lists.h"
@@ -25,7 +26,7 @@ bool is_file_stem(const std::string& id) {
 }
 
 std::string known_profiles(const fs::path& folder) {
-    const std::vector<std::string> names = json_files_in(folder);
+    const std::vector<std::string> names = encoding::json_files_in(folder);
     return names.empty() ? "none" : text::listed(names);
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "app/read_file.h"
 #include "certificate/dates.h"
+#include "encoding/file_bytes.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/file_source.h"
 #include "jobs/job_files.h"
@@ -155,7 +155,7 @@ LaboratoryOverview laboratory_overview(const fs::path& folder, const std::string
     std::optional<jobs::LaboratoryFolder> register_files =
         jobs::LaboratoryFolder::of_job(files, jobs::JsonDocument{}, unused);
     LaboratoryOverview overview{.day = day};
-    const std::vector<std::string> ids = json_files_in(folder / "standards");
+    const std::vector<std::string> ids = encoding::json_files_in(folder / "standards");
     std::error_code error;
     const bool has_laboratory = fs::exists(folder / "laboratory.json", error);
     if (!has_laboratory && ids.empty()) {

@@ -1,7 +1,5 @@
 #include "app/read_file.h"
 
-#include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include "encoding/file_bytes.h"
@@ -21,18 +19,6 @@ std::string read_file(const std::filesystem::path& file) {
                                                 "check the name and the access rights", gum::Severity::error});
     }
     return std::move(read.bytes);
-}
-
-std::vector<std::string> json_files_in(const std::filesystem::path& folder) {
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder, error)) {
-        if (entry.path().extension() == ".json") {
-            names.push_back(entry.path().stem().string());
-        }
-    }
-    std::sort(names.begin(), names.end());
-    return names;
 }
 
 }  // namespace gumcert::app

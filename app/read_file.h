@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "reports/record/record_rules.h"
 
@@ -15,8 +14,5 @@ inline constexpr std::size_t k_largest_file = reports::k_max_record_bytes;
 /// The whole of a regular file, read once.
 /// \throws gum::StorageError  GC-STORE-0001 if it cannot be read, is no regular file, or is larger than the limit
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
-
-/// Names without ".json" of the JSON files in a folder, in their order; none where the folder cannot be read.
-[[nodiscard]] std::vector<std::string> json_files_in(const std::filesystem::path& folder);
 
 }  // namespace gumcert::app

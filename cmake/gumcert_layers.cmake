@@ -15,7 +15,7 @@ set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression 
                           reports/record/make/comparison
                           reports/record/make/rotary_table reports/record/make/circle_closure
                           reports/record/make/certificate reports reports/plots reports/view reports/forms
-                          reports/audit reports/studies reports/dcc audit/sources signing imports archive/store archive
+                          reports/audit reports/studies reports/dcc reports/agreement audit/sources signing imports archive/store archive
                           app app/archive app/self_test app/cli/terminal app/cli/archive app/cli)
 
 # Our own layers whose headers a layer may include and whose library it may link.
@@ -95,6 +95,8 @@ set(GUMCERT_EDGES_reports_studies                    text gum/quantity json gum 
                                                      gum/rotary_table/studies reports/plots reports/forms)
 set(GUMCERT_EDGES_reports_dcc                        text encoding gum/quantity json gum certificate reports/record
                                                      reports reports/view reports/forms)
+set(GUMCERT_EDGES_reports_agreement                  text gum/quantity json certificate reports/record reports
+                                                     reports/forms reports/dcc)
 set(GUMCERT_EDGES_audit_sources                      text gum/quantity gum gum/conformity certificate workbook
                                                      audit reports/record reports/dcc)
 set(GUMCERT_EDGES_signing                            text encoding system gum/quantity json)
@@ -113,7 +115,7 @@ set(GUMCERT_EDGES_app                                text encoding system gum/qu
                                                      imports workbook audit audit/rules audit/sources)
 set(GUMCERT_EDGES_app_archive                        text encoding gum/quantity json gum gum/expression gum/monte_carlo certificate
                                                      certificate/gates jobs reports/record
-                                                     reports/record/make/certificate reports reports/forms reports/dcc
+                                                     reports/record/make/certificate reports reports/forms reports/dcc reports/agreement
                                                      signing imports app archive/store archive)
 set(GUMCERT_EDGES_app_self_test                     text encoding gum/quantity json gum jobs reports/record
                                                      reports reports/view reports/forms app)
@@ -165,6 +167,7 @@ set(GUMCERT_THIRD_PARTY_jobs_comparison                    Eigen nlohmann)
 set(GUMCERT_THIRD_PARTY_jobs_schema                        nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record                     nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_schema              nlohmann)
+set(GUMCERT_THIRD_PARTY_reports_agreement                  nlohmann)
 set(GUMCERT_THIRD_PARTY_audit_sources                      nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make                gumcert_build_info.h nlohmann)
 set(GUMCERT_THIRD_PARTY_reports_record_make_budget         Eigen nlohmann)

@@ -196,4 +196,16 @@ FileBytes read_file_beneath(const std::filesystem::path& folder, const std::file
     return read_by([&](int flags) { return open_beneath(opened.value(), name, flags, walk); }, most);
 }
 
+std::vector<std::string> json_files_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder, error)) {
+        if (entry.path().extension() == ".json") {
+            names.push_back(entry.path().stem().string());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 }  // namespace gumcert::encoding

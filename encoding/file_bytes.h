@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace gumcert::encoding {
 
@@ -31,5 +32,8 @@ enum class Walk {
 /// \param folder  "" is the current one
 [[nodiscard]] FileBytes read_file_beneath(const std::filesystem::path& folder, const std::filesystem::path& name,
                                           std::size_t most, Walk walk = Walk::by_kernel);
+
+/// Names without ".json" of the JSON files in a folder, in their order; none where the folder cannot be read.
+[[nodiscard]] std::vector<std::string> json_files_in(const std::filesystem::path& folder);
 
 }  // namespace gumcert::encoding

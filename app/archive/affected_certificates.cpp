@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "app/archive/archive_files.h"
-#include "app/archive/record_parts.h"
 #include "app/recompute_record.h"
 #include "gum/expression/name_spelling.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "jobs/file_source.h"
 #include "json/canonical_json.h"
+#include "json/members.h"
 #include "reports/record/make/certificate/amended_record.h"
 #include "reports/record/record_value.h"
 #include "text/csv_field.h"
@@ -241,7 +241,7 @@ double shift_of(const nlohmann::json& before, const nlohmann::json& now) {
 /// Value and U as a certified value has them issued: of an interval U is half of its width.
 nlohmann::json certified_value(const nlohmann::json& value) {
     nlohmann::json stated = value;
-    const nlohmann::json& interval = part_of(value, "interval");
+    const nlohmann::json& interval = gumcert::json::part_of(value, "interval");
     if (interval.is_array() && interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
         stated["U"] = 0.5 * (interval[1].get<double>() - interval[0].get<double>());
     }
@@ -251,12 +251,14 @@ nlohmann::json certified_value(const nlohmann::json& value) {
 /// What certificates state, by its place: table, result and row.
 std::map<std::string, nlohmann::json> certified_values(const nlohmann::json& record) {
     std::map<std::string, nlohmann::json> values;
-    for (const nlohmann::json& table : part_of(part_of(record, "certificate"), "tables")) {
-        for (const nlohmann::json& column : part_of(table, "columns")) {
+    for (const nlohmann::json& table :
+         gumcert::json::part_of(gumcert::json::part_of(record, "certificate"), "tables")) {
+        for (const nlohmann::json& column : gumcert::json::part_of(table, "columns")) {
             std::size_t row = 0;
-            for (const nlohmann::json& value : part_of(column, "values")) {
-                values[text_of(table, "section") + '\n' + text_of(table, "id") + '\n' + text_of(column, "result") +
-                       '\n' + std::to_string(row++)] = certified_value(value);
+            for (const nlohmann::json& value : gumcert::json::part_of(column, "values")) {
+                values[gumcert::json::text_of(table, "section") + '\n' + gumcert::json::text_of(table, "id") + '\n' +
+                       gumcert::json::text_of(column, "result") + '\n' + std::to_string(row++)] =
+                    certified_value(value);
             }
         }
     }
@@ -286,7 +288,9 @@ double shift_in(const nlohmann::json& before, const nlohmann::json& now) {
 double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
     const std::map<std::string, nlohmann::json> stated = certified_values(before);
     const std::map<std::string, nlohmann::json> again = certified_values(now);
-    double largest = stated.empty() ? shift_in(part_of(before, "comparison"), part_of(now, "comparison")) : 0.0;
+    double largest = stated.empty() ? shift_in(gumcert::json::part_of(before, "comparison"),
+                                               gumcert::json::part_of(now, "comparison"))
+                                    : 0.0;
     for (const auto& [place, value] : stated) {
         if (const auto found = again.find(place); found != again.end()) {
             largest = std::max(largest, shift_of(value, found->second));

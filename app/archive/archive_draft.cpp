@@ -8,9 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/archive/dcc_agreement.h"
-#include "app/archive/document_agreement.h"
-#include "app/archive/document_facts.h"
 #include "app/document_identity.h"
 #include "app/output_set.h"
 #include "app/read_file.h"
@@ -22,7 +19,12 @@
 #include "certificate/gates/day_of_issue.h"
 #include "encoding/sha2.h"
 #include "imports/foreign_certificate.h"
+#include "reports/agreement/dcc_agreement.h"
+#include "reports/agreement/document_agreement.h"
+#include "reports/agreement/document_facts.h"
+#include "reports/agreement/document_words.h"
 #include "reports/dcc/dcc_document.h"
+#include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_other_parts.h"
@@ -113,7 +115,7 @@ public:
         : record_(record),
           checks_(checks),
           number_(record.certificate->data.number),
-          words_(document_words(checks.templates)) {
+          words_(reports::document_words(reports::read_every_wording(checks.templates))) {
         assets_.templates = checks.templates;
     }
 
@@ -124,12 +126,12 @@ public:
         const std::string_view start = bytes.substr(0, bytes.find_first_of("\r\n"));
         if (start.starts_with("<!DOCTYPE html") || start.starts_with("<!doctype html")) {
             document.media_type = "text/html";
-            if (!says_number(document.bytes, number_)) {
+            if (!reports::says_number(document.bytes, number_)) {
                 refuse_as_other(file, "", number_);
             }
             require_nothing_hidden(file, bytes);
             const std::string text = reports::text_of_html(bytes);
-            const PrintedDocument page({text});
+            const reports::PrintedDocument page({text});
             require_agreement(file, page);
             if (page.names_other_templates(words_)) {
                 findings.take({what_was_compared(file)});
@@ -203,12 +205,12 @@ private:
     const reports::EvaluationRecord& record_;
     const ArchiveChecks& checks_;
     std::string number_;
-    DocumentWords words_;
+    reports::DocumentWords words_;
     reports::RenderAssets assets_;
     std::map<std::pair<std::vector<std::string>, std::string>, std::string>
-        digital_certificates_;                 // as the record gives them now, by languages and changed templates
-    std::optional<PrintedDocument> made_now_;  // the texts of its pages
-    std::optional<std::string> style_;         // of the templates
+        digital_certificates_;  // as the record gives them now, by languages and changed templates
+    std::optional<reports::PrintedDocument> made_now_;  // the texts of its pages
+    std::optional<std::string> style_;                  // of the templates
 
     static void refuse_disagreement(const fs::path& file, std::string what) {
         if (!what.empty()) {
@@ -309,9 +311,10 @@ private:
         reports::RenderAssets assets = in_languages(file, reports::languages_of_html(bytes));
         assets.head = head_on_page(bytes, assets);
         const std::string made = reports::render_html(record_, assets);
-        refuse_disagreement(file, difference_of_texts(reports::text_of_html(bytes), reports::text_of_html(made)));
-        refuse_disagreement(file, difference_of_texts(reports::structure_of_html(bytes),
-                                                      reports::structure_of_html(made), "is made as "));
+        refuse_disagreement(file,
+                            reports::difference_of_texts(reports::text_of_html(bytes), reports::text_of_html(made)));
+        refuse_disagreement(file, reports::difference_of_texts(reports::structure_of_html(bytes),
+                                                               reports::structure_of_html(made), "is made as "));
     }
 
     /// What a page prints of the head of an archive.
@@ -356,11 +359,12 @@ private:
         return asked;
     }
 
-    void require_agreement(const fs::path& file, const PrintedDocument& document) {
+    void require_agreement(const fs::path& file, const reports::PrintedDocument& document) {
         if (!made_now_) {
-            made_now_.emplace(std::vector{texts_of_view(reports::view_of_document(record_, assets_))});
+            made_now_.emplace(std::vector{reports::texts_of_view(reports::view_of_document(record_, assets_))});
         }
-        refuse_disagreement(file, document.disagreement_with_facts(facts_of(record_.certificate->data), *made_now_));
+        refuse_disagreement(file,
+                            document.disagreement_with_facts(reports::facts_of(record_.certificate->data), *made_now_));
         if (record_.certificate->tables.empty()) {
             refuse_disagreement(file, in_any_languages([&](const nlohmann::json& view) {
                                     return document.disagreement_with_report(view, words_);
@@ -417,7 +421,7 @@ private:
         refuse_disagreement(file, pages.empty()    ? "has no pages"
                                   : !on_every_page ? "does not print \"" + number_ + "\" on every page"
                                                    : "");
-        const PrintedDocument document(pages);
+        const reports::PrintedDocument document(pages);
         if (!document.names_other_templates(words_)) {
             refuse_disagreement(file, document.disagreement_with_pages(words_));
         }
@@ -536,10 +540,10 @@ private:
     }
 
     void require_agreement_of_dcc(const fs::path& file, std::string_view bytes) {
-        reports::RenderAssets assets = in_languages(file, languages_of_dcc(bytes, file.string()));
+        reports::RenderAssets assets = in_languages(file, reports::languages_of_dcc(bytes, file.string()));
         // Which templates it names is no statement of the record: everything else is that of these templates all the same.
-        assets.changed_templates = changed_templates_of_dcc(bytes, file.string());
-        refuse_disagreement(file, disagreement_of_dcc(bytes, file.string(), digital_certificate(assets)));
+        assets.changed_templates = reports::changed_templates_of_dcc(bytes, file.string());
+        refuse_disagreement(file, reports::disagreement_of_dcc(bytes, file.string(), digital_certificate(assets)));
     }
 };
 

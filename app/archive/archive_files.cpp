@@ -4,10 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "app/archive/record_parts.h"
+#include "app/archive/message_json.h"
 #include "app/read_file.h"
 #include "archive/evidence.h"
 #include "encoding/sha2.h"
+#include "json/members.h"
 #include "signing/ed25519.h"
 #include "text/visible_text.h"
 
@@ -143,7 +144,7 @@ std::string file_name_of_number(std::string number) {
 std::string certificate_of_evidence(std::string_view text) {
     const json value = json::parse(text, nullptr, false);
     return value.is_object() && value.value("schema", json()) == "gumcert/archive-evidence/1"
-               ? text_of(value, "certificate")
+               ? gumcert::json::text_of(value, "certificate")
                : std::string();
 }
 

@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "app/archive/record_parts.h"
 #include "gum/distribution_quantile.h"
 #include "json/canonical_json.h"
+#include "json/members.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
 
@@ -40,21 +40,21 @@ public:
             found_.not_read.push_back(certificate.number);
             return;
         }
-        const json& data = part_of(part_of(record, "certificate"), "data");
-        const std::string method = text_of(part_of(data, "method"), "identification");
-        const json& dates = part_of(data, "dates");
-        count(found_.by_kind, text_of(record, "kind"));
+        const json& data = gumcert::json::part_of(gumcert::json::part_of(record, "certificate"), "data");
+        const std::string method = gumcert::json::text_of(gumcert::json::part_of(data, "method"), "identification");
+        const json& dates = gumcert::json::part_of(data, "dates");
+        count(found_.by_kind, gumcert::json::text_of(record, "kind"));
         count(found_.by_method, method);
         if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
             const archive::CertificateLife& life = lives_.at(certificate.number);
             count(found_.by_month, life.issued_at.substr(0, 7));
             count(found_.by_authoriser, life.authorised_by);
         }
-        found_.amendments += part_of(data, "amendment").is_object() ? 1U : 0U;
-        const std::string done = text_of(dates, "performed_to");
-        const std::string day = done.empty() ? text_of(dates, "performed_from") : done;
-        take_scores(certificate.number, day, part_of(record, "comparison"));
-        take_readings(certificate.number, day, method, part_of(record, "readings"));
+        found_.amendments += gumcert::json::part_of(data, "amendment").is_object() ? 1U : 0U;
+        const std::string done = gumcert::json::text_of(dates, "performed_to");
+        const std::string day = done.empty() ? gumcert::json::text_of(dates, "performed_from") : done;
+        take_scores(certificate.number, day, gumcert::json::part_of(record, "comparison"));
+        take_readings(certificate.number, day, method, gumcert::json::part_of(record, "readings"));
     }
     void begin(const std::map<std::string, archive::CertificateLife>& lives) {
         lives_ = lives;
@@ -140,7 +140,7 @@ private:
     }
 
     static void add_score(ArchivedScores& scores, const json& row) {
-        const json& En = part_of(row, "En");
+        const json& En = gumcert::json::part_of(row, "En");
         if (En.is_number()) {
             const double size = std::abs(En.get<double>());
             ++scores.scores;
@@ -151,15 +151,15 @@ private:
     /// Of points, or of the participants at each item.
     void take_scores(const std::string& number, const std::string& day, const json& comparison) {
         ArchivedScores scores{.number = number, .day = day};
-        const json& items = part_of(comparison, "items");
+        const json& items = gumcert::json::part_of(comparison, "items");
         if (items.is_array() && !items.empty()) {
             for (const json& item : items) {
-                for (const json& row : part_of(item, "pairs")) {
+                for (const json& row : gumcert::json::part_of(item, "pairs")) {
                     add_score(scores, row);
                 }
             }
         }
-        for (const json& point : part_of(comparison, "points")) {
+        for (const json& point : gumcert::json::part_of(comparison, "points")) {
             add_score(scores, point);
         }
         if (scores.scores > 0) {
@@ -170,19 +170,21 @@ private:
     void take_readings(const std::string& number, const std::string& day, const std::string& method,
                        const json& readings) {
         for (const json& one : readings) {
-            const json& s = part_of(one, "standard_deviation");
-            const json& mean = part_of(one, "mean");
-            const json& n = part_of(one, "n");
+            const json& s = gumcert::json::part_of(one, "standard_deviation");
+            const json& mean = gumcert::json::part_of(one, "mean");
+            const json& n = gumcert::json::part_of(one, "n");
             if (!s.is_number() || !mean.is_number() || !n.is_number_integer() || n.get<std::int64_t>() < 2) {
                 continue;
             }
-            const std::string component = text_of(one, "component");
-            const std::string input = text_of(one, "input") + (component.empty() ? "" : ", " + component);
-            scatters_[{method, input, text_of(one, "unit")}].push_back({.number = number,
-                                                                        .day = day,
-                                                                        .mean = mean.get<double>(),
-                                                                        .standard_deviation = s.get<double>(),
-                                                                        .n = n.get<std::int64_t>()});
+            const std::string component = gumcert::json::text_of(one, "component");
+            const std::string input =
+                gumcert::json::text_of(one, "input") + (component.empty() ? "" : ", " + component);
+            scatters_[{method, input, gumcert::json::text_of(one, "unit")}].push_back(
+                {.number = number,
+                 .day = day,
+                 .mean = mean.get<double>(),
+                 .standard_deviation = s.get<double>(),
+                 .n = n.get<std::int64_t>()});
         }
     }
 };

@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "app/archive/record_parts.h"
+#include "app/archive/message_json.h"
 #include "encoding/sha2.h"
 #include "json/canonical_json.h"
+#include "json/members.h"
 
 namespace gumcert::app {
 
@@ -23,11 +24,11 @@ std::string dumped(const json& value) {
 }
 
 gum::Diagnostic diagnostic_in(const json& value) {
-    return {.code = text_of(value, "code"),
-            .where = text_of(value, "where"),
-            .what = text_of(value, "what"),
-            .rule = text_of(value, "rule"),
-            .action = text_of(value, "action")};
+    return {.code = gumcert::json::text_of(value, "code"),
+            .where = gumcert::json::text_of(value, "where"),
+            .what = gumcert::json::text_of(value, "what"),
+            .rule = gumcert::json::text_of(value, "rule"),
+            .action = gumcert::json::text_of(value, "action")};
 }
 
 std::string as_text(const Recalculation& one) {
@@ -53,7 +54,7 @@ Recalculation recalculation_in(const std::string& number, const std::string& tex
     Recalculation one{.rerun = {.name = number}, .shift = value.at("shift").get<double>()};
     one.rerun.made_by.version = value.at("made_by").at(0).get<std::string>();
     one.rerun.made_by.commit = value.at("made_by").at(1).get<std::string>();
-    one.rerun.kind = text_of(value, "kind");
+    one.rerun.kind = gumcert::json::text_of(value, "kind");
     value.at("counts").get_to(one.rerun.counts);
     for (const json& change : value.at("changes")) {
         one.rerun.changes.push_back({static_cast<ChangeKind>(change.at(0).get<int>()), change.at(1).get<std::string>(),
@@ -79,7 +80,9 @@ std::string as_text(const Replay& one) {
 
 Replay replay_in(const std::string& text) {
     const json value = json::parse(text);
-    Replay one{.made_by = text_of(value, "made_by"), .evaluated = value.at("evaluated").get<bool>(), .differences = {}};
+    Replay one{.made_by = gumcert::json::text_of(value, "made_by"),
+               .evaluated = value.at("evaluated").get<bool>(),
+               .differences = {}};
     for (const json& difference : value.at("differences")) {
         one.differences.push_back(diagnostic_in(difference));
     }
@@ -136,8 +139,8 @@ WorkToShare work_of_replay(const std::vector<std::pair<std::string, std::string>
 
 std::size_t ArchiveWorker::do_some(const archive::SharedWork& work) {
     const json input = json::parse(work.input);
-    const Correction correction{.standard = text_of(input, "standard"),
-                                .corrected = text_of(input, "corrected"),
+    const Correction correction{.standard = gumcert::json::text_of(input, "standard"),
+                                .corrected = gumcert::json::text_of(input, "corrected"),
                                 .reason = {},
                                 .templates = templates_};
     if (work.kind != k_recalculation && work.kind != k_replay) {
@@ -149,14 +152,15 @@ std::size_t ArchiveWorker::do_some(const archive::SharedWork& work) {
             std::vector<json> inputs;
             for (const archive::WorkTask& task : tasks) {
                 inputs.push_back(json::parse(task.input));
-                records.push_back(archive_.content(text_of(inputs.back(), "record")).value_or(""));
+                records.push_back(archive_.content(gumcert::json::text_of(inputs.back(), "record")).value_or(""));
             }
             std::vector<std::string> results(tasks.size());
             threads_.run(tasks.size(), [&](unsigned /*worker*/, std::size_t i) {
-                results[i] = work.kind == k_replay
-                                 ? as_text(replay_record(records[i], tasks[i].name, 1, templates_))
-                                 : as_text(recalculation_of(tasks[i].name, text_of(inputs[i], "waits_for"), records[i],
-                                                            correction));
+                results[i] =
+                    work.kind == k_replay
+                        ? as_text(replay_record(records[i], tasks[i].name, 1, templates_))
+                        : as_text(recalculation_of(tasks[i].name, gumcert::json::text_of(inputs[i], "waits_for"),
+                                                   records[i], correction));
             });
             return results;
         });

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "app/archive/record_parts.h"
+#include "json/members.h"
 #include "reports/record/evaluation_record.h"
 
 namespace gumcert::app {
@@ -119,19 +119,19 @@ public:
     }
 
     void take_file(const nlohmann::json& file) {
-        const std::string id = standard_of_file(text_of(file, "name"));
+        const std::string id = standard_of_file(gumcert::json::text_of(file, "name"));
         if (id.empty()) {
             return;
         }
         take(ReferenceKind::registered, id);
-        reports::InputFile held{.name = {}, .sha256 = {}, .encoding = text_of(file, "encoding")};
-        if (const nlohmann::json& content = part_of(file, "content"); content.is_string()) {
+        reports::InputFile held{.name = {}, .sha256 = {}, .encoding = gumcert::json::text_of(file, "encoding")};
+        if (const nlohmann::json& content = gumcert::json::part_of(file, "content"); content.is_string()) {
             held.content = content.get<std::string>();
         }
         const nlohmann::json standard = nlohmann::json::parse(reports::bytes_of(held).value_or(""), nullptr, false);
-        const nlohmann::json& calibrations = part_of(standard, "calibrations");
+        const nlohmann::json& calibrations = gumcert::json::part_of(standard, "calibrations");
         for (const nlohmann::json& calibration : calibrations.is_array() ? calibrations : nlohmann::json::array()) {
-            take(ReferenceKind::registered, text_of(calibration, "certificate"));
+            take(ReferenceKind::registered, gumcert::json::text_of(calibration, "certificate"));
         }
     }
 
@@ -159,8 +159,8 @@ private:
     void take_rows(const nlohmann::json& rows) {
         for (const nlohmann::json& row : rows.is_array() ? rows : nlohmann::json::array({rows})) {
             if (row.is_object()) {
-                take(ReferenceKind::traceability, text_of(row, "identification"));
-                take(ReferenceKind::traceability, text_of(row, "certificate"));
+                take(ReferenceKind::traceability, gumcert::json::text_of(row, "identification"));
+                take(ReferenceKind::traceability, gumcert::json::text_of(row, "certificate"));
             } else {
                 take_texts(ReferenceKind::traceability, row);
             }
@@ -170,7 +170,7 @@ private:
 
 std::string first_stated(const nlohmann::json& dates, const std::array<const char*, 4>& keys) {
     for (const char* const key : keys) {
-        if (std::string day = text_of(dates, key); !day.empty()) {
+        if (std::string day = gumcert::json::text_of(dates, key); !day.empty()) {
             return day;
         }
     }
@@ -212,12 +212,13 @@ std::optional<RecordReferences> references_of(std::string_view record) {
     }
     const nlohmann::json& value = texts.value();
     ReferenceCollector collector;
-    const nlohmann::json& files = part_of(part_of(value, "job"), "files");
+    const nlohmann::json& files = gumcert::json::part_of(gumcert::json::part_of(value, "job"), "files");
     for (const nlohmann::json& file : files.is_array() ? files : nlohmann::json::array()) {
         collector.take_file(file);
     }
     collector.walk(value);
-    const nlohmann::json& dates = part_of(part_of(part_of(value, "certificate"), "data"), "dates");
+    const nlohmann::json& dates =
+        gumcert::json::part_of(gumcert::json::part_of(gumcert::json::part_of(value, "certificate"), "data"), "dates");
     return RecordReferences{
         .references = std::move(collector).references(),
         .used_from = first_stated(dates, {"performed_from", "performed_to", "authorised", "issued"}),

@@ -8,6 +8,7 @@
 
 #include "app/audit_files.h"
 #include "app/read_file.h"
+#include "encoding/file_bytes.h"
 #include "encoding/sha2.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit_table.h"
@@ -103,7 +104,7 @@ std::size_t SelfTest::agreed() const {
 
 std::vector<fs::path> case_files(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const std::string& name : json_files_in(folder)) {
+    for (const std::string& name : encoding::json_files_in(folder)) {
         files.push_back(folder / (name + ".json"));
     }
     if (files.empty()) {

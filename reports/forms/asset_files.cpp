@@ -77,14 +77,22 @@ void put_own_texts(nlohmann::json& texts, const nlohmann::json& own, const std::
     }
 }
 
-/// \throws gum::StorageError if there is no wording of this language
-nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
-    // The language becomes part of a file name: letters and hyphens only.
-    const bool plain = !language.empty() && std::all_of(language.begin(), language.end(), [](char c) {
+/// A language becomes part of a file name: letters and hyphens only.
+bool is_name_of_a_language(const std::string& name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
     });
+}
+
+/// The texts of a laboratory for a language; not always there.
+std::filesystem::path own_wording_file(const std::string& language, const std::filesystem::path& templates) {
+    return templates / "wording" / (language + ".own.json");
+}
+
+/// \throws gum::StorageError if there is no wording of this language
+nlohmann::json wording_of(const std::string& language, const RenderAssets& assets) {
     const std::filesystem::path file = assets.templates / "wording" / (language + ".json");
-    if (!plain || !std::filesystem::is_regular_file(file)) {
+    if (!is_name_of_a_language(language) || !std::filesystem::is_regular_file(file)) {
         throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0006",
                                                 .where = "language",
                                                 .what = '"' + language + '"',
@@ -92,7 +100,7 @@ nlohmann::json wording_of(const std::string& language, const RenderAssets& asset
                                                 .action = "choose another language, e.g. en"});
     }
     nlohmann::json texts = read_json_asset(file);
-    const std::filesystem::path own = assets.templates / "wording" / (language + ".own.json");
+    const std::filesystem::path own = own_wording_file(language, assets.templates);
     if (std::filesystem::exists(own)) {
         put_own_texts(texts, read_json_asset(own), own.string() + "#");
     }
@@ -196,6 +204,27 @@ Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record)
 
 Wording read_wording(const RenderAssets& assets) {
     return read_wording(assets, assets.languages.empty() ? std::vector<std::string>{"en"} : assets.languages, {});
+}
+
+std::vector<nlohmann::json> read_every_wording(const std::filesystem::path& templates) {
+    RenderAssets assets;
+    assets.templates = templates;
+    std::vector<nlohmann::json> wordings;
+    for (const std::string& name : encoding::json_files_in(templates / "wording")) {
+        if (!is_name_of_a_language(name)) {
+            continue;
+        }
+        nlohmann::json texts = read_json_asset(templates / "wording" / (name + ".json"));
+        if (!texts.contains("language")) {
+            continue;  // sentences of all languages
+        }
+        texts["language"] = name;
+        wordings.push_back(std::move(texts));
+        if (std::filesystem::exists(own_wording_file(name, templates))) {
+            wordings.push_back(wording_of(name, assets));
+        }
+    }
+    return wordings;
 }
 
 Wording read_audit_wording(const RenderAssets& assets) {

@@ -34,6 +34,10 @@ namespace gumcert::reports {
 [[nodiscard]] Wording read_wording(const RenderAssets& assets, const EvaluationRecord& record);
 /// The wording of the languages that the assets ask for, else of English.
 [[nodiscard]] Wording read_wording(const RenderAssets& assets);
+/// The wording of every language that the templates have, in the order of their names; behind one that a laboratory has changed
+/// the same with its own texts.
+/// \throws gum::StorageError if one cannot be read
+[[nodiscard]] std::vector<nlohmann::json> read_every_wording(const std::filesystem::path& templates);
 /// The wording of an audit, in the first of the languages: with what audits say of files.
 [[nodiscard]] Wording read_audit_wording(const RenderAssets& assets);
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/archive/document_agreement.h"
+#include "reports/agreement/document_agreement.h"
 #include "reports/forms/html_texts.h"
 #include "tests/fuzz/demand.h"
 
@@ -13,9 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes(data, data + size);
     const std::string text = reports::text_of_html(bytes);
     fuzz::demand(text.size() <= 2 * size, "a text that is longer than its page");
-    (void)app::says_number(bytes, "EX-2026-0001");
+    (void)reports::says_number(bytes, "EX-2026-0001");
     (void)reports::hidden_part_of_html(bytes, "p { margin: 0 }");
-    const app::PrintedDocument document({text, bytes});
+    const reports::PrintedDocument document({text, bytes});
     (void)document.says("EX-2026-0001");
     (void)app::printed_numbers(bytes);
     std::string written;

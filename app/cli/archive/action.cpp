@@ -2,7 +2,7 @@
 
 #include <gumcert_build_info.h>
 
-#include "app/archive/record_parts.h"
+#include "app/archive/message_json.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/terminal.h"
 #include "archive/store/open_store.h"

@@ -43,13 +43,5 @@ TEST_F(ReadFile, RefusesWhatIsNoFile) {
     }
 }
 
-TEST_F(ReadFile, ListsTheJsonFilesOfAFolderInTheirOrder) {
-    for (const char* name : {"b.json", "a.json", "c.txt", "STD-017.json"}) {
-        write(name, "{}");
-    }
-    EXPECT_EQ(json_files_in(folder_), (std::vector<std::string>{"STD-017", "a", "b"}));
-    EXPECT_TRUE(json_files_in(folder_ / "absent").empty());
-}
-
 }  // namespace
 }  // namespace gumcert::app

@@ -126,5 +126,13 @@ TEST_F(FileBytesTest, StaysBeneathItsFolderHoweverItIsNamed) {
     EXPECT_EQ(read_file_beneath(folder_ / "nowhere", "f", 100).failure, "there is no such file");
 }
 
+TEST_F(FileBytesTest, ListsTheJsonFilesOfAFolderInTheirOrder) {
+    for (const char* name : {"b.json", "a.json", "c.txt", "STD-017.json"}) {
+        std::ofstream(folder_ / name) << "{}";
+    }
+    EXPECT_EQ(json_files_in(folder_), (std::vector<std::string>{"STD-017", "a", "b"}));
+    EXPECT_TRUE(json_files_in(folder_ / "absent").empty());
+}
+
 }  // namespace
 }  // namespace gumcert::encoding

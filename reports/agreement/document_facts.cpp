@@ -1,4 +1,4 @@
-#include "app/archive/document_facts.h"
+#include "reports/agreement/document_facts.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 
 #include "reports/printable_text.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 namespace {
 
@@ -45,7 +45,7 @@ private:
     void put(std::string what, std::vector<std::string> spellings) {
         std::erase_if(spellings, [](const std::string& one) { return one.empty(); });
         for (std::string& one : spellings) {
-            one = reports::printable(one);
+            one = printable(one);
         }
         if (!spellings.empty()) {
             facts_.push_back({std::move(what), std::move(spellings)});
@@ -108,4 +108,4 @@ std::string texts_of_view(const nlohmann::json& view) {
     return texts;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

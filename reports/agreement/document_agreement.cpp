@@ -1,4 +1,4 @@
-#include "app/archive/document_agreement.h"
+#include "reports/agreement/document_agreement.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,15 +6,14 @@
 #include <set>
 #include <tuple>
 
-#include "app/archive/record_parts.h"
-#include "app/read_file.h"
+#include "json/members.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "text/small_letters.h"
 #include "text/utf8.h"
 #include "text/visible_text.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 namespace {
 
@@ -82,26 +81,6 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
-/// Whether a text of the wording is the mark of a document. They are found by their names, not listed: a document of a new
-/// kind or state has a mark of its own, and is none that may be issued.
-bool is_mark(std::string_view group, std::string_view key) {
-    if (group == "document") {
-        return key == "draft" || key == "superseded" || key == "mark" ||
-               (key.ends_with("_mark") && !key.ends_with("end_mark"));
-    }
-    return key == "mark";
-}
-
-DocumentWords::Mark parts_of_mark(const std::string& text) {
-    const std::size_t open = text.find('{');
-    const std::size_t close = text.find('}');
-    const bool is_filled = open != std::string::npos && close != std::string::npos && open < close;
-    return {.text = text,
-            .before = reports::without_blanks(text.substr(0, is_filled ? open : std::string::npos)),
-            .behind = reports::without_blanks(is_filled ? text.substr(close + 1, text.find('{', close) - close - 1)
-                                                        : "")};  // up to the next value
-}
-
 std::size_t verdicts_of_a_row(const certificate::TableLayout& layout) {
     return static_cast<std::size_t>(
         std::count_if(layout.shown.begin(), layout.shown.end(), [](const auto& c) { return c.show == "verdict"; }));
@@ -109,56 +88,11 @@ std::size_t verdicts_of_a_row(const certificate::TableLayout& layout) {
 
 }  // namespace
 
-DocumentWords document_words(const std::filesystem::path& templates) {
-    const std::filesystem::path folder = templates / "wording";
-    DocumentWords words;
-    for (const std::string& language : json_files_in(folder)) {
-        const nlohmann::json wording = nlohmann::json::parse(read_file(folder / (language + ".json")), nullptr, false);
-        const nlohmann::json& verdicts = part_of(wording, "verdict_name");
-        if (!verdicts.is_object()) {
-            continue;  // sentences, and what else stands beside the wording of a language
-        }
-        words.languages.push_back(language);
-        const nlohmann::json& of_document = part_of(wording, "document");
-        words.other_templates.push_back(parts_of_mark(text_of(of_document, "changed_templates")));
-        words.head_of_archive.push_back(parts_of_mark(text_of(of_document, "archive_head")));
-        words.pages.push_back({reports::without_blanks(text_of(of_document, "page")),
-                               reports::without_blanks(text_of(of_document, "of")),
-                               reports::without_blanks(text_of(of_document, "page_end"))});
-        for (const auto& [code, word] : verdicts.items()) {
-            if (word.is_string()) {
-                words.verdicts.emplace_back(reports::without_blanks(word.get<std::string>()), code);
-            }
-        }
-        for (const auto& [group, texts] : wording.items()) {
-            if (!texts.is_object()) {
-                continue;  // the language
-            }
-            for (const auto& [key, text] : texts.items()) {
-                if (text.is_string() && is_mark(group, key)) {
-                    words.marks.push_back(parts_of_mark(text.get<std::string>()));
-                }
-            }
-        }
-    }
-    if (words.verdicts.empty()) {
-        throw gum::StorageError(gum::Diagnostic{.code = "GC-REPORT-0001",
-                                                .where = folder.string(),
-                                                .what = "no language has words for verdicts",
-                                                .rule = "every text of a document is in the wording file",
-                                                .action = "take the templates of this release"});
-    }
-    std::sort(words.verdicts.begin(), words.verdicts.end(), [](const auto& a, const auto& b) {
-        return std::tuple(b.first.size(), a.first) < std::tuple(a.first.size(), b.first);
-    });
-    return words;
-}
-
 /// What one cell of a table prints.
 struct PrintedDocument::Cell {
-    std::string digits;                   ///< all of a text, those of the mantissa of a number
-    std::optional<PrintedNumber> number;  ///< none: a text, of which the digits are compared
-    std::string unit = {};                ///< that stands in the head of its column, or behind the row
+    std::string digits;                     ///< all of a text, those of the mantissa of a number
+    std::optional<NumberAsPrinted> number;  ///< none: a text, of which the digits are compared
+    std::string unit = {};                  ///< that stands in the head of its column, or behind the row
 };
 
 /// Numbers that stand behind each other.
@@ -177,7 +111,7 @@ struct PrintedDocument::Row {
 
 PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
     for (const std::string& page : pages) {
-        pages_.push_back(reports::without_blanks(page));
+        pages_.push_back(without_blanks(page));
         for (std::size_t at = 0; at < page.size();) {
             std::size_t bytes = 1;
             while (at + bytes < page.size() && text::is_continuation(page[at + bytes])) {
@@ -188,7 +122,7 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
                 digits_ += page[at];
                 places_.push_back(text_.size());
             }
-            if (character != k_of_index && !reports::without_blanks(character).empty()) {
+            if (character != k_of_index && !without_blanks(character).empty()) {
                 text_ += character;
                 for (std::size_t i = 0; i < character.size(); ++i) {
                     read_places_.push_back(read_.size() + i);
@@ -206,7 +140,7 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
 }
 
 PrintedDocument::Cell PrintedDocument::cell_of(const std::string& printed, const std::string& unit) {
-    std::optional<PrintedNumber> number = only_printed_number(printed);
+    std::optional<NumberAsPrinted> number = only_number_as_printed(printed);
     std::string digits = number ? number->digits : all_digits(printed);
     return {.digits = std::move(digits), .number = std::move(number), .unit = unit};
 }
@@ -431,7 +365,7 @@ bool PrintedDocument::has_units(std::size_t first, std::size_t end, const std::v
     std::vector<std::string> units;
     for (const Cell& cell : numbers) {
         if (!cell.unit.empty()) {
-            units.push_back(one_sign(reports::without_blanks(cell.unit)));
+            units.push_back(one_sign(without_blanks(cell.unit)));
         }
     }
     if (units.empty()) {
@@ -449,7 +383,7 @@ bool PrintedDocument::has_units(std::size_t first, std::size_t end, const std::v
     for (std::size_t at = begin; at > 0 && begin - at < k_reach_before + rows_above * k_bytes_of_a_row;) {
         --at;
         const bool ends_a_number = is_digit(read_[at]) && !is_digit(read_[at + 1]) && read_[at + 1] != '.' &&
-                                   read_[at + 1] != ',' && read_[at + 1] != reports::k_end_of_drawn_text;
+                                   read_[at + 1] != ',' && read_[at + 1] != k_end_of_drawn_text;
         other_numbers += ends_a_number ? 1U : 0U;
         if (other_numbers > k_numbers_in_heads + numbers.size() + rows_above * k_numbers_of_a_row) {
             return false;
@@ -471,7 +405,7 @@ bool PrintedDocument::has_unit_at(const std::string& unit, std::size_t begin) co
         if (at < read_.size() && read_[at] == unit[i]) {
             ++i;
         } else if (at >= read_.size() || i == 0 ||
-                   (read_[at] != ' ' && read_[at] != '\n' && read_[at] != reports::k_end_of_drawn_text)) {
+                   (read_[at] != ' ' && read_[at] != '\n' && read_[at] != k_end_of_drawn_text)) {
             return false;
         }
     }
@@ -581,7 +515,7 @@ bool PrintedDocument::says(const std::string& text) const {
         return is_digit(c) || (text::small_letter(c) >= 'a' && text::small_letter(c) <= 'z');
     };
     const auto joins = [](char c) { return c == '-' || c == '/' || c == '_'; };
-    std::string wanted = one_sign(reports::without_blanks(text));
+    std::string wanted = one_sign(without_blanks(text));
     std::erase(wanted, k_of_index.front());
     for (std::size_t at = wanted.empty() ? std::string::npos : text_.find(wanted); at != std::string::npos;
          at = text_.find(wanted, at + 1)) {
@@ -641,7 +575,7 @@ std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view
     if (std::string mark = mark_on(words); !mark.empty()) {
         return mark;
     }
-    nlohmann::json sections = part_of(view, "sections");
+    nlohmann::json sections = json::part_of(view, "sections");
     for (nlohmann::json& section : sections) {
         for (nlohmann::json& block : section["blocks"]) {
             block["paragraph"] = block["definitions"] = nlohmann::json::array();
@@ -651,7 +585,7 @@ std::string PrintedDocument::disagreement_with_report(const nlohmann::json& view
 }
 
 std::string PrintedDocument::disagreement_with_view(const nlohmann::json& view) const {
-    const std::vector<gum::Diagnostic> missing = reports::check_numbers(pages_, view);
+    const std::vector<gum::Diagnostic> missing = check_numbers(pages_, view);
     return missing.empty()
                ? ""
                : "does not print " + missing.front().what.substr(0, missing.front().what.find(" of the record")) +
@@ -691,16 +625,16 @@ std::string difference_of_texts(std::string_view stated, std::string_view expect
 bool says_number(std::string_view html, const std::string& number) {
     constexpr std::string_view k_head = " data-text=\"";
     if (html.find(k_head) == std::string_view::npos) {
-        return has_word(reports::text_of_html(html), number);
+        return has_word(text_of_html(html), number);
     }
     for (std::size_t at = html.find(k_head); at != std::string_view::npos; at = html.find(k_head, at + 1)) {
         const std::size_t from = at + k_head.size();
         const std::size_t end = std::min(html.find('"', from), html.size());
-        if (has_word(reports::text_of_html(html.substr(from, end - from)), number)) {
+        if (has_word(text_of_html(html.substr(from, end - from)), number)) {
             return true;
         }
     }
     return false;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,30 +9,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/archive/document_facts.h"
-#include "app/archive/printed_numbers.h"
 #include "certificate/certified_results.h"
+#include "reports/agreement/document_facts.h"
+#include "reports/agreement/document_words.h"
+#include "reports/agreement/numbers_as_printed.h"
 #include "reports/record/evaluation_record.h"
 
-namespace gumcert::app {
-
-/// Words of documents, in every language that the templates have.
-struct DocumentWords {
-    std::vector<std::pair<std::string, std::string>> verdicts;  ///< as printed; code: "pass". The longest first
-    struct Mark {
-        std::string text;            ///< "SUPERSEDED by {number}"
-        std::string before, behind;  ///< of the value that is filled in, as printed
-    };
-    /// What says that a document is no issued certificate, of every kind and state that the wording knows: a draft, a
-    /// specimen, superseded, internal, an audit.
-    std::vector<Mark> marks;
-    std::vector<Mark> other_templates;              ///< what is printed where the templates were changed
-    std::vector<Mark> head_of_archive;              ///< and where a head of the archive is
-    std::vector<std::array<std::string, 3>> pages;  ///< what stands around the numbers of "page 1 of 3", without blanks
-    std::vector<std::string> languages;             ///< "en", "zh-Hant"
-};
-/// \throws gum::StorageError  if the wording is missing or damaged
-[[nodiscard]] DocumentWords document_words(const std::filesystem::path& templates);
+namespace gumcert::reports {
 
 /// A document as text, and what of it differs from its record.
 ///
@@ -44,7 +25,7 @@ struct DocumentWords {
 /// templates and languages are the business of the laboratory. A number that is right in one place may be wrong in another.
 class PrintedDocument {
 public:
-    /// \param pages  of a PDF as of reports::drawn_texts_of_pages(); of a page of HTML its text in one piece
+    /// \param pages  of a PDF as of drawn_texts_of_pages(); of a page of HTML its text in one piece
     explicit PrintedDocument(const std::vector<std::string>& pages);
 
     /// \return what is missing or too much, for a message; "" where document and record agree
@@ -99,4 +80,4 @@ private:
 /// where it has one.
 [[nodiscard]] bool says_number(std::string_view html, const std::string& number);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

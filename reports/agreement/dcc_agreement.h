@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 /// Holds a digital certificate against the one that the record gives now: every element, attribute and text, in their order.
 /// Records that another version has made are not evaluated again, and so their documents do not come this far. Left out are
@@ -23,4 +23,4 @@ namespace gumcert::app {
 /// \throws gum::InputError  if it cannot be read
 [[nodiscard]] std::string changed_templates_of_dcc(std::string_view bytes, const std::string& name);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

@@ -1,4 +1,4 @@
-#include "app/archive/printed_numbers.h"
+#include "reports/agreement/numbers_as_printed.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include "reports/forms/pdf_page_texts.h"
 #include "text/utf8.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 namespace {
 
-constexpr char k_joint = reports::k_end_of_drawn_text;
+constexpr char k_joint = k_end_of_drawn_text;
 constexpr std::string_view k_minus = "\u2212";
 constexpr std::string_view k_raised_minus = "\u207B";
 
@@ -134,7 +134,7 @@ int exponent_behind(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-bool is_printed_at(std::string_view text, std::size_t begin, const PrintedNumber& number) {
+bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrinted& number) {
     if (begin > 0) {
         std::size_t before = begin - 1;
         while (before > 0 && text[before] == k_joint) {
@@ -165,15 +165,15 @@ bool is_printed_at(std::string_view text, std::size_t begin, const PrintedNumber
            has_minus(text, begin) == number.negative && exponent_behind(text, at) == number.exponent;
 }
 
-std::vector<PrintedNumber> printed_numbers(std::string_view text) {
-    std::vector<PrintedNumber> numbers;
+std::vector<NumberAsPrinted> numbers_as_printed(std::string_view text) {
+    std::vector<NumberAsPrinted> numbers;
     std::size_t digits = 0;
     for (std::size_t at = 0; at < text.size();) {
         if (!is_digit_here(text, at)) {
             ++at;
             continue;
         }
-        PrintedNumber number{.digits = {}, .negative = has_minus(text, at), .first_digit = digits};
+        NumberAsPrinted number{.digits = {}, .negative = has_minus(text, at), .first_digit = digits};
         std::size_t signs = 0;
         for (; is_digit_here(text, at) ||
                (at < text.size() && (text[at] == '.' || text[at] == ',') && is_digit_here(text, at + 1));
@@ -194,8 +194,8 @@ std::vector<PrintedNumber> printed_numbers(std::string_view text) {
     return numbers;
 }
 
-std::optional<PrintedNumber> only_printed_number(std::string_view text) {
-    std::vector<PrintedNumber> numbers = printed_numbers(text);
+std::optional<NumberAsPrinted> only_number_as_printed(std::string_view text) {
+    std::vector<NumberAsPrinted> numbers = numbers_as_printed(text);
     // The exponent of "1.4E-3" is read once more, as a number of its own.
     const std::size_t power = text.find_first_of("eE");
     const bool has_power = power != std::string_view::npos && power > 0 && is_digit_here(text, power - 1);
@@ -203,4 +203,4 @@ std::optional<PrintedNumber> only_printed_number(std::string_view text) {
                                                                      : std::nullopt;
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 /// A decimal number as a document prints it: "−4,90", "1.40 × 10⁻³", or as a record does: "-4.90", "1.40E-3".
-struct PrintedNumber {
+struct NumberAsPrinted {
     std::string digits;        ///< of its mantissa, without the decimal sign
     std::size_t decimals = 0;  ///< digits behind the decimal sign
     int exponent = 0;          ///< of ten
@@ -17,23 +17,23 @@ struct PrintedNumber {
     std::size_t first_digit = 0;  ///< among all ASCII digits of the text
 
     /// Whether both are the same number with the same digits.
-    [[nodiscard]] bool is(const PrintedNumber& other) const {
+    [[nodiscard]] bool is(const NumberAsPrinted& other) const {
         return digits == other.digits && decimals == other.decimals && exponent == other.exponent &&
                negative == other.negative;
     }
 };
 
 /// Whether a document prints a number where a digit of it stands, as it is: neither as a part of a longer one, nor with
-/// another sign, decimal sign or exponent. A number may be drawn in pieces (reports::k_end_of_drawn_text): where two of them
+/// another sign, decimal sign or exponent. A number may be drawn in pieces (k_end_of_drawn_text): where two of them
 /// meet, it is not known whether a number ends.
 /// \param begin  of its first digit
-[[nodiscard]] bool is_printed_at(std::string_view text, std::size_t begin, const PrintedNumber& number);
+[[nodiscard]] bool is_printed_at(std::string_view text, std::size_t begin, const NumberAsPrinted& number);
 
 /// All numbers of a text in their order. Both decimal signs, and both minus signs: U+2212, and a hyphen that stands right
 /// before the number and behind no letter or digit. What has several decimal signs ("17.2.1") is no number.
-[[nodiscard]] std::vector<PrintedNumber> printed_numbers(std::string_view text);
+[[nodiscard]] std::vector<NumberAsPrinted> numbers_as_printed(std::string_view text);
 
 /// The number of a text that has one; none where there is none or several.
-[[nodiscard]] std::optional<PrintedNumber> only_printed_number(std::string_view text);
+[[nodiscard]] std::optional<NumberAsPrinted> only_number_as_printed(std::string_view text);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

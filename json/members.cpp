@@ -1,8 +1,8 @@
-#include "app/archive/record_parts.h"
+#include "json/members.h"
 
 #include <nlohmann/json.hpp>
 
-namespace gumcert::app {
+namespace gumcert::json {
 
 const nlohmann::json& part_of(const nlohmann::json& object, const char* key) {
     static const nlohmann::json k_nothing;
@@ -18,12 +18,4 @@ std::string text_of(const nlohmann::json& object, const char* key) {
     return value.is_string() ? value.get<std::string>() : "";
 }
 
-nlohmann::json as_json(const gum::Diagnostic& diagnostic) {
-    return {{"code", diagnostic.code},
-            {"where", diagnostic.where},
-            {"what", diagnostic.what},
-            {"rule", diagnostic.rule},
-            {"action", diagnostic.action}};
-}
-
-}  // namespace gumcert::app
+}  // namespace gumcert::json

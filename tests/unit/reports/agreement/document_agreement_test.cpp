@@ -1,25 +1,26 @@
-#include "app/archive/document_agreement.h"
+#include "reports/agreement/document_agreement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <filesystem>
 
-#include "app/archive/dcc_agreement.h"
 #include "app/evaluate_job.h"
-#include "app/read_file.h"
+#include "reports/agreement/dcc_agreement.h"
 #include "reports/dcc/dcc_document.h"
+#include "reports/forms/asset_files.h"
 #include "reports/forms/document_forms.h"
 #include "reports/forms/html_texts.h"
 #include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/render.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 namespace {
 
 using certificate::CertifiedValue;
-using reports::EvaluationRecord;
 using ::testing::HasSubstr;
 
 const std::filesystem::path k_agreement_tree(GUMCERT_SOURCE_DIR);
@@ -33,27 +34,28 @@ const std::vector<std::pair<std::string, EvaluationRecord>>& example_certificate
               "examples/everyday/mass_set/job.json", "examples/everyday/multimeter/job.json",
               "examples/everyday/gauge_blocks/job.json", "examples/everyday/torque_wrench/job.json"}) {
             records.emplace_back(
-                job, evaluate_job(k_agreement_tree / job, CovarianceFile::none, 1, k_agreement_templates).record);
+                job,
+                app::evaluate_job(k_agreement_tree / job, app::CovarianceFile::none, 1, k_agreement_templates).record);
         }
         return records;
     }();
     return k_records;
 }
 
-reports::RenderAssets agreement_assets(const std::vector<std::string>& languages = {}) {
-    reports::RenderAssets assets;
+RenderAssets agreement_assets(const std::vector<std::string>& languages = {}) {
+    RenderAssets assets;
     assets.templates = k_agreement_templates;
     assets.languages = languages;
     return assets;
 }
 
 std::string page_of(const EvaluationRecord& record, const std::vector<std::string>& languages = {}) {
-    return reports::render_html(record, agreement_assets(languages));
+    return render_html(record, agreement_assets(languages));
 }
 
 std::string disagreement(const std::string& html, const EvaluationRecord& record) {
-    static const DocumentWords k_words = document_words(k_agreement_templates);
-    return PrintedDocument({reports::text_of_html(html)}).disagreement_with(*record.certificate, k_words);
+    static const DocumentWords k_words = document_words(read_every_wording(k_agreement_templates));
+    return PrintedDocument({text_of_html(html)}).disagreement_with(*record.certificate, k_words);
 }
 
 /// Every value with its column.
@@ -78,19 +80,18 @@ void change_digits(std::string& printed) {
 }
 
 TEST(DocumentsAndRecords, AgreeInEveryLanguageAndForm) {
-    const std::string sheet = read_file(k_agreement_templates / "certificate.css");
+    const std::string sheet = read_asset(k_agreement_templates / "certificate.css");
     for (const auto& [name, record] : example_certificates()) {
         for (const std::vector<std::string>& languages :
              std::vector<std::vector<std::string>>{{}, {"en"}, {"de"}, {"es"}, {"zh-Hant"}, {"de", "en"}}) {
             const std::string html = page_of(record, languages);
             EXPECT_EQ(disagreement(html, record), "") << name << " " << testing::PrintToString(languages);
-            EXPECT_EQ(reports::hidden_part_of_html(html, sheet), "")
-                << name << " " << testing::PrintToString(languages);
-            EXPECT_TRUE(reports::has_style_of(html, sheet)) << name;
+            EXPECT_EQ(hidden_part_of_html(html, sheet), "") << name << " " << testing::PrintToString(languages);
+            EXPECT_TRUE(has_style_of(html, sheet)) << name;
             EXPECT_TRUE(says_number(html, record.certificate->data.number)) << name;
             EXPECT_FALSE(says_number(html, record.certificate->data.number + "1")) << name;
         }
-        const std::string dcc = reports::render_dcc(record, agreement_assets());
+        const std::string dcc = render_dcc(record, agreement_assets());
         EXPECT_EQ(disagreement_of_dcc(dcc, name, dcc), "") << name;
     }
 }
@@ -110,14 +111,14 @@ TEST(DocumentsAndRecords, DisagreeWhereAMarkSaysThatItIsNone) {
             change(other);
             EXPECT_THAT(disagreement(page_of(other, languages), record), HasSubstr("is marked")) << state << named;
         }
-        const std::string report = reports::render_budget_report_html(record, agreement_assets(languages));
+        const std::string report = render_budget_report_html(record, agreement_assets(languages));
         EXPECT_THAT(disagreement(report, record), HasSubstr("is marked")) << named;
     }
 }
 
 // Every mark that the wording has is one: a kind of document that is new is not forgotten.
 TEST(DocumentsAndRecords, KnowTheMarksOfAllKindsOfDocuments) {
-    const DocumentWords words = document_words(k_agreement_templates);
+    const DocumentWords words = document_words(read_every_wording(k_agreement_templates));
     std::vector<std::string> marks;
     for (const DocumentWords::Mark& mark : words.marks) {
         marks.push_back(mark.text);
@@ -147,7 +148,7 @@ TEST(DocumentsAndRecords, KnowTheMarksOfAllKindsOfDocuments) {
 TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
     for (const auto& [name, record] : example_certificates()) {
         const std::string html = page_of(record);
-        const std::string dcc = reports::render_dcc(record, agreement_assets());
+        const std::string dcc = render_dcc(record, agreement_assets());
         std::size_t values = 0;
         std::size_t verdicts = 0;
         EvaluationRecord counted = record;
@@ -167,7 +168,7 @@ TEST(DocumentsAndRecords, DisagreeWhereOneValueOrVerdictIsAnother) {
             const std::string page = page_of(other);
             if (page != html) {
                 EXPECT_NE(disagreement(html, other), "") << name << ", value " << chosen;
-                EXPECT_NE(disagreement_of_dcc(reports::render_dcc(other, agreement_assets()), name, dcc), "")
+                EXPECT_NE(disagreement_of_dcc(render_dcc(other, agreement_assets()), name, dcc), "")
                     << name << ", value " << chosen;
             }
         }
@@ -230,11 +231,11 @@ TEST(DocumentsAndRecords, DisagreeWhereTheSameDigitsAreAnotherNumber) {
 // Law: what identifies a certificate is on its pages, in every language, and another one is told.
 TEST(DocumentsAndRecords, SayWhoseCertificateTheyAre) {
     for (const auto& [name, record] : example_certificates()) {
-        const PrintedDocument now(std::vector{texts_of_view(reports::view_of_document(record, agreement_assets()))});
+        const PrintedDocument now(std::vector{texts_of_view(view_of_document(record, agreement_assets()))});
         const std::vector<DocumentFact> facts = facts_of(record.certificate->data);
         std::size_t said = 0;
         for (const char* const language : {"en", "de", "es", "zh-Hant"}) {
-            const PrintedDocument page({reports::text_of_html(page_of(record, {language}))});
+            const PrintedDocument page({text_of_html(page_of(record, {language}))});
             EXPECT_EQ(page.disagreement_with_facts(facts, now), "") << name << language;
             for (const DocumentFact& fact : facts) {
                 if (!now.says(fact.spellings.front())) {
@@ -270,15 +271,15 @@ TEST(DocumentsAndRecords, DifferInTheWordsThatAreTold) {
 // Law: every text, attribute and element of a digital certificate follows from its record, and another one is told.
 /// Who checks a certificate may have other templates than those that it names; everything else is held against the record.
 TEST(DocumentsAndRecords, LetADigitalCertificateNameItsTemplates) {
-    const reports::EvaluationRecord record = example_certificates().front().second;
-    reports::RenderAssets assets = agreement_assets();
-    const std::string plain = reports::render_dcc(record, assets);
+    const EvaluationRecord record = example_certificates().front().second;
+    RenderAssets assets = agreement_assets();
+    const std::string plain = render_dcc(record, assets);
     EXPECT_EQ(changed_templates_of_dcc(plain, "plain.xml"), "");
     assets.changed_templates = "9e7c1a5b2d3f";
-    const std::string dcc = reports::render_dcc(record, assets);
+    const std::string dcc = render_dcc(record, assets);
     EXPECT_EQ(changed_templates_of_dcc(dcc, "other.xml"), assets.changed_templates);
     EXPECT_NE(disagreement_of_dcc(dcc, "other.xml", plain), "");
-    EXPECT_EQ(disagreement_of_dcc(dcc, "other.xml", reports::render_dcc(record, assets)), "");
+    EXPECT_EQ(disagreement_of_dcc(dcc, "other.xml", render_dcc(record, assets)), "");
     for (const std::string no_digest : {"9e7c1a5b2d3", "9e7c1a5b2d3F", "U is 0.10 µm"}) {
         std::string other = dcc;
         other.replace(other.find("<dcc:reference>9e7c1a5b2d3f"), 27, "<dcc:reference>" + no_digest);
@@ -292,7 +293,7 @@ TEST(DocumentsAndRecords, TellEveryChangeOfADigitalCertificate) {
             std::find_if(example_certificates().begin(), example_certificates().end(), [&](const auto& one) {
                 return one.first == job;
             })->second;
-        const std::string dcc = reports::render_dcc(record, agreement_assets());
+        const std::string dcc = render_dcc(record, agreement_assets());
         const std::size_t body = dcc.find("<dcc:dccSoftware");
         ASSERT_NE(body, std::string::npos);
         std::size_t changed = 0;
@@ -342,7 +343,7 @@ TEST(DocumentsAndRecords, TellEveryChangeOfADigitalCertificate) {
 
 TEST(DocumentsAndRecords, AgreeAsPages) {
     const EvaluationRecord& record = example_certificates().front().second;
-    const DocumentWords words = document_words(k_agreement_templates);
+    const DocumentWords words = document_words(read_every_wording(k_agreement_templates));
     const std::vector<std::string> pages = {"EX-1 l 50000838 67 nm pass of 2", "EX-1"};
     EXPECT_EQ(PrintedDocument(pages).disagreement_with(*record.certificate, words), "");
     for (const char* const other :
@@ -367,4 +368,4 @@ TEST(DocumentsAndRecords, SayTheirNumberAsAWordOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

@@ -1,4 +1,4 @@
-#include "app/archive/dcc_agreement.h"
+#include "reports/agreement/dcc_agreement.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,11 +8,9 @@
 #include "reports/dcc/xml_document.h"
 #include "text/visible_text.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 namespace {
-
-using reports::XmlElement;
 
 constexpr const char* k_made_now = "digital certificate of the record";
 
@@ -39,7 +37,7 @@ std::string without_prefix(const std::string& name) {
 /// Words of a text with one blank between them: how lines are broken states nothing.
 std::string words_of_text(const std::string& text) {
     std::string words;
-    for (const std::string& word : reports::xml_list(text)) {
+    for (const std::string& word : xml_list(text)) {
         words += (words.empty() ? "" : " ") + word;
     }
     return words;
@@ -56,8 +54,8 @@ std::string shown_part(const std::string& text) {
 
 /// The words around the first place where two lists differ.
 std::string difference_of(const std::string& stated, const std::string& expected) {
-    const std::vector<std::string> left = reports::xml_list(stated);
-    const std::vector<std::string> right = reports::xml_list(expected);
+    const std::vector<std::string> left = xml_list(stated);
+    const std::vector<std::string> right = xml_list(expected);
     constexpr std::size_t k_list = 3;
     if (left.size() == right.size() && left.size() >= k_list) {
         const auto [a, b] = std::mismatch(left.begin(), left.end(), right.begin());
@@ -116,9 +114,9 @@ std::string difference_of(const XmlElement& stated, const XmlElement& expected, 
 }  // namespace
 
 std::string disagreement_of_dcc(std::string_view bytes, const std::string& name, std::string_view made_of_record) {
-    std::vector<reports::XmlNote> notes;
-    const XmlElement stated = reports::read_xml(bytes, name, &notes);
-    std::string found = difference_of(stated, reports::read_xml(made_of_record, k_made_now), "");
+    std::vector<XmlNote> notes;
+    const XmlElement stated = read_xml(bytes, name, &notes);
+    std::string found = difference_of(stated, read_xml(made_of_record, k_made_now), "");
     if (found.empty() && !notes.empty()) {
         found = "has " + shown_part(notes.front().what) +
                 ", which the record does not give, and by which programs may show something else (line " +
@@ -128,7 +126,7 @@ std::string disagreement_of_dcc(std::string_view bytes, const std::string& name,
 }
 
 std::vector<std::string> languages_of_dcc(std::string_view bytes, const std::string& name) {
-    const XmlElement root = reports::read_xml(bytes, name);
+    const XmlElement root = read_xml(bytes, name);
     const XmlElement* const data = root.child("dcc:administrativeData");
     const XmlElement* const core = data == nullptr ? nullptr : data->child("dcc:coreData");
     std::vector<std::string> languages;
@@ -145,7 +143,7 @@ std::vector<std::string> languages_of_dcc(std::string_view bytes, const std::str
 
 std::string changed_templates_of_dcc(std::string_view bytes, const std::string& name) {
     constexpr std::size_t k_digits = 12;  // of a digest that a document shows
-    const XmlElement root = reports::read_xml(bytes, name);
+    const XmlElement root = read_xml(bytes, name);
     const XmlElement* const data = root.child("dcc:administrativeData");
     const XmlElement* const statements = data == nullptr ? nullptr : data->child("dcc:statements");
     if (statements == nullptr) {
@@ -161,4 +159,4 @@ std::string changed_templates_of_dcc(std::string_view bytes, const std::string& 
     return "";
 }
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports

@@ -1,13 +1,13 @@
-#include "app/archive/record_parts.h"
+#include "json/members.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-namespace gumcert::app {
+namespace gumcert::json {
 namespace {
 
-TEST(RecordParts, AreThereOrNothing) {
+TEST(Members, AreThereOrNothing) {
     const nlohmann::json record = {{"data", {{"method", "CP-01"}, {"number", 3}}}};
     EXPECT_EQ(text_of(part_of(record, "data"), "method"), "CP-01");
     EXPECT_EQ(text_of(part_of(record, "data"), "number"), "") << "no text";
@@ -15,10 +15,5 @@ TEST(RecordParts, AreThereOrNothing) {
     EXPECT_TRUE(part_of(nlohmann::json::array({1}), "data").is_null());
 }
 
-TEST(RecordParts, AMessageHasFiveParts) {
-    const gum::Diagnostic message{.code = "GC-X-0001", .where = "a", .what = "b", .rule = "c", .action = "d"};
-    EXPECT_EQ(as_json(message).dump(), R"({"action":"d","code":"GC-X-0001","rule":"c","what":"b","where":"a"})");
-}
-
 }  // namespace
-}  // namespace gumcert::app
+}  // namespace gumcert::json

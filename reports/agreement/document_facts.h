@@ -7,7 +7,7 @@
 
 #include "certificate/certificate_data.h"
 
-namespace gumcert::app {
+namespace gumcert::reports {
 
 /// A text of the certificate data that says whose certificate a document is, what was calibrated, when, how, and who says so.
 struct DocumentFact {
@@ -22,4 +22,4 @@ struct DocumentFact {
 /// All texts of a view, one a line, without its pictures and drawings.
 [[nodiscard]] std::string texts_of_view(const nlohmann::json& view);
 
-}  // namespace gumcert::app
+}  // namespace gumcert::reports
