@@ -18,6 +18,8 @@ struct Word {
     std::u32string_view letters;  ///< as certificate::letters_of() gives them
     Meaning meaning;
 };
+template <typename Meaning>  // as the compiler finds it itself, but for Clang 14
+Word(std::u32string_view, Meaning)->Word<Meaning>;
 
 using enum Column;
 constexpr std::array k_column_words = {

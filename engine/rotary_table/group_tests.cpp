@@ -394,7 +394,7 @@ class GroupSearch {
 public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
                 const GroupTestOptions& options)
-        : adjustment_(adjustment), covariance_(covariance), options_(options), visits_(adjustment, normal, covariance) {
+        : adjustment_(adjustment), options_(options), visits_(adjustment, normal, covariance) {
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             poses_.push_back(adjustment.pose_jacobian(g));
         }
@@ -1442,7 +1442,6 @@ private:
     }
 
     const JointAdjustment& adjustment_;
-    const BorderedCovariance& covariance_;
     const GroupTestOptions& options_;
     Visits visits_;
     std::vector<MatrixXd> poses_;

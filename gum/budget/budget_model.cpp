@@ -541,7 +541,7 @@ std::vector<std::vector<Member>> joint_samples(const Budget& budget, std::option
             continue;
         }
         for (const InputCorrelation& correlation : budget.correlations) {
-            const auto has = [&](std::size_t input) {
+            const auto has = [&members = members](std::size_t input) {
                 return std::any_of(members.begin(), members.end(), [&](const Member& m) { return m.input == input; });
             };
             // Rows are drawn whole. A coefficient beside them would ask for another joint distribution than the one

@@ -12,3 +12,8 @@
 #else
 #define GUMCERT_WIDE_CLONES
 #endif
+
+// What its loops say to g++ ("#pragma GCC ivdep") is nothing to Clang.
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wunknown-pragmas"
+#endif

@@ -551,7 +551,7 @@ private:
                     continue;
                 }
                 add(name);
-                const auto of_result = [&](const char* show) {
+                const auto of_result = [&, &name = name](const char* show) {
                     table.columns.push_back(
                         {.show = show, .of = name, .heading = {}, .role = "", .stage = std::string(stage)});
                 };

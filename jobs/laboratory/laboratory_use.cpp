@@ -175,7 +175,7 @@ void set_if_stated(json& row, const char* key, const std::string& text) {
 
 /// The same place for every value that was put there, so that messages have a line and a column.
 void place_below(JsonDocument& document, const std::string& pointer, const json& value, const text::Place& place) {
-    document.places.emplace(pointer, place);
+    document.places.emplace(pointer, gumcert::json::ValuePlace{place});
     if (value.is_object()) {
         for (const auto& [key, member] : value.items()) {
             place_below(document, child_pointer(pointer, key), member, place);
@@ -984,7 +984,7 @@ void LaboratoryUse::complete_persons(json& data, const LaboratoryFile& file, con
             continue;
         }
         const auto found = std::find_if(file.signatories.begin(), file.signatories.end(),
-                                        [&](const SignatoryStatement& one) { return one.id == person; });
+                                        [&person = person](const SignatoryStatement& one) { return one.id == person; });
         if (found == file.signatories.end()) {
             std::vector<std::string> known;
             for (const SignatoryStatement& one : file.signatories) {

@@ -220,8 +220,8 @@ void Structure::attributes(const XmlElement& e, const std::vector<ElementType::A
         if (name.starts_with(k_instance)) {
             continue;  // where a schema lies
         }
-        const bool is_known =
-            std::any_of(known.begin(), known.end(), [&](const ElementType::Attribute& a) { return a.name == name; });
+        const bool is_known = std::any_of(known.begin(), known.end(),
+                                          [&name = name](const ElementType::Attribute& a) { return a.name == name; });
         const std::string fault = is_known ? text_fault(type_of_attribute(name), value, version_) : "";
         if (!is_known) {
             report("GC-DCC-0114", e, "the attribute " + short_name(name) + " of " + short_name(e.name),
