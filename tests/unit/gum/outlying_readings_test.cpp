@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -90,6 +91,33 @@ TEST(OutlyingReadings, LeavesDigitalReadingsAlone) {
     const std::vector<double> steps{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.5};
     EXPECT_EQ(positions(steps), Positions{6});
     EXPECT_TRUE(positions(steps, 0.5).empty());
+}
+
+// What the message says of it: the p-value is that of G, or a larger one where rounding hides the scatter of the others.
+TEST(OutlyingReadings, HaveThePValueOfGOrALargerOneForCoarseDigits) {
+    std::mt19937_64 chance(11);
+    std::normal_distribution<double> normal;
+    std::size_t equal = 0, larger = 0;
+    for (int set = 0; set < 400; ++set) {
+        std::vector<double> readings(5);
+        for (double& reading : readings) {
+            reading = std::round(normal(chance) * (set % 2 == 0 ? 1.0 : 1000.0));
+        }
+        readings.back() += set % 2 == 0 ? 12.0 : 12000.0;
+        for (const OutlyingReading& r : outlying_readings(readings)) {
+            const double n = static_cast<double>(r.tested);
+            const double left = (n - 1.0) * (n - 1.0) - n * r.G * r.G;  // 0 where all others are equal
+            const boost::math::students_t distribution(n - 2.0);
+            const double of_G = left < 1e-9 ? 0.0
+                                            : 2.0 * n *
+                                                  boost::math::cdf(boost::math::complement(
+                                                      distribution, r.G * std::sqrt(n * (n - 2.0) / left)));
+            EXPECT_GT(r.p_value, of_G * (1.0 - 1e-6));
+            ++(r.p_value > of_G * (1.0 + 1e-6) ? larger : equal);
+        }
+    }
+    EXPECT_GT(equal, 100U);
+    EXPECT_GT(larger, 1U);
 }
 
 TEST(OutlyingReadings, DoNotDependOnTheOrderOrTheUnit) {

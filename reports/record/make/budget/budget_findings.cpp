@@ -127,7 +127,8 @@ reports::Remark outliers(const std::vector<const OutlyingReading*>& all) {
         .message = {.code = "GC-BUDGET-0031",
                     .where = place_of(first.input, first.component, points),
                     .what = std::move(what),
-                    .rule = "Grubbs' test at 1 % (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.5.17.1)",
+                    .rule = "Grubbs' test at 1 % (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.5.17.1); for "
+                            "the p-value, s of the others is at least step/√12 of their last digit or resolution",
                     .action = "Look for the cause: a slip of the pen, a disturbance. Leave a reading out only for a "
                               "cause that is on record; else it stays, and s with it.",
                     .severity = gum::Severity::warning},
