@@ -1,0 +1,44 @@
+"""What counts as a line or a branch that was reached (tests/coverage/measure.py)."""
+
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import measure  # noqa: E402
+
+
+def line(number, count, branches=()):
+    return {"line_number": number, "count": count,
+            "branches": [{"count": of, "throw": thrown, "fallthrough": False} for of, thrown in branches]}
+
+
+def report(file, *lines):
+    return {"files": [{"file": file, "lines": list(lines)}]}
+
+
+class Coverage(unittest.TestCase):
+    def test_lines_of_several_units_are_the_same_lines(self):
+        sums = measure.sums_of(*measure.counts_of([report("gum/a.h", line(1, 0), line(2, 0)), report("gum/a.h", line(1, 3))]))
+        self.assertEqual(sums, {"gum": [2, 1, 0, 0]})
+
+    def test_ways_of_exceptions_are_no_branches(self):
+        counted = measure.counts_of([report("gum/a.cpp", line(1, 2, [(2, False), (0, False), (0, True)]), line(2, 1, [(1, False), (0, True)]))])
+        self.assertEqual(measure.sums_of(*counted), {"gum": [2, 2, 2, 1]})
+
+    def test_instances_of_a_template_are_one(self):
+        counted = measure.counts_of([report("gum/a.cpp", line(1, 1, [(1, False), (0, False)]), line(1, 1, [(0, False), (1, False)]))])
+        self.assertEqual(measure.sums_of(*counted), {"gum": [1, 1, 2, 2]})
+
+    def test_sources_of_others_and_tests_do_not_count(self):
+        counted = measure.counts_of([report("/usr/include/vector", line(1, 1)), report("tests/unit/a_test.cpp", line(1, 1)),
+                                     report(str(measure.ROOT / "json/step.cpp"), line(1, 1))])
+        self.assertEqual(measure.sums_of(*counted), {"json": [1, 1, 0, 0]})
+
+    def test_the_page_is_made_from_the_table(self):
+        page = measure.PAGE.read_text(encoding="utf-8")
+        self.assertEqual(page, measure.page_of(measure.known_rows()), "run scripts/coverage, change neither by hand")
+
+
+if __name__ == "__main__":
+    unittest.main()
