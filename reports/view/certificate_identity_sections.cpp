@@ -396,13 +396,37 @@ nlohmann::json issued_status(const Wording& words, const EvaluationRecord& recor
     return json::array({{{"text", printable(text.first())}}});
 }
 
+namespace {
+
+/// With the decimal sign of the language in numbers with a unit, by which a point is named: "E [1 kV, 0.50 V]".
+Text place_of_result(const std::string& where, const Wording& words) {
+    constexpr std::string_view k_before_unit = "\u00A0";
+    const std::size_t point = where.ends_with(']') ? where.rfind(" [") : std::string::npos;
+    if (point == std::string::npos) {
+        return where;
+    }
+    Text place = where.substr(0, point + 2);
+    std::string rest = where.substr(point + 2);
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(", "), rest.size() - 1);
+        const std::string part = rest.substr(0, end);
+        place += part.find(k_before_unit) == std::string::npos ? Text(part) : words.number(part);
+        place += end + 1 == rest.size() ? "]" : ", ";
+        rest = end + 1 == rest.size() ? "" : rest.substr(end + 2);
+    }
+    return place;
+}
+
+}  // namespace
+
 Text place_of_change(const certificate::Change& change, const Wording& words) {
     if (change.where.empty()) {
         return word_of_change(change.kind, words);
     }
     if (!change.where.starts_with('/')) {
         const bool is_place = change.kind == "value" || change.kind == "cell" || change.kind == "words";
-        return is_place ? Text(change.where) : change.where + ": " + word_of_change(change.kind, words);
+        const Text place = place_of_result(change.where, words);
+        return is_place ? place : place + ": " + word_of_change(change.kind, words);
     }
     Text text;
     std::string rest = change.where;

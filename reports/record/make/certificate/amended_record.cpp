@@ -19,6 +19,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit.h"
 #include "gum/rounding.h"
+#include "reports/record/make/certificate/paired_points.h"
 #include "reports/record/make/certificate/paired_rows.h"
 #include "text/numbers.h"
 
@@ -340,6 +341,22 @@ void show_layout(const CertifiedTable& table, std::vector<TableText>& shown) {
     }
 }
 
+/// "D_u" of "D_u [10 bar]"; the whole where there is no point.
+std::string result_of_place(const std::string& where) {
+    return where.ends_with(']') ? where.substr(0, where.rfind(" [")) : where;
+}
+
+/// "10 bar" of "D_u [10 bar]", or "".
+std::string point_of_place(const std::string& where) {
+    const std::size_t result = result_of_place(where).size();
+    constexpr std::size_t k_brackets = 3;
+    return where.size() < result + k_brackets ? "" : where.substr(result + 2, where.size() - result - k_brackets);
+}
+
+std::string place_of_point(const std::string& result, const std::string& point) {
+    return result + " [" + point + "]";
+}
+
 /// What the verdicts of a result have in common, once.
 std::string of_verdicts(const CertifiedColumn& column, std::string certificate::Verdict::*member) {
     std::vector<std::string> all;
@@ -387,6 +404,11 @@ public:
     }
 
     [[nodiscard]] bool has(const std::string& where) const { return places_.contains(where); }
+    /// Whether a place of no point has the same texts here and there, however many tables show it: a table that came or went
+    /// says nothing else of its result.
+    [[nodiscard]] bool says_the_same(const TableText& of, const TableTexts& there) const {
+        return point_of_place(of.where).empty() && distinct(of) == there.distinct(of);
+    }
     [[nodiscard]] std::optional<std::string> text(const TableText& of, std::size_t nth) const {
         const auto found = texts_.find({of.kind, of.where});
         return found == texts_.end() || nth >= found->second.size() ? std::nullopt : std::optional(found->second[nth]);
@@ -395,16 +417,44 @@ public:
 private:
     std::map<std::pair<std::string, std::string>, std::vector<std::string>> texts_;
     std::set<std::string> places_;
+
+    [[nodiscard]] std::set<std::string> distinct(const TableText& of) const {
+        const auto found = texts_.find({of.kind, of.where});
+        return found == texts_.end() ? std::set<std::string>()
+                                     : std::set<std::string>(found->second.begin(), found->second.end());
+    }
 };
+
+/// Texts of rows, point by point.
+std::vector<ShownPoint> points_of(const std::vector<TableText>& shown) {
+    std::vector<ShownPoint> points;
+    std::map<std::string, std::size_t> positions;
+    for (const TableText& one : shown) {
+        const std::string number = point_of_place(one.where);
+        if (number.empty() || one.text.empty()) {
+            continue;
+        }
+        const auto [position, is_new] = positions.emplace(number, points.size());
+        if (is_new) {
+            points.push_back({.number = number, .texts = {}});
+        }
+        points[position->second].texts.emplace(one.kind + " " + result_of_place(one.where), one.text);
+    }
+    return points;
+}
 
 /// Of a result or cell that only one of both has, its value says all: no line for each of its texts.
 bool tells_a_place(const TableText& one) {
     return one.kind == "value" || one.kind == "cell" || one.kind == "words";
 }
 
-void compare_results(const Certificate& earlier, const Certificate& later, std::vector<Change>& changes) {
-    const std::vector<TableText> before = shown_in_tables(earlier);
-    const std::vector<TableText> after = shown_in_tables(later);
+void compare_results(std::vector<TableText> before, const std::vector<TableText>& after, const PointsOfBoth& points,
+                     std::vector<Change>& changes) {
+    for (TableText& one : before) {
+        if (const std::string number = point_of_place(one.where); !number.empty()) {
+            one.where = place_of_point(result_of_place(one.where), points.earlier_as_later(number));
+        }
+    }
     const TableTexts of_before(before);
     const TableTexts of_after(after);
     // What is said of a result stands with it in the table of each group of rows: it is told once.
@@ -420,22 +470,18 @@ void compare_results(const Certificate& earlier, const Certificate& later, std::
     for (const TableText& one : after) {
         const std::optional<std::string> old = of_before.text(one, seen[{one.kind, one.where}]++);
         const bool is_shown = of_before.has(one.where) || tells_a_place(one);
-        if (old.value_or("") != one.text && is_shown) {
+        if (old.value_or("") != one.text && is_shown && !of_before.says_the_same(one, of_after)) {
             tell(one, old.value_or(""), one.text);
         }
     }
     seen.clear();
     for (const TableText& one : before) {
         const bool has_gone = !of_after.text(one, seen[{one.kind, one.where}]++);
-        if (has_gone && !one.text.empty() && (of_after.has(one.where) || tells_a_place(one))) {
+        if (has_gone && !one.text.empty() && (of_after.has(one.where) || tells_a_place(one)) &&
+            !of_before.says_the_same(one, of_after)) {
             tell(one, one.text, "");
         }
     }
-}
-
-/// "D_u" of "D_u [10 bar]"; the whole where there is no point.
-std::string result_of_place(const std::string& where) {
-    return where.ends_with(']') ? where.substr(0, where.rfind(" [")) : where;
 }
 
 /// One change in place of those of all values of a result, where all are the same: a limit was agreed once, not at each point.
@@ -524,11 +570,19 @@ std::vector<Change> changes_of_titles(const EvaluationRecord& earlier, const Eva
 }  // namespace
 
 std::vector<Change> changes_between(const Certificate& earlier, const Certificate& later) {
+    const std::vector<TableText> before = shown_in_tables(earlier);
+    const std::vector<TableText> after = shown_in_tables(later);
+    const PointsOfBoth points(earlier, points_of(before), later, points_of(after));
     std::vector<Change> of_results;
-    compare_results(earlier, later, of_results);
+    compare_results(before, after, points, of_results);
     std::vector<Change> of_texts;
     compare_texts(earlier, later, of_texts);
     of_results = with_common_changes_once(of_results, of_texts, later);
+    for (Change& change : of_results) {
+        if (const std::string number = point_of_place(change.where); !number.empty()) {
+            change.where = place_of_point(result_of_place(change.where), points.name(number));
+        }
+    }
     // For whom and of what comes first, as on the certificate; then the results, then all else.
     const auto rest = std::stable_partition(of_texts.begin(), of_texts.end(), [](const Change& change) {
         return change.where.starts_with("/item") || change.where.starts_with("/customer");

@@ -116,18 +116,18 @@ TEST(AmendedRecord, TellsCellsLimitsAndHeadingsThatDiffer) {
     };
     EXPECT_EQ(changed([](auto&) {}), "");
     EXPECT_EQ(changed([](auto& t) { t.layout->columns[0].printed[0] = "1 mg **"; }),
-              "words mark [1]: 1 mg -> 1 mg **\n");
+              "words mark [1 mg **]: 1 mg -> 1 mg **\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->columns[1].printed[0] = "5.1001"; }),
-              "cell nominal [1]: 5.1000\u00A0mm -> 5.1001\u00A0mm\n");
+              "cell nominal [1 mg]: 5.1000\u00A0mm -> 5.1001\u00A0mm\n");
     EXPECT_EQ(changed([](auto& t) { t.columns[0].values[1].verdict->printed.upper = "5"; }),
-              "limit_high E [2]: 1.6\u00A0mg -> 5\u00A0mg\n");
+              "limit_high E [500 mg]: 1.6\u00A0mg -> 5\u00A0mg\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->columns[0].heading = "Marking"; }), "heading mark: Mark -> Marking\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->shown[0].role = t.layout->columns[0].role = "nominal"; }),
               "role mark:  -> nominal\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->title = "Weights"; }), "title E:  -> Weights\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->shown.pop_back(); }), "columns E: mark, E, limit(E) -> mark, E\n");
     EXPECT_EQ(changed([](auto& t) { t.layout->group = "class F1"; }),
-              "group E [1]:  -> class F1\ngroup E [2]:  -> class F1\n");
+              "group E [class F1, 1 mg]:  -> class F1\ngroup E [class F1, 500 mg]:  -> class F1\n");
     EXPECT_EQ(changed([](auto& t) { t.argument->printed[0] = "one"; }).find("limit"), std::string::npos)
         << "a result that came is told by its value";
 }
@@ -404,6 +404,95 @@ TEST(AmendedRecord, RowsAreComparedByWhatTheyAre) {
     later = earlier;
     later.data.customer.address.lines.insert(later.data.customer.address.lines.begin(), "Building B");
     EXPECT_EQ(said(changes_between(earlier, later)), "text /customer/address/lines/0:  -> Building B\n");
+}
+
+/// A table of the points of a range, as a job with columns of points gives it.
+certificate::CertifiedTable table_of_points(const std::string& group, const std::vector<std::size_t>& settings,
+                                            std::size_t first_number) {
+    certificate::CertifiedTable table = certificate_with_layout().tables.front();
+    table.layout->group = group;
+    table.layout->columns.resize(1);
+    certificate::PointColumn& setting = table.layout->columns.front();
+    setting.name = "V_s";
+    setting.role = "reference";
+    setting.printed_unit = "V";
+    setting.printed.clear();
+    setting.values.clear();
+    certificate::PointColumn indication = setting;
+    indication.name = "V_x";
+    indication.role = "indication";
+    const certificate::CertifiedValue value = table.columns.front().values.front();
+    table.columns.front().values.clear();
+    table.argument->printed.clear();
+    table.argument->values.assign(settings.size(), {});
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        setting.printed.push_back(std::to_string(settings[i]) + ".0");
+        setting.values.emplace_back(static_cast<double>(settings[i]));
+        indication.printed.push_back(setting.printed.back() + std::to_string(settings[i] * 7 % 10));
+        indication.values.emplace_back(static_cast<double>(settings[i]));
+        table.columns.front().values.push_back(value);
+        table.columns.front().values.back().printed_value = std::to_string(settings[i] * 13 % 97);
+        table.argument->printed.push_back(std::to_string(first_number + i));
+    }
+    table.layout->columns.push_back(indication);
+    return table;
+}
+
+// Numbers of points that nobody sees say nothing: a point that came, went or stands elsewhere changes none of the other ones.
+TEST(AmendedRecord, PointsAreComparedByWhatTheirRowsShow) {
+    std::mt19937 random(8);
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    for (int round = 0; round < 60; ++round) {
+        std::vector<std::size_t> low;
+        std::vector<std::size_t> high;
+        for (std::size_t i = 0; i < 3 + below(5); ++i) {
+            low.push_back(1 + i);
+            high.push_back(3 + 10 * i);
+        }
+        const auto certificate_of = [](const auto& first, const std::vector<std::size_t>& own, const auto& second,
+                                       const std::vector<std::size_t>& other) {
+            certificate::Certificate c = certificate_with_layout();
+            c.tables = {table_of_points(first, own, 1), table_of_points(second, other, 1 + own.size())};
+            return c;
+        };
+        const certificate::Certificate earlier = certificate_of("10 V", low, "100 V", high);
+        const certificate::Certificate other_order = certificate_of("100 V", high, "10 V", low);
+        EXPECT_EQ(said(changes_between(earlier, other_order)), "") << "the order of ranges";
+        std::vector<std::size_t> shuffled = low;
+        std::shuffle(shuffled.begin(), shuffled.end(), random);
+        certificate::Certificate later = certificate_of("10 V", shuffled, "100 V", high);
+        EXPECT_EQ(said(changes_between(earlier, later)), "") << "the order of points";
+
+        const std::size_t edited = below(low.size());
+        const std::string point = "[10 V, " + std::to_string(shuffled[edited]) + ".0\u00A0V]";
+        certificate::CertifiedValue& value = later.tables.front().columns.front().values[edited];
+        const std::string before = std::exchange(value.printed_value, "98");
+        EXPECT_EQ(said(changes_between(earlier, later)),
+                  "value E " + point + ": " + before + "\u00A0mg -> 98\u00A0mg\n");
+
+        std::vector<std::size_t> fewer = low;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(edited));
+        later = certificate_of("10 V", fewer, "100 V", high);
+        const std::string of_point = "[10 V, " + std::to_string(low[edited]) + ".0\u00A0V]";
+        for (const Change& change : changes_between(earlier, later)) {
+            EXPECT_TRUE(change.where.ends_with(of_point) && change.after.empty()) << said({change});
+        }
+        EXPECT_EQ(changes_between(earlier, later).size(), 3U) << "value, setting and indication";
+        for (const Change& change : changes_between(later, earlier)) {
+            EXPECT_TRUE(change.where.ends_with(of_point) && change.before.empty()) << said({change});
+        }
+        later = earlier;
+        later.tables.pop_back();
+        for (const Change& change : changes_between(earlier, later)) {
+            EXPECT_TRUE(change.where.find("[100 V, ") != std::string::npos && change.after.empty()) << said({change});
+        }
+    }
+    // Points that show the same are told apart by their numbers, and no value is lost.
+    certificate::Certificate earlier = certificate_with_layout();
+    earlier.tables = {table_of_points("", {5, 5, 5}, 1)};
+    certificate::Certificate later = earlier;
+    later.tables.front().columns.front().values[1].printed_value = "98";
+    EXPECT_EQ(said(changes_between(earlier, later)), "value E [5.0\u00A0V, 2]: 65\u00A0mg -> 98\u00A0mg\n");
 }
 
 /// The code of the refusal, or "" where the changes were stated.

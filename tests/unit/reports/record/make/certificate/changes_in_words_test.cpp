@@ -124,6 +124,9 @@ TEST(ChangesInWords, AreWrittenAsTheDocumentWritesThem) {
     EXPECT_EQ(told(change("text", "/accreditation/scope/0/capability/expression", "a", "b")),
               "Akkreditierung: Eintrag des Bereichs 1: Messmöglichkeit: Ausdruck | a | b");
     EXPECT_EQ(told(change("cell", "nominal [1]", "5.1000 mm", "5.1001 mm")), "nominal [1] | 5,1000 mm | 5,1001 mm");
+    EXPECT_EQ(told(change("value", "E [No. 2.1, 10.0\u00A0mV]", "1.5 mV", "")), "E [No. 2.1, 10,0\u00A0mV] | 1,5 mV | ")
+        << "numbers with a unit";
+    EXPECT_EQ(told(change("U", "E [10 V]", "1.5 mV", "")), "E [10 V]: U | 1,5 mV | ");
     EXPECT_EQ(told(change("words", "mark [1]", "No. 2.1", "No. 2.2")), "mark [1] | No. 2.1 | No. 2.2");
     EXPECT_EQ(told(change("limit_high", "E [2]", "1.6 mg", "5 mg")), "E [2]: obere Grenze | 1,6 mg | 5 mg");
     EXPECT_EQ(told(change("raised", "E", "false", "true")), "E: U ist die Messmöglichkeit | nein | ja");
