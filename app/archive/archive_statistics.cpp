@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -29,6 +32,64 @@ double control_limit(double sigma, std::int64_t nu) {
     return sigma * std::sqrt(2.0 * gum::upper_quantile(half_chi_squared, k_beyond) / static_cast<double>(nu));
 }
 
+/// Methods of a certificate: sections may have one of their own.
+class MethodsOfCertificate {
+public:
+    /// \param record  with its certificate
+    explicit MethodsOfCertificate(const json& record) {
+        const json& certificate = gumcert::json::part_of(record, "certificate");
+        const json& data = gumcert::json::part_of(certificate, "data");
+        method_ = method_of(data);
+        std::map<std::string, std::string> own;
+        for (const json& section : gumcert::json::part_of(data, "sections")) {
+            if (const std::string method = method_of(section); !method.empty()) {
+                own[gumcert::json::text_of(section, "section")] = method;
+            }
+        }
+        const auto of_section = [&](const std::string& name) {
+            const auto found = own.find(name);
+            return found == own.end() ? method_ : found->second;
+        };
+        for (const json& section : gumcert::json::part_of(record, "sections")) {
+            all_.insert(of_section(gumcert::json::text_of(section, "name")));
+        }
+        for (const json& table : gumcert::json::part_of(certificate, "tables")) {
+            const std::string method = of_section(gumcert::json::text_of(table, "section"));
+            for (const json& point : gumcert::json::part_of(gumcert::json::part_of(table, "argument"), "printed")) {
+                if (point.is_string()) {
+                    of_point_[point.get<std::string>()].insert(method);
+                }
+            }
+        }
+        if (all_.empty()) {
+            all_.insert(method_);
+        }
+    }
+
+    [[nodiscard]] const std::set<std::string>& all() const { return all_; }
+    /// Of readings at a point; where sections of several methods have a point of this name, all of them.
+    [[nodiscard]] std::string at(const std::string& point) const {
+        const auto found = of_point_.find(point);
+        if (found == of_point_.end()) {
+            return method_;
+        }
+        std::string methods;
+        for (const std::string& method : found->second) {
+            methods += (methods.empty() ? "" : " / ") + method;
+        }
+        return methods;
+    }
+
+private:
+    std::string method_;
+    std::set<std::string> all_;
+    std::map<std::string, std::set<std::string>> of_point_;
+
+    static std::string method_of(const json& part) {
+        return gumcert::json::text_of(gumcert::json::part_of(part, "method"), "identification");
+    }
+};
+
 class StatisticsOfRecords {
 public:
     void look_at(const archive::ListedCertificate& certificate, const std::string& bytes) {
@@ -41,10 +102,12 @@ public:
             return;
         }
         const json& data = gumcert::json::part_of(gumcert::json::part_of(record, "certificate"), "data");
-        const std::string method = gumcert::json::text_of(gumcert::json::part_of(data, "method"), "identification");
+        const MethodsOfCertificate methods(record);
         const json& dates = gumcert::json::part_of(data, "dates");
         count(found_.by_kind, gumcert::json::text_of(record, "kind"));
-        count(found_.by_method, method);
+        for (const std::string& method : methods.all()) {
+            count(found_.by_method, method);
+        }
         if (certificate.state != "drafted" && certificate.state != "reviewed" && certificate.state != "authorised") {
             const archive::CertificateLife& life = lives_.at(certificate.number);
             count(found_.by_month, life.issued_at.substr(0, 7));
@@ -54,7 +117,7 @@ public:
         const std::string done = gumcert::json::text_of(dates, "performed_to");
         const std::string day = done.empty() ? gumcert::json::text_of(dates, "performed_from") : done;
         take_scores(certificate.number, day, gumcert::json::part_of(record, "comparison"));
-        take_readings(certificate.number, day, method, gumcert::json::part_of(record, "readings"));
+        take_readings(certificate.number, day, methods, gumcert::json::part_of(record, "readings"));
     }
     void begin(const std::map<std::string, archive::CertificateLife>& lives) {
         lives_ = lives;
@@ -167,7 +230,7 @@ private:
         }
     }
 
-    void take_readings(const std::string& number, const std::string& day, const std::string& method,
+    void take_readings(const std::string& number, const std::string& day, const MethodsOfCertificate& methods,
                        const json& readings) {
         for (const json& one : readings) {
             const json& s = gumcert::json::part_of(one, "standard_deviation");
@@ -179,6 +242,7 @@ private:
             const std::string component = gumcert::json::text_of(one, "component");
             const std::string input =
                 gumcert::json::text_of(one, "input") + (component.empty() ? "" : ", " + component);
+            const std::string method = methods.at(gumcert::json::text_of(one, "point"));
             scatters_[{method, input, gumcert::json::text_of(one, "unit")}].push_back(
                 {.number = number,
                  .day = day,

@@ -108,6 +108,36 @@ TEST_F(StatisticsOfAnArchive, ChartsStandardDeviations) {
     EXPECT_NE(statistics_text(found).find("ABOVE THE LIMIT: C-107"), std::string::npos);
 }
 
+/// A certificate has the methods of its sections, and readings that of the section whose point they are of.
+TEST_F(StatisticsOfAnArchive, TakeTheMethodsOfSections) {
+    for (int i = 0; i < 3; ++i) {
+        json one = record("CP-11", "2026-11-0" + std::to_string(1 + i), "M. Weber");
+        one["sections"] = {{{"name", "DC"}}, {{"name", "AC"}}, {{"name", "DC, four wires"}}};
+        json& certificate = one["certificate"];
+        certificate["data"]["sections"] = {{{"section", "AC"}, {"method", {{"identification", "CP-12"}}}},
+                                           {{"section", "DC, four wires"}, {"method", nullptr}}};
+        certificate["tables"] = {{{"section", "DC"}, {"argument", {{"printed", {"1"}}}}},
+                                 {{"section", "AC"}, {"argument", {{"printed", {"2"}}}}},
+                                 {{"section", "DC, four wires"}, {"argument", nullptr}}};
+        const auto at = [](const char* point, double s) {
+            json set = readings(10.0, s, 3);
+            set["point"] = point;
+            return set;
+        };
+        one["readings"] = {at("1", 0.001), at("2", 0.01), readings(20.0, 0.001, 3)};
+        add("C-" + std::to_string(i), one);
+    }
+    const ArchiveStatistics found = statistics_of(archive_);
+    EXPECT_EQ(found.by_method, (std::map<std::string, std::size_t>{{"CP-11", 3}, {"CP-12", 3}}));
+    ASSERT_EQ(found.charts.size(), 3U);
+    const auto said = [&](std::size_t i) {
+        return found.charts[i].method + " " + std::to_string(found.charts[i].scatters.size());
+    };
+    EXPECT_EQ(said(0) + ", " + said(1) + ", " + said(2), "CP-11 3, CP-11 3, CP-12 3");
+    EXPECT_NEAR(found.charts[0].pooled_standard_deviation, 0.001, 1e-12);
+    EXPECT_NEAR(found.charts[2].pooled_standard_deviation, 0.01, 1e-12);
+}
+
 /// A set that is out of control has a mean that is less than ten of its own standard deviations away from 0: it stays beside
 /// those with its mean. s_p² = (7.6² + 8.36² + 6.84² + 7.6² + 22.8²)/5, √(χ²(9; 0.99865)/9) = 1.7347.
 TEST_F(StatisticsOfAnArchive, ChartASetBesideThoseOfItsMeanWhateverItsScatter) {
