@@ -55,7 +55,9 @@ std::string select_entries(const char* rest) {
 /// \param address  of the file where it is opened in another way than by its name (SQLITE_OPEN_URI)
 Database open_database(const fs::path& file, int flags, const std::string& address = "") {
     sqlite3* opened = nullptr;
-    const int result = sqlite3_open_v2(address.empty() ? file.c_str() : address.c_str(), &opened,
+    // Without a folder SQLite takes ":memory:" for no file, and "file:x" for an address.
+    const std::string name = file.is_absolute() ? file.string() : "./" + file.string();
+    const int result = sqlite3_open_v2(address.empty() ? name.c_str() : address.c_str(), &opened,
                                        flags | SQLITE_OPEN_EXRESCODE, nullptr);
     Database database(opened);
     if (result != SQLITE_OK) {
@@ -548,7 +550,7 @@ std::unique_ptr<Store> open_sqlite_store(const fs::path& file, Access access) {
 }
 
 std::string schema_digest() {
-    const Database database = open_database(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    const Database database = open_database("", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, ":memory:");
     execute(database.get(), k_schema, ":memory:");
     std::string lines;
     for (const std::string& line : schema_lines(database.get(), ":memory:")) {

@@ -51,6 +51,24 @@ TEST(SqliteStore, SeesThatATriggerIsMissing) {
               std::vector<std::string>{"tables, indices or triggers are not those of an archive"});
 }
 
+/// Names that SQLite takes for a database in memory, or for an address with parameters, are files.
+TEST(SqliteStore, TakesEveryNameForThatOfAFile) {
+    const StoreFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.file().parent_path());
+    const LogEntry first = next_entry();
+    for (const char* const name : {":memory:", "file:a.archive", "file:b.archive?mode=memory&cache=shared", "c?mode=ro",
+                                   "d#e", "%41", "-f", "g\nh"}) {
+        (void)create_sqlite_store(name, first);
+        EXPECT_TRUE(std::filesystem::exists(name)) << name;
+        for (const Access access : {Access::read_only, Access::read_and_write}) {
+            EXPECT_EQ(open_sqlite_store(name, access)->last_entry(), first) << name;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists("A")) << "an escape was read";
+    std::filesystem::current_path(before);
+}
+
 TEST(SqliteStore, SaysWhatItIsNot) {
     const StoreFolder folder;
     EXPECT_EQ(code_of([&] { (void)open_sqlite_store(folder.file(), Access::read_only); }), "GC-ARCHIVE-0001");
