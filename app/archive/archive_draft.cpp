@@ -57,6 +57,12 @@ namespace fs = std::filesystem;
         "name the documents that were made of this record");
 }
 
+/// Whether a remark is for whoever takes values out of a certificate. Here each element is compared with that of the record.
+bool says_what_import_leaves_out(const gum::Diagnostic& one) {
+    const bool is_of_reading = one.code.starts_with("GC-DCC-00") && one.code < "GC-DCC-0040";
+    return one.severity != gum::Severity::error && (is_of_reading || one.code.starts_with("GC-DCC-01"));
+}
+
 /// Keeps remarks, and refuses with all errors together.
 class CheckFindings {
 public:
@@ -158,8 +164,10 @@ public:
             require_nothing_beside_pages(file, bytes, verification, findings);
         } else {
             document.media_type = "application/xml";
-            findings.take(imports::check_certificate(document.bytes, file.string(),
-                                                     {.trusted = checks_.trusted, .now = checks_.now}));
+            std::vector<gum::Diagnostic> found = imports::check_certificate(
+                document.bytes, file.string(), {.trusted = checks_.trusted, .now = checks_.now});
+            std::erase_if(found, says_what_import_leaves_out);
+            findings.take(std::move(found));
         }
         const std::vector<DocumentIdentity> identities = identities_in(document.bytes, file.string(), verification);
         findings.take(doubts_about(file.string(), identities, verification));
@@ -560,12 +568,15 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
     checked.draft.record = read_file(record_file);
     checked.record = reports::record_from_json(checked.draft.record, name);
     if (!checked.record.certificate || checked.record.certificate->data.number.empty()) {
-        throw gum::InputError(
-            gum::Diagnostic{.code = "GC-ARCHIVE-0028",
-                            .where = name,
-                            .what = "a record without certificate data",
-                            .rule = "an archive keeps certificates, each under its number",
-                            .action = "state the certificate data in the job, docs/certificate_data.md"});
+        const bool compares = checked.record.kind == "comparison";
+        throw gum::InputError(gum::Diagnostic{
+            .code = "GC-ARCHIVE-0028",
+            .where = name,
+            .what = compares ? "the record of a comparison, whose report is no certificate"
+                             : "a record without certificate data",
+            .rule = "an archive keeps certificates, each under its number",
+            .action = compares ? "keep record and report of a comparison with the files of its organiser"
+                               : "state the certificate data in the job, docs/certificate_data.md"});
     }
     reports::EvaluationRecord again = checked.record;
     if (const std::optional<gum::Diagnostic> why =

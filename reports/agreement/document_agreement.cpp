@@ -499,7 +499,14 @@ const DocumentWords::Mark* PrintedDocument::mark_of(const std::vector<DocumentWo
 
 std::string PrintedDocument::mark_on(const DocumentWords& words) const {
     const DocumentWords::Mark* const mark = mark_of(words.marks);
-    return mark == nullptr ? "" : "is marked \"" + mark->text + "\", and is no certificate as it is issued";
+    if (mark == nullptr) {
+        return "";
+    }
+    std::string text = mark->text;  // "SUPERSEDED by {number}": the place of a number
+    for (std::size_t begin = text.find('{'); begin != std::string::npos; begin = text.find('{')) {
+        text.replace(begin, std::min(text.find('}', begin), text.size() - 1) + 1 - begin, "\u2026");
+    }
+    return "is marked \"" + text + "\", and is no certificate as it is issued";
 }
 
 bool PrintedDocument::names_other_templates(const DocumentWords& words) const {

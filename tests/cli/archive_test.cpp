@@ -184,6 +184,31 @@ TEST_F(ArchiveOfALaboratory, TakesARecordOfACertificateOnly) {
         gumcert({"evaluate", path("end_gauge.json"), "-o", path("plain.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_TRUE(tells(archive({"add", path("plain.json")}, "R. Lin"), "[GC-ARCHIVE-0028]"));
+    fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "comparison" / "key_comparison.json", folder());
+    const Ended compared = gumcert(
+        {"evaluate", path("key_comparison.json"), "-o", path("comparison.json"), "--share", GUMCERT_SOURCE_DIR, "-q"});
+    ASSERT_LE(compared.code, 1) << compared.err;
+    const Ended refused = archive({"add", path("comparison.json")}, "R. Lin");
+    EXPECT_TRUE(tells(refused, "[GC-ARCHIVE-0028]") && tells(refused, "comparison, whose report")) << refused.err;
+}
+
+// What reading leaves out of a digital certificate is no fault of a document that says what its record says.
+TEST_F(ArchiveOfALaboratory, WarnsOfNothingInItsOwnDigitalCertificates) {
+    begin();
+    for (const char* const name : {"torque_wrench", "pt100", "multimeter", "mass_set"}) {
+        const fs::path own = folder() / name;
+        fs::copy(fs::path(GUMCERT_SOURCE_DIR) / "examples" / "everyday" / name, own);
+        const std::string record = (own / "record.json").string();
+        const std::string xml = (own / "certificate.xml").string();
+        Ended ended =
+            gumcert({"evaluate", (own / "job.json").string(), "-o", record, "--share", GUMCERT_SOURCE_DIR, "-q"});
+        ASSERT_LE(ended.code, 1) << ended.err;
+        ended = gumcert({"render", record, "--format", "dcc", "-o", xml, "--share", GUMCERT_SOURCE_DIR, "-q"});
+        ASSERT_EQ(ended.code, 0) << ended.err;
+        ended = archive({"add", record, xml}, "R. Lin");
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_FALSE(tells(ended, "GC-DCC-")) << ended.err;
+    }
 }
 
 TEST_F(ArchiveOfALaboratory, IssuesNoSpecimen) {
