@@ -398,23 +398,14 @@ nlohmann::json issued_status(const Wording& words, const EvaluationRecord& recor
 
 namespace {
 
-/// With the decimal sign of the language in numbers with a unit, by which a point is named: "E [1 kV, 0.50 V]".
+/// With what a point is called by in the words of the language: "E [1 kV, 0.50 V]".
 Text place_of_result(const std::string& where, const Wording& words) {
-    constexpr std::string_view k_before_unit = "\u00A0";
     const std::size_t point = where.ends_with(']') ? where.rfind(" [") : std::string::npos;
     if (point == std::string::npos) {
         return where;
     }
-    Text place = where.substr(0, point + 2);
-    std::string rest = where.substr(point + 2);
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(", "), rest.size() - 1);
-        const std::string part = rest.substr(0, end);
-        place += part.find(k_before_unit) == std::string::npos ? Text(part) : words.number(part);
-        place += end + 1 == rest.size() ? "]" : ", ";
-        rest = end + 1 == rest.size() ? "" : rest.substr(end + 2);
-    }
-    return place;
+    const std::string name = where.substr(point + 2, where.size() - point - 3);
+    return where.substr(0, point + 2) + point_in_words(name, words) + "]";
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 #include "reports/view/certified_overview.h"
 
+#include "certificate/point_names.h"
 #include "reports/printed_texts.h"
 #include "reports/result_names.h"
 #include "reports/view/certified_value_tables.h"
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace gumcert::reports {
@@ -28,13 +30,20 @@ bool is_printed(const CertifiedValue& v) {
     return !v.printed_value.empty() || v.verdict;
 }
 
+using PointIdentities = std::map<std::string, certificate::PointIdentity>;
+
 /// Rows of one column that a sentence is about.
+/// \param points  those whose numbers nobody sees: they are called by what their rows show
 void name_rows(std::vector<Text>& names, const CertifiedTable& table, const CertifiedColumn& column,
-               const CertifiedOverview::Holds& named, const Wording& words) {
+               const CertifiedOverview::Holds& named, const PointIdentities& points, const Wording& words) {
     const Text result = name_of_result(table.id, column.result, words);
+    const bool is_unnamed = certificate::has_unnamed_points(table);
     const auto holds = [&](std::size_t row) { return is_printed(column.values[row]) && named(column.values[row]); };
     const auto name = [&](std::size_t row) {
-        return table.argument ? result + "[" + name_of_row(*table.argument, row, words) + "]" : result;
+        const Text point = is_unnamed       ? point_in_words(points.at(table.argument->printed.at(row)).name, words)
+                           : table.argument ? name_of_row(*table.argument, row, words)
+                                            : Text();
+        return table.argument ? result + "[" + point + "]" : result;
     };
     for (std::size_t first = 0; first < column.values.size();) {
         std::size_t end = first;
@@ -169,6 +178,19 @@ bool CertifiedOverview::any(const Holds& holds) const {
     return false;
 }
 
+Text point_in_words(const std::string& name, const Wording& words) {
+    constexpr std::string_view k_before_unit = "\u00A0";
+    Text text;
+    for (std::size_t begin = 0; begin < name.size();) {
+        const std::size_t end = std::min(name.find(", ", begin), name.size());
+        const std::string part = name.substr(begin, end - begin);
+        text += begin == 0 ? "" : ", ";
+        text += part.find(k_before_unit) == std::string::npos ? Text(part) : words.number(part);
+        begin = end + 2;
+    }
+    return text;
+}
+
 std::vector<Text> names_of_values(const certificate::Certificate& certificate, const CertifiedOverview::Holds& named,
                                   const Wording& words) {
     std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // of a name: values, and those that are named
@@ -181,13 +203,14 @@ std::vector<Text> names_of_values(const certificate::Certificate& certificate, c
             }
         }
     }
+    const PointIdentities points = certificate::identities_of_points(certificate.tables);
     std::vector<Text> names;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {
             const Text result = name_of_result(table.id, column.result, words);
             const auto& [all, of_them] = counts.at(result.first());
             if (of_them < all) {
-                name_rows(names, table, column, named, words);
+                name_rows(names, table, column, named, points, words);
             } else if (of_them > 0 && std::find(names.begin(), names.end(), result) == names.end()) {
                 names.push_back(result);
             }

@@ -1,11 +1,11 @@
 #include "reports/record/make/certificate/paired_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <string_view>
+
+#include "certificate/point_names.h"
 
 namespace gumcert::reports {
 
@@ -13,129 +13,13 @@ namespace {
 
 using certificate::Certificate;
 using certificate::CertifiedTable;
-using certificate::PointColumn;
-
-/// What a point is, beside what was found at it.
-struct PointIdentity {
-    std::vector<std::string> parts;  ///< as they are printed: group, then cells
-    std::string results;             ///< which the tables have at it
-    std::string name;
-};
+using certificate::PointIdentity;
 using PointIdentities = std::map<std::string, PointIdentity>;  // by number
 
-/// The first parts of a point, as many as there are up to this. Brackets are round: those of the place stand around all of it.
-std::string first_parts(const PointIdentity& point, std::size_t count) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(count, point.parts.size()); ++i) {
-        text += (i == 0 ? "" : ", ") + point.parts[i];
-    }
-    std::replace(text.begin(), text.end(), '[', '(');
-    std::replace(text.begin(), text.end(), ']', ')');
-    return text;
-}
-
-bool is_running_number(const std::string& text) {
-    constexpr std::size_t k_most_digits = 9;
-    return !text.empty() && text.size() <= k_most_digits && text.find_first_not_of("0123456789") == std::string::npos;
-}
-
-bool has_points(const CertifiedTable& table) {
-    return table.argument && table.argument->name == "point";
-}
-
-/// Whether nothing that is printed says which number a point has.
-bool has_unnamed_points(const CertifiedTable& table) {
-    return table.layout &&
-           std::none_of(table.layout->shown.begin(), table.layout->shown.end(),
-                        [](const certificate::ShownColumn& c) { return c.show == "point"; }) &&
-           std::all_of(table.argument->printed.begin(), table.argument->printed.end(), is_running_number);
-}
-
 bool has_only_unnamed_points(const Certificate& certificate) {
-    return std::all_of(certificate.tables.begin(), certificate.tables.end(),
-                       [](const CertifiedTable& table) { return !has_points(table) || has_unnamed_points(table); });
-}
-
-/// Whether what a column has is found at a point, and does not say which point it is.
-bool is_found(const PointColumn& column) {
-    static constexpr std::array<std::string_view, 5> k_found = {"indication", "measured_value", "error", "deviation",
-                                                                "correction"};
-    return std::find(k_found.begin(), k_found.end(), column.role) != k_found.end();
-}
-
-/// Columns that say what a point is, those first that nobody measures.
-std::vector<const PointColumn*> identifying_columns(const certificate::TableLayout& layout) {
-    std::vector<const PointColumn*> columns;
-    for (const PointColumn& column : layout.columns) {
-        if (!is_found(column)) {
-            columns.push_back(&column);
-        }
-    }
-    std::stable_partition(columns.begin(), columns.end(), [](const PointColumn* column) {
-        return !column->role.empty() && column->role != "reference";
+    return std::all_of(certificate.tables.begin(), certificate.tables.end(), [](const CertifiedTable& table) {
+        return !table.argument || table.argument->name != "point" || certificate::has_unnamed_points(table);
     });
-    return columns;
-}
-
-PointIdentities identities_of(const Certificate& certificate) {
-    PointIdentities points;
-    for (const CertifiedTable& table : certificate.tables) {
-        if (!has_points(table) || !has_unnamed_points(table)) {
-            continue;
-        }
-        const certificate::TableLayout& layout = *table.layout;
-        const std::vector<const PointColumn*> columns = identifying_columns(layout);
-        for (std::size_t row = 0; row < table.argument->printed.size(); ++row) {
-            PointIdentity& point = points[table.argument->printed[row]];
-            const auto add = [&](const std::string& part) {
-                if (!part.empty() && std::find(point.parts.begin(), point.parts.end(), part) == point.parts.end()) {
-                    point.parts.push_back(part);
-                }
-            };
-            add(layout.group);
-            for (const PointColumn* column : columns) {
-                if (row < column->printed.size()) {
-                    const bool is_number = row < column->values.size() && column->values[row];
-                    add(column->printed[row] +
-                        (is_number && !column->printed_unit.empty() ? "\u00A0" + column->printed_unit : ""));
-                }
-            }
-            for (const certificate::CertifiedColumn& column : table.columns) {
-                point.results += column.result + '\n';
-            }
-            // The group and what follows it: a group of one point is a range, and no point.
-            point.name = first_parts(point, layout.group.empty() ? 1 : 2);
-        }
-    }
-    return points;
-}
-
-/// Names as short as they can be while no two points of the same results have one; with the number where they have.
-void tell_apart(PointIdentities& points) {
-    const auto count_names = [&] {
-        std::map<std::pair<std::string, std::string>, std::size_t> counts;
-        for (const auto& [number, point] : points) {
-            ++counts[{point.results, point.name}];
-        }
-        return counts;
-    };
-    std::size_t most = 0;
-    for (const auto& [number, point] : points) {
-        most = std::max(most, point.parts.size());
-    }
-    for (std::size_t length = 1; length <= most + 1; ++length) {
-        const auto counts = count_names();
-        for (auto& [number, point] : points) {
-            if (counts.at({point.results, point.name}) == 1 && !point.name.empty()) {
-                continue;
-            }
-            std::string longer = first_parts(point, length);
-            if (length > most) {
-                longer += (longer.empty() ? "" : ", ") + number;
-            }
-            point.name = longer.size() > point.name.size() ? longer : point.name;
-        }
-    }
 }
 
 /// The pairs of an earlier and a later point, as far as they are found.
@@ -219,10 +103,8 @@ PointsOfBoth::PointsOfBoth(const Certificate& earlier, const std::vector<ShownPo
     if (!has_only_unnamed_points(earlier) || !has_only_unnamed_points(later)) {
         return;
     }
-    PointIdentities before = identities_of(earlier);
-    PointIdentities now = identities_of(later);
-    tell_apart(before);
-    tell_apart(now);
+    const PointIdentities before = certificate::identities_of_points(earlier.tables);
+    const PointIdentities now = certificate::identities_of_points(later.tables);
     const auto of_points = [](const std::vector<ShownPoint>& shown, const PointIdentities& points) {
         std::vector<ShownPoint> own;
         std::copy_if(shown.begin(), shown.end(), std::back_inserter(own),

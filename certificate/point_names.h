@@ -1,0 +1,26 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "certificate/certified_results.h"
+
+namespace gumcert::certificate {
+
+/// What a point is, beside what was found at it.
+struct PointIdentity {
+    std::vector<std::string> parts;  ///< as they are printed: the group, then cells; a no-break space before a unit
+    std::string results;             ///< which the tables have at it
+    /// As few parts as tell it apart from other points with these results, and its number where none do:
+    /// "100 mV, 50 Hz, 10.0 mV". Without square brackets.
+    std::string name;
+};
+
+/// Whether points of a table are counted, and the table does not print the numbers.
+[[nodiscard]] bool has_unnamed_points(const CertifiedTable& table);
+
+/// The points of such tables by their numbers.
+[[nodiscard]] std::map<std::string, PointIdentity> identities_of_points(const std::vector<CertifiedTable>& tables);
+
+}  // namespace gumcert::certificate

@@ -1,0 +1,82 @@
+#include "reports/view/certified_overview.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/forms/asset_files.h"
+#include "tests/unit/reports/document_text.h"
+
+namespace gumcert::reports {
+namespace {
+
+using certificate::Certificate;
+using certificate::CertifiedTable;
+using ::testing::ElementsAre;
+
+/// A table of settings in V with values of E, of which the program counts the points.
+CertifiedTable table_of(const std::string& group, std::size_t first, const std::vector<std::string>& settings) {
+    CertifiedTable table;
+    table.id = "results";
+    table.argument.emplace().name = "point";
+    certificate::TableLayout& layout = table.layout.emplace();
+    layout.group = group;
+    certificate::PointColumn setting;
+    setting.name = "V_s";
+    setting.role = "setting";
+    setting.printed_unit = "V";
+    setting.printed = settings;
+    certificate::CertifiedColumn column;
+    column.result = "E";
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        setting.values.emplace_back(1.0);
+        table.argument->printed.push_back(std::to_string(first + i));
+        table.argument->values.emplace_back();
+        column.values.emplace_back().printed_value = "1";
+    }
+    layout.columns = {setting};
+    table.columns = {column};
+    return table;
+}
+
+std::vector<std::string> names_in(const std::string& language, const Certificate& certificate) {
+    const nlohmann::json texts =
+        nlohmann::json::parse(read_asset(assets().templates / "wording" / (language + ".json")));
+    const std::vector<Text> names = names_of_values(
+        certificate, [](const certificate::CertifiedValue& v) { return v.raised; }, Wording(texts));
+    std::vector<std::string> plain;
+    std::transform(names.begin(), names.end(), std::back_inserter(plain), [](const Text& t) { return t.first(); });
+    return plain;
+}
+
+// A sentence says which values it is about (ISO/IEC 17025:2017, 7.8.6.2 a): by what the table prints, and not by a number that
+// only the program knows.
+TEST(NamesOfValues, AreThoseThatTheTablesPrint) {
+    Certificate certificate;
+    certificate.tables = {table_of("1 kV", 1, {"0.5", "1.5"}), table_of("10 kV", 3, {"1", "2", "3", "4", "5"})};
+    certificate.tables[0].columns[0].values[1].raised = true;
+    for (std::size_t i = 1; i < 5; ++i) {
+        certificate.tables[1].columns[0].values[i].raised = true;
+    }
+    EXPECT_THAT(names_in("en", certificate),
+                ElementsAre("E[1 kV, 1.5\u00A0V]", "E[10 kV, 2\u00A0V] to E[10 kV, 5\u00A0V]"));
+    EXPECT_THAT(names_in("de", certificate),
+                ElementsAre("E[1 kV, 1,5\u00A0V]", "E[10 kV, 2\u00A0V] bis E[10 kV, 5\u00A0V]"));
+    for (CertifiedTable& table : certificate.tables) {
+        table.layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+    }
+    EXPECT_THAT(names_in("en", certificate), ElementsAre("E[2]", "E[4] to E[7]"));
+    certificate.tables[0].columns[0].values[0].raised = true;
+    certificate.tables[1].columns[0].values[0].raised = true;
+    EXPECT_THAT(names_in("en", certificate), ElementsAre("E")) << "all of them";
+}
+
+}  // namespace
+}  // namespace gumcert::reports
