@@ -595,6 +595,13 @@ std::vector<Change> changes_between(const Certificate& earlier, const Certificat
 
 std::vector<Change> changes_between(const EvaluationRecord& earlier, const EvaluationRecord& later) {
     std::vector<Change> changes = changes_of_titles(earlier, later);
+    // What every U means, which k alone does not say.
+    if (earlier.coverage_probability.text != later.coverage_probability.text) {
+        changes.push_back({.kind = "number",
+                           .where = "/coverage_probability",
+                           .before = earlier.coverage_probability.text,
+                           .after = later.coverage_probability.text});
+    }
     if (earlier.certificate && later.certificate) {
         const std::vector<Change> of_certificate = changes_between(*earlier.certificate, *later.certificate);
         changes.insert(changes.end(), of_certificate.begin(), of_certificate.end());

@@ -350,6 +350,10 @@ TEST(AmendedRecord, TellsTitlesOfTheDocumentAndItsSections) {
                                                          " -> Calibration of a ring gauge\n"
                                                          "title dc: DC voltage -> AC voltage\n");
     later = earlier;
+    later.coverage_probability.text = "95 %";
+    EXPECT_EQ(said(changes_between(earlier, later)),
+              "number /coverage_probability: " + earlier.coverage_probability.text + " -> 95 %\n");
+    later = earlier;
     later.sections.front().name = "ac";
     EXPECT_EQ(said(changes_between(earlier, later)), "title ac:  -> DC voltage\ntitle dc: DC voltage -> \n");
 }
@@ -521,6 +525,16 @@ TEST(AmendedRecord, IsReadFromTheFilesOfTheJob) {
     EXPECT_EQ(code_of(later), "GC-CERT-0307") << "it is not among the files";
     later.job_files.push_back(input_file("earlier.json", to_canonical_json(earlier), true));
     EXPECT_EQ(code_of(later), "GC-CERT-0308") << "nothing differs";
+    EvaluationRecord other = later;
+    other.title = "Another title";
+    other.coverage_probability.text = "90 %";
+    other.certificate->tables.front().columns.front().values.front().printed_value = "7.5";
+    EXPECT_EQ(code_of(other), "");
+    EXPECT_EQ(said(record_from_json(to_canonical_json(other), "record").certificate->changes),
+              said(other.certificate->changes))
+        << "what is told can be written and read again";
+    EXPECT_NE(said(other.certificate->changes).find("/coverage_probability"), std::string::npos)
+        << said(other.certificate->changes);
     later.certificate->data.item.serial_number = "SN-7";
     EXPECT_EQ(code_of(later), "");
     ASSERT_EQ(later.certificate->changes.size(), 1U);

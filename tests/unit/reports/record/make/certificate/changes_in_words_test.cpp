@@ -130,6 +130,8 @@ TEST(ChangesInWords, AreWrittenAsTheDocumentWritesThem) {
     EXPECT_EQ(told(change("words", "mark [1]", "No. 2.1", "No. 2.2")), "mark [1] | No. 2.1 | No. 2.2");
     EXPECT_EQ(told(change("limit_high", "E [2]", "1.6 mg", "5 mg")), "E [2]: obere Grenze | 1,6 mg | 5 mg");
     EXPECT_EQ(told(change("raised", "E", "false", "true")), "E: U ist die Messmöglichkeit | nein | ja");
+    EXPECT_EQ(told(change("number", "/coverage_probability", "95.45\u00A0%", "95\u00A0%")),
+              "Überdeckungswahrscheinlichkeit | 95,45\u00A0% | 95\u00A0%");
     EXPECT_EQ(told(change("role", "x", "reference", "")), "x: Rolle | Referenzwert | ");
 }
 
