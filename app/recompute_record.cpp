@@ -28,15 +28,15 @@ class Disagreements {
 public:
     explicit Disagreements(std::string where) : where_(std::move(where)) {}
 
-    void add(const std::string& pointer, const json* stated, const json* evaluated) {
+    void add(const std::string& pointer, const std::string& stated, const std::string& evaluated) {
         if (found_.size() >= k_most_disagreements) {
             ++left_out_;
             return;
         }
         found_.push_back({.code = "GC-RECORD-0022",
                           .where = where_ + "#" + pointer,
-                          .what = shown_or_nothing(stated),
-                          .rule = "the job that the record holds gives " + shown_or_nothing(evaluated),
+                          .what = stated,
+                          .rule = "the job that the record holds gives " + evaluated,
                           .action = "the record was changed after it was written; evaluate the job again"});
     }
 
@@ -104,21 +104,29 @@ std::map<std::string, std::string> files_of(const EvaluationRecord& record, cons
 
 }  // namespace
 
-std::vector<gum::Diagnostic> disagreements(const EvaluationRecord& stated, const EvaluationRecord& evaluated,
-                                           const std::string& where) {
+void tell_disagreements(const EvaluationRecord& stated, const EvaluationRecord& evaluated,
+                        const DisagreementSink& tell) {
     const std::string a = reports::to_canonical_json(stated);
     const std::string b = reports::to_canonical_json(evaluated);
     if (a == b) {
-        return {};
+        return;
     }
     json left = json::parse(a);
     json right = json::parse(b);
     left.erase("digest");  // it follows from the rest
     right.erase("digest");
-    Disagreements found(where);
-    tell_differences(left, right, [&found](const std::string& pointer, const json* one, const json* other) {
-        found.add(pointer, one, other);
+    tell_differences(left, right, [&tell](const std::string& pointer, const json* one, const json* other) {
+        tell(pointer, shown_or_nothing(one), shown_or_nothing(other));
     });
+}
+
+std::vector<gum::Diagnostic> disagreements(const EvaluationRecord& stated, const EvaluationRecord& evaluated,
+                                           const std::string& where) {
+    Disagreements found(where);
+    tell_disagreements(stated, evaluated,
+                       [&found](const std::string& pointer, const std::string& one, const std::string& other) {
+                           found.add(pointer, one, other);
+                       });
     return std::move(found).found();
 }
 

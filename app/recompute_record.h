@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,14 @@ namespace gumcert::app {
 
 /// At most so many places of one record are reported.
 inline constexpr std::size_t k_most_disagreements = 20;
+
+/// A place where a record says something else: pointer (RFC 6901), what stands there, and what its job gives.
+using DisagreementSink =
+    std::function<void(const std::string& pointer, const std::string& stated, const std::string& evaluated)>;
+
+/// Tells each of disagreements().
+void tell_disagreements(const reports::EvaluationRecord& stated, const reports::EvaluationRecord& evaluated,
+                        const DisagreementSink& tell);
 
 /// Where a record says something else than the one that its job gives: tell_differences(). Every text, every digit that is
 /// printed, every verdict is the same to the letter.

@@ -1,6 +1,7 @@
 #include "app/archive/archive_replay.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "app/recompute_record.h"
@@ -16,6 +17,38 @@ gum::Diagnostic not_replayed(const std::string& name, std::string what) {
             .what = std::move(what),
             .rule = "an archived record holds its job, which is evaluated again",
             .action = "evaluate the job by hand from its files"};
+}
+
+/// Where today's record differs from the archived one, whose bytes have the hash that the log states: nobody changed it, and the
+/// programs differ. What is printed comes before what the audit says.
+std::vector<gum::Diagnostic> differences_of(const reports::EvaluationRecord& archived,
+                                            const reports::EvaluationRecord& again, const std::string& name,
+                                            const std::string& made_by) {
+    std::vector<gum::Diagnostic> found;
+    const auto told = [&](const std::string& where, std::string what, std::string rule, std::string action) {
+        return gum::Diagnostic{.code = "GC-ARCHIVE-0073",
+                               .where = where,
+                               .what = std::move(what),
+                               .rule = std::move(rule),
+                               .action = std::move(action)};
+    };
+    const std::string of_audit = name + "#/audit/";
+    tell_disagreements(
+        archived, again, [&](const std::string& pointer, const std::string& stated, const std::string& evaluated) {
+            found.push_back(told(
+                name + "#" + pointer, stated, "this program gives " + evaluated,
+                "the record is as gumcert " + made_by + " made it; see what the difference means for the certificate"));
+        });
+    std::stable_partition(found.begin(), found.end(),
+                          [&](const gum::Diagnostic& one) { return !one.where.starts_with(of_audit); });
+    if (found.size() > k_most_differences) {
+        const std::size_t left_out = found.size() - k_most_differences;
+        found.resize(k_most_differences);
+        found.push_back(told(name, std::to_string(left_out) + " more places",
+                             "the first " + std::to_string(k_most_differences) + " are listed",
+                             "evaluate the job by hand from its files"));
+    }
+    return found;
 }
 
 }  // namespace
@@ -35,7 +68,7 @@ Replay replay_record(const std::string& bytes, const std::string& name, unsigned
         }
         reports::EvaluationRecord again = evaluated_again(record, name, threads, templates, progress);
         again.software = record.software;
-        replay.differences = disagreements(record, again, name);
+        replay.differences = differences_of(record, again, name, replay.made_by);
         replay.evaluated = true;
     } catch (const gum::DiagnosedError& error) {
         const gum::Diagnostic& first = error.diagnostics().front();

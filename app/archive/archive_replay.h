@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,11 +10,14 @@
 
 namespace gumcert::app {
 
+/// At most so many places of one record are told, those of its audit last.
+inline constexpr std::size_t k_most_differences = 1000;
+
 /// What this program makes of an archived record today.
 struct Replay {
     std::string made_by;  ///< version and commit of the program that made the record
     bool evaluated = false;
-    std::vector<gum::Diagnostic> differences;  ///< GC-RECORD-0022; or why it could not be evaluated, GC-ARCHIVE-0061
+    std::vector<gum::Diagnostic> differences;  ///< GC-ARCHIVE-0073; or why it could not be evaluated, GC-ARCHIVE-0061
 };
 
 /// Evaluates the job of an archived record with this program, whichever version made the record, and compares every

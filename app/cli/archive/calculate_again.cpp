@@ -25,6 +25,7 @@
 #include "app/laboratory_overview.h"
 #include "app/output_files.h"
 #include "app/read_file.h"
+#include "app/recompute_record.h"
 #include "archive/archive.h"
 #include "archive/store/open_store.h"
 #include "archive/store/work_table.h"
@@ -154,6 +155,22 @@ void require_query(const ArchiveOptions& options) {
     }
 }
 
+/// What fits on a terminal; JSON has all of them.
+std::vector<gum::Diagnostic> first_differences(const std::vector<gum::Diagnostic>& all, const std::string& number) {
+    if (all.size() <= app::k_most_disagreements + 1) {
+        return all;
+    }
+    std::vector<gum::Diagnostic> first(all.begin(), all.begin() + app::k_most_disagreements);
+    const bool is_all = all.size() <= app::k_most_differences;
+    const std::size_t more = std::min(all.size(), app::k_most_differences) - first.size();
+    first.push_back({.code = "GC-ARCHIVE-0073",
+                     .where = number,
+                     .what = (is_all ? "" : "more than ") + std::to_string(more) + " more places",
+                     .rule = "the first " + std::to_string(first.size()) + " are shown here",
+                     .action = "--format json lists them"});
+    return first;
+}
+
 }  // namespace
 
 ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
@@ -168,7 +185,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     std::size_t same = 0;
     const auto take = [&](const std::string& number, const app::Replay& one) {
         progress.clear();
-        print_findings(one.differences, common);
+        print_findings(first_differences(one.differences, number), common);
         same += one.differences.empty() ? std::size_t{1} : 0;
         list.push_back({{"number", number},
                         {"made_by", one.made_by},
