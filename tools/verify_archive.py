@@ -1029,6 +1029,12 @@ def with_documents(files):
     return given
 
 
+def is_document(file):
+    """A page or a digital certificate, of which nothing can be said without evidence, and so not that it is not sound."""
+    start = file.data[:100].removeprefix(b"\xef\xbb\xbf").lstrip().lower()
+    return not file.kind and start.startswith((b"%pdf-", b"<?xml", b"<!doctype html", b"<html", b"<dcc:"))
+
+
 def heads_among(files):
     """Those that can be read; of the others it is said where they are verified."""
     for file in files:
@@ -1068,6 +1074,9 @@ def main():
         if sys.stdout is None:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
         given = with_documents(arguments.file)
+        for file in (file for file, _ in given if is_document(file)):
+            print(shown(f"{file.path}: is a document, and stands behind no evidence; name the evidence before it"), file=sys.stderr)
+            return 2
         heads = [given_file(file) for file in arguments.head]
         known = list(heads_among(file for file, _ in given))
         sound = [judged(file, documents, heads, key, known) for file, documents in given]

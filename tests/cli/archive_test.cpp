@@ -909,6 +909,12 @@ TEST_F(ArchiveOfALaboratory, ProvesEachCertificateWithoutTheArchive) {
     fs::remove(store());
     EXPECT_EQ(gumcert({"archive", "verify", path("evidence.json")}).code, 0);
     EXPECT_EQ(verified_elsewhere({path("evidence.json")}).code, 0);
+    for (const std::string& document : {path("first.xml"), path("first.html")}) {
+        const Ended alone = verified_elsewhere({document, path("evidence.json")});
+        EXPECT_EQ(alone.code, 2) << "what stands before evidence is no document of it";
+        EXPECT_FALSE(tells(alone, "NOT SOUND")) << alone.out;
+        EXPECT_NE(gumcert({"archive", "verify", document}).code, 1);
+    }
     const json good = json::parse(bytes_of(folder() / "evidence.json"));
     const std::vector<std::function<void(json&)>> attacks = {
         [](json& e) { e["entries"].back()["actor"] = "N. Obody"; },
