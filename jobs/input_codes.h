@@ -155,6 +155,7 @@ inline constexpr InputCode k_sections_of_budget{"GC-INPUT-0364",
                                                 "a budget with sections where one with one set of results is expected"};
 inline constexpr InputCode k_sections_of_other_kind{"GC-INPUT-0365", "sections of another kind than budgets"};
 inline constexpr InputCode k_shared_equation{"GC-INPUT-0366", "an equation that the sections of a job cannot share"};
+inline constexpr InputCode k_limits_not_meant{"GC-INPUT-0367", "limits that cannot be meant for the points of a job"};
 
 // Files, disks and stores.
 inline constexpr InputCode k_file_not_readable{"GC-STORAGE-0001", "a file cannot be opened or read"};
@@ -179,6 +180,7 @@ inline constexpr InputCode k_warn_correlations_repaired{"GC-WARN-0014",
 inline constexpr InputCode k_warn_beyond_range{"GC-WARN-0015", "a reading beyond the range of its specification"};
 inline constexpr InputCode k_warn_step_passed{"GC-WARN-0016",
                                               "a measured value that passes the end of a step of limits"};
+inline constexpr InputCode k_warn_range_of_no_point{"GC-WARN-0017", "the accuracy of a range that no point has"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -300,6 +302,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_sections_of_budget,
                                           k_sections_of_other_kind,
                                           k_shared_equation,
+                                          k_limits_not_meant,
                                           k_file_not_readable,
                                           k_file_leads_out,
                                           k_warn_extra_column,
@@ -315,6 +318,8 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_equal_observations,
                                           k_warn_same_position,
                                           k_warn_correlations_repaired,
-                                          k_warn_beyond_range};
+                                          k_warn_beyond_range,
+                                          k_warn_step_passed,
+                                          k_warn_range_of_no_point};
 
 }  // namespace gumcert::jobs

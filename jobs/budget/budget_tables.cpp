@@ -798,6 +798,9 @@ private:
             }
             const std::string where = document_.where("/certificate");
             const std::string name = "the specification " + text::in_quotes(s.id);
+            if (job_.points.empty() && states_points()) {
+                continue;  // the table of points was refused
+            }
             if (job_.points.empty()) {
                 problems_.refuse(k_point_without_limit, where, name + " states limits of points, and there are none",
                                  "limits that differ from point to point need a table of points",
@@ -814,10 +817,7 @@ private:
             std::optional<double> end;
             bool is_past_all = false;  // a point without limits is a little past a step of them
             for (std::size_t p = 0; p < points.points.size() && problems_.refusals() == 0; ++p) {
-                const auto& results = results_[section_of(p)];
-                if (!job_.sections.empty() && std::none_of(results.begin(), results.end(), [&](const auto& known) {
-                        return certificate::is_named(s.results, known.first);
-                    })) {
+                if (!is_about(s, p)) {
                     continue;
                 }
                 const certificate::LimitsAt limits = certificate::limits_at(s, certificate::lookup_at(points, p));
@@ -830,6 +830,10 @@ private:
                     is_past_all = is_past_all || !limits.problem.empty();
                     past.push_back(text::in_quotes(points.points[p]));
                 }
+            }
+            if (problems_.refusals() == 0) {
+                check_ranges(s, points, name, where);
+                check_centre(s, name, where);
             }
             if (!without.empty()) {
                 problems_.refuse(k_point_without_limit, where,
@@ -849,6 +853,121 @@ private:
             }
         }
     }
+
+    /// Whether a specification names a result that a point has.
+    [[nodiscard]] bool is_about(const certificate::AgreedSpecification& s, std::size_t point) const {
+        const auto& results = results_[section_of(point)];
+        return std::any_of(results.begin(), results.end(), [&](const auto& known) {
+            return certificate::is_named(s.results, known.first) ||
+                   certificate::is_named(s.results, known.first + "[" + job_.points[point].name + "]");
+        });
+    }
+
+    /// Whether the job states points, which may have been refused.
+    [[nodiscard]] bool states_points() const {
+        const json& job = document_.value;
+        const auto sections = job.find("sections");
+        return job.contains("points") || (sections != job.end() && sections->is_object() &&
+                                          std::any_of(sections->begin(), sections->end(), [](const json& one) {
+                                              return one.is_object() && one.contains("points");
+                                          }));
+    }
+
+    /// The accuracy of a range that no point has: where an entry without a range takes its points, a slip of the pen
+    /// would give them the limits of another range, without a word.
+    void check_ranges(const certificate::AgreedSpecification& s, const certificate::PointTable& points,
+                      const std::string& name, const std::string& where) {
+        const auto& accuracy = s.limits->accuracy;
+        std::set<std::string> stated;
+        for (const auto& entry : accuracy) {
+            if (!entry.range.empty() && !stated.insert(entry.range).second) {
+                problems_.refuse(k_limits_not_meant, where,
+                                 name + " states the accuracy of the range " + text::in_quotes(entry.range) + " twice",
+                                 "the first entry that fits a point is taken", "keep the one that was agreed");
+                return;
+            }
+        }
+        const auto open = std::find_if(accuracy.begin(), accuracy.end(), [](const auto& a) { return a.range.empty(); });
+        if (open == accuracy.end()) {
+            return;  // a range that is not stated is a point without limits
+        }
+        if (std::next(open) != accuracy.end()) {
+            problems_.refuse(k_limits_not_meant, where,
+                             name + " states an accuracy behind the one without a range, which is taken first",
+                             "the first entry that fits a point is taken, and one without a range fits all",
+                             "state the accuracy without a range last, and once");
+            return;
+        }
+        std::set<std::string> taken;  // words of points that no entry names
+        std::set<std::string> words;
+        std::vector<std::string> at;
+        for (std::size_t p = 0; p < points.points.size(); ++p) {
+            if (!is_about(s, p)) {
+                continue;
+            }
+            const std::string word = certificate::lookup_at(points, p).word(s.limits->range_column);
+            words.insert(word);
+            if (std::none_of(accuracy.begin(), open, [&](const auto& a) { return a.range == word; })) {
+                taken.insert(word);
+                at.push_back(text::in_quotes(points.points[p]));
+            }
+        }
+        const auto letters = [](const std::string& word) {
+            std::string some;
+            for (const char c : word) {
+                if (c != ' ') {
+                    some += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+                }
+            }
+            return some;
+        };
+        for (auto entry = accuracy.begin(); entry != open && !taken.empty(); ++entry) {
+            if (words.contains(entry->range)) {
+                continue;
+            }
+            const auto meant = std::find_if(taken.begin(), taken.end(), [&](const std::string& word) {
+                return letters(word) == letters(entry->range);
+            });
+            const std::string what = name + " states the accuracy of the range " + text::in_quotes(entry->range);
+            if (meant != taken.end()) {
+                problems_.refuse(k_limits_not_meant, where, what + ", and points have " + text::in_quotes(*meant),
+                                 "a range is the word that the points have", "write it as the points have it");
+            } else {
+                problems_.warn(k_warn_range_of_no_point, where,
+                               what + ", which no point has; that without a range holds for the point" +
+                                   (at.size() == 1 ? " " : "s ") + text::listed(at, 5),
+                               "the first entry that fits a point is taken, and one without a range fits all",
+                               "see whether these points are meant, and correct the range");
+            }
+        }
+    }
+
+    /// Limits about a nominal value are those of a measured value: an error lies near 0.
+    void check_centre(const certificate::AgreedSpecification& s, const std::string& name, const std::string& where) {
+        const PointColumn* const centre = column(s.limits->about);
+        constexpr std::array<std::string_view, 3> k_differences{"error", "deviation", "correction"};
+        const auto is_difference = [&](const std::string& role) {
+            return std::find(k_differences.begin(), k_differences.end(), role) != k_differences.end();
+        };
+        if (centre == nullptr || centre->role.empty() || is_difference(centre->role)) {
+            return;
+        }
+        for (const auto& [result, part] : job_.output_parts) {
+            const bool is_meant =
+                std::any_of(s.results.begin(), s.results.end(), [&, of = result](const std::string& stated) {
+                    return certificate::is_named({stated}, of) || stated.starts_with(of + "[");
+                });
+            if (is_meant && is_difference(part.role)) {
+                problems_.refuse(k_limits_not_meant, where,
+                                 name + " has limits about " + text::in_quotes(centre->name) + ", and " +
+                                     text::in_quotes(result) + " has the role " + text::in_quotes(part.role),
+                                 "limits of an error, a deviation or a correction lie about 0",
+                                 "leave \"about\" out, or name the measured value in \"results\"");
+                return;
+            }
+        }
+    }
+
     /// Whether a column or an input is what was meant to be, not what was measured.
     [[nodiscard]] bool is_set(const std::string& name) const {
         const PointColumn* const c = column(name);

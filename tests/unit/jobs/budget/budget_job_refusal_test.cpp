@@ -70,6 +70,12 @@ const std::vector<BadBudget>& bad_budgets() {
          x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": [{"X": 1}], "certificate": {"specifications": [
              {"id": "s", "results": ["X"], "unit": "V", "rule": {"id": "DR-01"}, "limits": {"by": "points"}}]})j",
          code(k_point_without_limit), "job.json#/certificate", "the point states no limit"},
+        {"accuracy_behind_the_open_one",
+         x(R"j({"unit": "V", "u": 1})j") + R"j(, "points": {"columns": {"range": "text"}, "list": [
+             {"X": 1, "range": "A"}]}, "certificate": {"specifications": [{"id": "s", "results": ["X"], "unit": "V",
+             "rule": {"id": "DR-01"}, "limits": {"by": "accuracy", "accuracy": [{"constant": 1}, {"range": "A",
+             "constant": 2}]}}]})j",
+         code(k_limits_not_meant), "job.json#/certificate", "behind the one without a range"},
         // ---- numbers
         {"overflow", x(R"j({"value": 1e999, "u": 1})j"), code(k_json_number_range), "job.json:1:", "1e999"},
         {"underflow", x(R"j({"value": 1, "u": 1e-999})j"), code(k_json_number_range), "job.json:1:", "1e-999"},

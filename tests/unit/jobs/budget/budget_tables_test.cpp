@@ -124,6 +124,13 @@ TEST(BudgetTables, AFaultOfTheTableIsNoFaultOfTheInputs) {
     // What the job states itself, and states wrongly, is told beside it.
     std::string wrong = k_meter + R"j(, "points": {"file": "points.csv"})j";
     wrong.replace(wrong.find("1e-6"), 4, "-1e-6");
+    // Limits of points are no fault of a specification whose points were refused.
+    for (const gum::Diagnostic& one : budget_refusals(
+             k_meter + R"j(, "points": {"file": "points.csv"}, "certificate": {"specifications": [{"id": "s",
+                 "results": ["E"], "unit": "mV", "rule": {"id": "DR-01"}, "limits": {"by": "points"}}]})j",
+             {{"points.csv", "V_s,V_x.1,dV.K\n" + rows}})) {
+        EXPECT_NE(one.code, k_point_without_limit.code) << gum::message(one);
+    }
     expect_refusal(wrong, k_number_out_of_range, "-1e-06", {{"points.csv", with('\t')}});
     expect_refusal(wrong, k_csv_separator, "tabs", {{"points.csv", with('\t')}});
 }
@@ -332,6 +339,76 @@ TEST(BudgetTables, RefuseWhatTheyCannotShow) {
     expect_refusal(tables(R"j([{"where": {"range": "1 V"}}, {}])j"), k_table_incomplete, "a table without rows");
     expect_refusal(tables("[]"), k_wrong_size, "0 tables");
     expect_refusal(k_meter + R"j(, "tables": [{}])j", k_no_statement, "nothing is stated");
+}
+
+/// Of a list of accuracies the first that fits is taken: a range that no point has leaves its points to another one.
+TEST(BudgetTables, TellAnAccuracyThatNoPointTakes) {
+    const auto accuracy = [](const std::string& entries) {
+        return meter(k_columns, R"j(, "certificate": {"specifications": [{"id": "s", "results": ["E"], "unit": "mV",
+            "rule": {"id": "DR-01"}, "limits": {"by": "accuracy", "of": "V_s", "accuracy": [)j" +
+                                    entries + "]}}]}");
+    };
+    const auto entry = [](const std::string& range) {
+        return R"j({"percent_of_reading": 1)j" + (range.empty() ? "" : R"j(, "range": ")j" + range + "\"") + "}";
+    };
+    for (const std::string slip : {"100mV", "100 MV", "100  mV"}) {
+        expect_refusal(accuracy(entry(slip) + "," + entry("")), k_limits_not_meant,
+                       "the range \"" + slip + "\", and points have \"100 mV\"");
+    }
+    expect_refusal(accuracy(entry("") + "," + entry("10 V")), k_limits_not_meant, "behind the one without a range");
+    expect_refusal(accuracy(entry("10 V") + "," + entry("") + "," + entry("")), k_limits_not_meant,
+                   "behind the one without a range");
+    expect_refusal(accuracy(entry("10 V") + "," + entry("100 mV") + "," + entry("10 V")), k_limits_not_meant,
+                   "the accuracy of the range \"10 V\" twice");
+    const auto told = [](const std::string& keys) {
+        std::set<std::string> codes;
+        for (const gum::Diagnostic& one : read_budget(keys, k_points).warnings) {
+            codes.insert(one.code);
+        }
+        return codes.contains(std::string(k_warn_range_of_no_point.code));
+    };
+    EXPECT_TRUE(told(accuracy(entry("1 V") + "," + entry(""))));
+    EXPECT_TRUE(told(accuracy(entry("10 V") + "," + entry("1 V") + "," + entry(""))));
+    EXPECT_FALSE(told(accuracy(entry("10 V") + "," + entry(""))));
+    EXPECT_FALSE(told(accuracy(entry(""))));
+    EXPECT_FALSE(told(accuracy(entry("10 V") + "," + entry("100 mV") + "," + entry("1 V"))))
+        << "a data sheet has ranges that were not measured";
+    EXPECT_FALSE(told(accuracy(entry("10 V") + "," + entry("100 mV") + "," + entry("1 V") + "," + entry(""))))
+        << "no point is left to the one without a range";
+}
+
+TEST(BudgetTables, RefuseLimitsOfAnErrorAboutANominalValue) {
+    const auto limits = [](const std::string& result, const std::string& role, const std::string& about) {
+        std::string keys = meter(
+            k_columns, R"j(, "certificate": {"specifications": [{"id": "s", "results": [")j" + result +
+                           R"j("], "unit": "mV", "rule": {"id": "DR-01"}, "limits": {"by": "accuracy", "of": "V_s",
+                "about": ")j" +
+                           about + R"j(", "accuracy": [{"percent_of_reading": 1}]}}]})j");
+        keys.replace(keys.find(R"j("role": "error")j"), 15, R"j("role": ")j" + role + "\"");
+        return keys;
+    };
+    for (const std::string role : {"error", "deviation", "correction"}) {
+        for (const std::string result : {"E", "E*", "E[2]"}) {
+            for (const std::string about : {"nominal", "V_s", "V_x"}) {
+                expect_refusal(limits(result, role, about), k_limits_not_meant, "has the role \"" + role + "\"");
+            }
+        }
+    }
+    EXPECT_TRUE(budget_refusals(limits("E", "measured_value", "nominal"), k_points).empty());
+}
+
+/// What a specification does not name needs no limits of it.
+TEST(BudgetTables, AskLimitsOfThePointsThatASpecificationNames) {
+    const auto keys = [](const std::string& result) {
+        return k_meter + R"j(, "points": {"columns": {"range": "text"}, "list": [
+            {"point": "low", "range": "1 V", "V_s": 1, "V_x": {"observations": [1.01, 1.02]}, "mpe": 0.5},
+            {"point": "high", "range": "1 V", "V_s": 2, "V_x": {"observations": [2.01, 2.02]}}]},
+            "certificate": {"specifications": [{"id": "s", "results": [")j" +
+               result + R"j("], "unit": "mV", "rule": {"id": "DR-01"}, "limits": {"by": "points"}}]})j";
+    };
+    EXPECT_TRUE(budget_refusals(keys("E[low]"), {}).empty());
+    expect_refusal(keys("E"), k_point_without_limit, "at the point \"high\"", {});
+    expect_refusal(keys("E[high]"), k_point_without_limit, "at the point \"high\"", {});
 }
 
 /// A weight of 50 g has a mass of 50.00001 g: limits by steps are of nominal values.
