@@ -71,6 +71,7 @@ public:
         section_ = 0;  // what follows looks at each point's own section
         if (problems_.refusals() == 0) {
             add_inputs();
+            name_points();
             check_limits();
             check_points();
             set_units();
@@ -84,6 +85,7 @@ private:
     ProblemList& problems_;
     std::vector<std::vector<std::pair<std::string, Unit>>> results_;  ///< one a section, or one alone
     std::size_t section_ = 0;                                         ///< that is read
+    std::vector<std::size_t> made_;                                   ///< tables whose columns the job leaves out
 
     /// The points of a section, or of the whole job.
     [[nodiscard]] std::pair<std::size_t, std::size_t> points_of(std::size_t section) const {
@@ -568,7 +570,79 @@ private:
             table.columns.insert(table.columns.begin(),
                                  {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
         }
+        const std::size_t before = job_.tables.size();
         finish(std::move(table), where);
+        if (job_.tables.size() > before) {
+            made_.push_back(before);
+        }
+    }
+
+    // ---- names of points --------------------------------------------------------------------------------------------
+
+    /// Whether the cell of a column says what the name of its point does: "10 V" beside 10 V, "10 kHz" beside 10000 Hz.
+    [[nodiscard]] static bool says(const PointColumn& c, std::size_t point, const std::string& name) {
+        if (point < c.printed.size() && !name.empty() && c.printed[point] == name) {
+            return true;
+        }
+        if (point >= c.values.size() || !c.values[point]) {
+            return false;
+        }
+        double number = 0.0;
+        const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+        if (error != std::errc()) {
+            return false;
+        }
+        std::string unit(end, name.data() + name.size());
+        unit.erase(0, unit.find_first_not_of(' '));
+        if (unit.empty() || unit == c.unit || unit == c.printed_unit) {
+            return number == *c.values[point];
+        }
+        try {
+            const Unit named = Unit::parse(unit), own = Unit::parse(c.unit);
+            const double value = own.to_si(*c.values[point]);
+            return gum::of_one_kind(named, own) && std::abs(named.to_si(number) - value) <= 1e-12 * std::abs(value);
+        } catch (const gum::DiagnosedError&) {
+            return false;  // "10 V, warm"
+        }
+    }
+
+    /// Sentences name a value by its point ("E[low]"): a table that the program makes shows the names that its rows do not
+    /// say anyway (ISO/IEC 17025:2017, 7.8.6.2 a). Numbers that count the rows are left out until a specification needs
+    /// them.
+    void name_points() {
+        for (const std::size_t made : made_) {
+            TableRequest& table = job_.tables[made];
+            const auto is_point = [](const ShownColumn& c) { return c.show == "point"; };
+            if (std::any_of(table.columns.begin(), table.columns.end(), is_point)) {
+                continue;
+            }
+            bool needed = false;
+            for (std::size_t p = 0; p < job_.points.size() && !needed; ++p) {
+                const std::string& name = job_.points[p].name;
+                needed = holds(table, p) && (name != std::to_string(p + 1) || is_named_alone(p)) &&
+                         std::none_of(table.columns.begin(), table.columns.end(), [&](const ShownColumn& c) {
+                             const PointColumn* const shown_column = c.show == "column" ? column(c.of) : nullptr;
+                             return shown_column != nullptr && says(*shown_column, p, name);
+                         });
+            }
+            if (needed) {
+                table.columns.insert(table.columns.begin(),
+                                     {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+            }
+        }
+    }
+
+    /// Whether a specification names a result of one point, not of all of them.
+    [[nodiscard]] bool is_named_alone(std::size_t point) const {
+        const auto& results = results_[section_of(point)];
+        const auto names = [&](const certificate::AgreedSpecification& s) {
+            return std::any_of(results.begin(), results.end(), [&](const auto& known) {
+                return certificate::is_named(s.results, known.first + "[" + job_.points[point].name + "]") &&
+                       !certificate::is_named(s.results, known.first);
+            });
+        };
+        return job_.certificate &&
+               std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(), names);
     }
 
     void finish(TableRequest table, const std::string& where) {

@@ -341,6 +341,42 @@ TEST(BudgetTables, RefuseWhatTheyCannotShow) {
     expect_refusal(k_meter + R"j(, "tables": [{}])j", k_no_statement, "nothing is stated");
 }
 
+/// Sentences name a value by its point: a table that the program makes says which row that is.
+TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotSay) {
+    struct Named {
+        std::string first, second;
+        std::string specified;  ///< result of a specification
+        bool is_shown;
+    };
+    const std::vector<Named> all = {
+        {"1", "2", "", false},            // they count the rows
+        {"1", "2", "E", false},           // the specification is about all of them
+        {"1", "2", "E[2]", true},         // about one of them: which?
+        {"10", "10000", "E[10]", false},  // the nominal values
+        {"10 V", "10 kV", "E[10 V]", false},
+        {"10V", "10000 V", "", false},
+        {"low", "high", "", true},
+        {"10 V", "10 kV, warm", "", true},
+        {"10 V", "11 V", "", true},  // another number than the row has
+        {"10/50", "10000/50", "", true},
+        {"P1", "P2", "E[P1]", true},
+        {"10 V", "10 kW", "", true},
+    };
+    for (const Named& named : all) {
+        SCOPED_TRACE(named.first + " " + named.second + " " + named.specified);
+        const test::BudgetFiles files{
+            {"points.csv", "point;V_s;V_x\n" + named.first + ";10;10.1\n" + named.second + ";10000;10000.1\n"}};
+        std::string keys = k_meter + R"j(, "points": {"file": "points.csv"})j";
+        keys.replace(keys.find(R"j("unit": "V", "role": "indication")j"), 11, R"j("unit": "V", "u": 0.1)j");
+        if (!named.specified.empty()) {
+            keys += R"j(, "certificate": {"specifications": [{"id": "s", "results": [")j" + named.specified +
+                    R"j("], "unit": "mV", "rule": {"id": "DR-01"}, "lower": -1, "upper": 1}]})j";
+        }
+        const BudgetJob job = read_budget(keys, files);
+        EXPECT_EQ(shown(job.tables.at(0)).front(), named.is_shown ? "point:" : "column:V_s");
+    }
+}
+
 /// Of a list of accuracies the first that fits is taken: a range that no point has leaves its points to another one.
 TEST(BudgetTables, TellAnAccuracyThatNoPointTakes) {
     const auto accuracy = [](const std::string& entries) {
