@@ -141,7 +141,7 @@ private:
                         .row = row,
                         .point = point_of(table, row),
                         .coverage_probability = p},
-                       value);
+                       value, result);
         PrintRule rule = rule_;
         if (result != nullptr) {
             rule.digits = std::min(rule.digits, reports::printed_digits(reports::reported_result(*result)));
@@ -154,9 +154,16 @@ private:
         decide(column, value, result, point_of(table, row));
     }
 
-    void place_in_scope(const ScopePlace& place, CertifiedValue& value) {
+    /// Whether names mean a value: by its column, "E", or by its point, "E[10 V]".
+    [[nodiscard]] static bool is_named(const std::vector<std::string>& names, const CertifiedColumn& column,
+                                       const Result* result) {
+        return certificate::is_named(names, column.result) ||
+               (result != nullptr && certificate::is_named(names, result->name));
+    }
+
+    void place_in_scope(const ScopePlace& place, CertifiedValue& value, const Result* result) {
         for (const certificate::ExternalResults& external : data().external_results) {
-            if (certificate::is_named(external.results, place.column.result)) {
+            if (is_named(external.results, place.column, result)) {
                 value.external = true;
                 value.outside_because = "another laboratory provided it";
                 return;
@@ -267,8 +274,7 @@ private:
 
     void decide(const CertifiedColumn& column, CertifiedValue& value, const Result* result, std::size_t point) {
         for (const certificate::AgreedSpecification& specification : data().specifications) {
-            if (!certificate::is_named(specification.results, column.result) &&
-                (result == nullptr || !certificate::is_named(specification.results, result->name))) {
+            if (!is_named(specification.results, column, result)) {
                 continue;
             }
             if (value.verdict) {

@@ -425,6 +425,43 @@ TEST(Certify, PrintsNoDigitsOfAConvertedLimitInTheGuardBand) {
     }
 }
 
+/// The result of another laboratory may be that of one point: what names mean is the same for specifications and for these.
+TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
+    EvaluationRecord record = one_result(100.0, 2.0, "m");
+    record.results.push_back(record.results.front());
+    certificate::PointTable& points = record.points.emplace();
+    points.points = {"a", "b"};
+    for (std::size_t p = 0; p < points.points.size(); ++p) {
+        record.results[p].point = points.points[p];
+        record.results[p].name = "l[" + points.points[p] + "]";
+    }
+    CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
+    data.specifications = {test::sample_specification("s", "l", 90.0, 110.0, "m")};
+    struct Named {
+        std::vector<std::string> names;
+        bool first, second;
+    };
+    const std::vector<Named> all = {{{"l[b]"}, false, true},
+                                    {{"l[a]", "l[b]"}, true, true},
+                                    {{"l"}, true, true},
+                                    {{"l*"}, true, true},
+                                    {{"l[c]"}, false, false}};
+    for (const Named& named : all) {
+        SCOPED_TRACE(named.names.front());
+        data.external_results = {{.results = named.names, .provider = "Other laboratory"}};
+        EvaluationRecord marked = record;
+        certify(marked, data, {}, {});
+        const std::vector<CertifiedValue>& values = marked.certificate->tables.at(0).columns.at(0).values;
+        ASSERT_EQ(values.size(), 2U);
+        for (std::size_t p = 0; p < 2; ++p) {
+            const bool external = p == 0 ? named.first : named.second;
+            EXPECT_EQ(values[p].external, external);
+            EXPECT_EQ(values[p].scope_entry.empty(), external);
+            EXPECT_EQ(values[p].verdict->verdict == "not_applicable", external);
+        }
+    }
+}
+
 // Golden vector 4: y = 9.8, u = 0.1, limits 9 and 10: p_c = 0.977250.
 TEST(Certify, DecidesByTheLimitsOfEachPoint) {
     EvaluationRecord record = one_result(0.3, 0.1, "mV");
