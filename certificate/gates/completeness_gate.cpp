@@ -249,7 +249,26 @@ bool says_where(const LocalisedText& text) {
     return is_stated(text) && (numbered || is_statement(text));
 }
 
-void adjustment(FindingList& found, const CertificateData& data) {
+/// Whether results stand under the heading "As found" or "As left", which says that there was an adjustment between.
+bool shows_stage(const Certificate& certificate, std::string_view stage) {
+    return std::any_of(certificate.tables.begin(), certificate.tables.end(), [&](const CertifiedTable& table) {
+        return table.layout && std::any_of(table.layout->shown.begin(), table.layout->shown.end(),
+                                           [&](const ShownColumn& c) { return c.stage == stage; });
+    });
+}
+
+void adjustment(FindingList& found, const Certificate& certificate) {
+    const CertificateData& data = certificate.data;
+    if (data.adjustment && !data.adjustment->adjusted) {
+        const bool after = shows_stage(certificate, "as_left");
+        if (after || shows_stage(certificate, "as_found")) {
+            // "As found" alone is what some laboratories print of every item; after an adjustment is plainly wrong.
+            found.add(after ? k_critical : k_major, "R07-4d", iso_17025("7.8.4.1 d"), "/adjustment/adjusted",
+                      after ? "the item was not adjusted, and results stand under \"as left\""
+                            : "the item was not adjusted, and results stand under \"as found\"",
+                      "State \"adjusted\": true, or leave \"stage\" of the results out.");
+        }
+    }
     if (!data.adjustment) {
         found.critical("R07-4d", iso_17025("7.8.4.1 d"), "/adjustment", "it is not said whether the item was adjusted",
                        "State \"adjusted\": true or false.");
@@ -365,7 +384,7 @@ std::vector<Finding> completeness_findings(const Certificate& certificate) {
     persons(found, data, certificate.profile);
     results(found, certificate);
     conditions(found, data);
-    adjustment(found, data);
+    adjustment(found, certificate);
     for (const auto& gate : {standard_findings, specification_findings}) {
         found.append(gate(certificate));
     }

@@ -95,6 +95,20 @@ std::vector<Spoilt> missing_items() {
          "/adjustment"},
         {"as found", [](Certificate& c) { c.data.adjustment->adjusted = true; }, "R07-4d", iso("7.8.4.1 d"), k_critical,
          "/adjustment/as_found"},
+        {"as left",
+         [](Certificate& c) {
+             c.tables[0].layout.emplace().shown = {
+                 {.show = "value", .of = "l", .heading = {}, .role = "", .stage = "as_found"},
+                 {.show = "value", .of = "EAA", .heading = {}, .role = "", .stage = "as_left"}};
+         },
+         "R07-4d", iso("7.8.4.1 d"), k_critical, "/adjustment/adjusted"},
+        {"as found without an adjustment",
+         [](Certificate& c) {
+             c.tables[0].layout.emplace().shown = {
+                 {.show = "value", .of = "l", .heading = {}, .role = "", .stage = "as_found"},
+                 {.show = "value", .of = "EAA", .heading = {}, .role = "", .stage = ""}};
+         },
+         "R07-4d", iso("7.8.4.1 d"), k_major, "/adjustment/adjusted"},
         {"U of a standard", [](Certificate& c) { c.data.standards[0].U.reset(); }, "T04", iso("6.5"), k_critical,
          "/standards/0/U"},
         {"k of a standard", [](Certificate& c) { c.data.standards[0].k.reset(); }, "T04", iso("6.5"), k_major,
@@ -118,6 +132,18 @@ std::vector<Spoilt> missing_items() {
         {"agreement on recalibration", [](Certificate& c) { c.data.recalibration_date = "2027-11-21"; }, "R08",
          iso("7.8.4.3"), k_critical, "/recalibration_date"},
     };
+}
+
+TEST(CompletenessGate, HasNothingToSayOfStagesOfAnItemThatWasAdjusted) {
+    Certificate c = passed_certificate();
+    c.data.adjustment = {.adjusted = true, .as_found = "Table 3"};
+    c.tables[0].layout.emplace().shown = {
+        {.show = "value", .of = "l", .heading = {}, .role = "", .stage = "as_found"},
+        {.show = "value", .of = "EAA", .heading = {}, .role = "", .stage = "as_left"}};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
+    c.data.adjustment = {.adjusted = false, .as_found = {}};
+    c.tables[0].layout->shown = {{.show = "value", .of = "l", .heading = {}, .role = "", .stage = ""}};
+    EXPECT_THAT(ids(completeness_findings(c)), testing::IsEmpty());
 }
 
 TEST(CompletenessGate, FindsEachItemThatIsMissing) {
