@@ -12,11 +12,15 @@ namespace gumcert::certificate {
 
 using gum::Unit;
 
-double value_for_scope(double value, const Unit& of, const Unit& unit) {
-    const double in_unit = unit.from_si(of.to_si(value));
+bool has_sign(const Unit& unit, double low) {
     // Scopes state magnitudes, "up to 1000 V"; the sign of a temperature in degrees Celsius is part of the place on its
-    // scale.
-    return unit.is_celsius_temperature() ? in_unit : std::abs(in_unit);
+    // scale, and so is that of a level in a range from -70 dB.
+    return unit.is_celsius_temperature() || low < 0.0;
+}
+
+double value_for_scope(double value, const Unit& of, const Unit& unit, double low) {
+    const double in_unit = unit.from_si(of.to_si(value));
+    return has_sign(unit, low) ? in_unit : std::abs(in_unit);
 }
 
 namespace {
@@ -84,8 +88,8 @@ std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::
     if (!of_one_kind(result, unit) || !of_one_kind(stated, unit)) {
         return std::nullopt;
     }
-    const double value = value_for_scope(measured.value, result, unit);
-    const double claimed = value_for_scope(held.value, stated, unit);
+    const double value = value_for_scope(measured.value, result, unit, 0.0);
+    const double claimed = value_for_scope(held.value, stated, unit, 0.0);
     if (is_nominal_of(claimed, value)) {
         return std::nullopt;
     }

@@ -22,8 +22,13 @@ struct HeldAgainst {
     std::string unit;
 };
 
-/// A number in the unit of a scope: its magnitude, or the temperature itself in degrees Celsius.
-[[nodiscard]] double value_for_scope(double value, const gum::Unit& of, const gum::Unit& unit);
+/// Whether a range holds numbers with their signs: temperatures in degrees Celsius, and what begins below 0, such as levels
+/// from -70 dB.
+/// \param low  lower end of the range, in its unit
+[[nodiscard]] bool has_sign(const gum::Unit& unit, double low);
+
+/// A number in the unit of a scope: its magnitude, or the number itself where the range has signs.
+[[nodiscard]] double value_for_scope(double value, const gum::Unit& of, const gum::Unit& unit, double low);
 
 /// What was measured where a result stands.
 struct Measured : HeldAgainst {

@@ -142,11 +142,11 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
             if (!of_one_kind(of, unit) || !of_one_kind(stated, unit)) {
                 continue;
             }
-            const double value = value_for_scope(measured.value, of, unit);
-            const double claimed = value_for_scope(parameter.value, stated, unit);
+            const double value = value_for_scope(measured.value, of, unit, range.low);
+            const double claimed = value_for_scope(parameter.value, stated, unit, range.low);
             // Below a range of magnitudes lies 0, the result of a zero point or of a small error; that an item was
             // better than the range is no breach of it.
-            const double low = unit.is_celsius_temperature() ? range.low : 0.0;
+            const double low = has_sign(unit, range.low) ? range.low : 0.0;
             if (is_nominal_of(claimed, value) && !is_beyond(value, low, range.high)) {
                 continue;
             }

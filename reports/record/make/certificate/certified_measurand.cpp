@@ -81,11 +81,11 @@ std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, co
     if (!gum::of_one_kind(of, unit) || !gum::of_one_kind(stated, unit)) {
         return std::nullopt;
     }
-    const double value = certificate::value_for_scope(measured.value, of, unit);
-    const double low = unit.is_celsius_temperature() ? range.low : 0.0;
+    const double value = certificate::value_for_scope(measured.value, of, unit, range.low);
+    const double low = certificate::has_sign(unit, range.low) ? range.low : 0.0;
     const bool beyond = certificate::is_beyond(value, low, range.high);
     const bool nominal =
-        certificate::is_nominal_of(certificate::value_for_scope(*row->value.number, stated, unit), value);
+        certificate::is_nominal_of(certificate::value_for_scope(*row->value.number, stated, unit, range.low), value);
     if (!beyond && (nominal || row->u.number > 0.0)) {
         return std::nullopt;
     }

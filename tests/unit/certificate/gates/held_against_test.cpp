@@ -21,9 +21,15 @@ TEST(HeldAgainst, KindsAreTold) {
 }
 
 TEST(HeldAgainst, ScopeSeesTheMagnitudeOrTheTemperatureItself) {
-    EXPECT_DOUBLE_EQ(value_for_scope(-2500.0, Unit::parse("um"), Unit::parse("mm")), 2.5);
-    EXPECT_DOUBLE_EQ(value_for_scope(-40.0, Unit::parse("degC"), Unit::parse("degC")), -40.0);
-    EXPECT_NEAR(value_for_scope(-40.0, Unit::parse("degF"), Unit::parse("degC")), -40.0, 1e-12);
+    EXPECT_DOUBLE_EQ(value_for_scope(-2500.0, Unit::parse("um"), Unit::parse("mm"), 0.0), 2.5);
+    EXPECT_DOUBLE_EQ(value_for_scope(-40.0, Unit::parse("degC"), Unit::parse("degC"), 0.0), -40.0);
+    EXPECT_NEAR(value_for_scope(-40.0, Unit::parse("degF"), Unit::parse("degC"), 0.0), -40.0, 1e-12);
+    // A range from -70 dB, or from -10 V, speaks of the sign as well.
+    EXPECT_DOUBLE_EQ(value_for_scope(-60.0, Unit::parse("dB"), Unit::parse("dB"), -70.0), -60.0);
+    EXPECT_DOUBLE_EQ(value_for_scope(-60.0, Unit::parse("dB"), Unit::parse("dB"), 0.0), 60.0);
+    EXPECT_FALSE(has_sign(Unit::parse("V"), 0.0));
+    EXPECT_TRUE(has_sign(Unit::parse("V"), -10.0));
+    EXPECT_TRUE(has_sign(Unit::parse("degC"), 0.0));
 }
 
 TEST(HeldAgainst, NominalValueIsWithinATenth) {
