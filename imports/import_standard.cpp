@@ -1,6 +1,7 @@
 #include "imports/import_standard.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -33,27 +34,41 @@ struct NominalValue {
 class NominalValues {
 public:
     explicit NominalValues(const reports::ImportedCertificate& certificate) {
-        for (const std::string_view type : {"basic_nominalValue", "basic_referenceValue"}) {
+        for (std::size_t type = 0; type < k_types.size(); ++type) {
             for (const ImportedQuantity& q : certificate.quantities) {
                 double value = 0.0;
                 const char* const end = q.value.data() + q.value.size();
-                if (q.table > 0 && q.row && q.role == "result" && !q.unit.empty() && has_type(q, type) &&
+                if (q.table > 0 && q.row && q.role == "result" && !q.unit.empty() && has_type(q, k_types[type]) &&
                     std::from_chars(q.value.data(), end, value).ptr == end) {
-                    values_[{q.table, *q.row}].push_back({&q, {value, q.unit}});
+                    values_[{q.table, *q.row}].push_back({&q, type, {value, q.unit}});
+                    if (!seen_[{q.table, type}].insert(value).second) {
+                        repeated_.insert({q.table, type});
+                    }
                 }
             }
         }
     }
 
-    /// The nominal value of the row, else the value of the reference; nothing where the table has neither.
+    /// The nominal value of the row, else the value of the reference; nothing where the table has neither. Where that is
+    /// the same in all rows, it is what was set that tells them apart: a sensitivity measured at 100 m/s² and ten
+    /// frequencies is known by the frequency.
     [[nodiscard]] std::optional<NominalValue> of(const ImportedQuantity& q) const {
         const auto row = q.row ? values_.find({q.table, *q.row}) : values_.end();
         if (row == values_.end()) {
             return std::nullopt;
         }
-        const auto other =
-            std::find_if(row->second.begin(), row->second.end(), [&](const auto& entry) { return entry.first != &q; });
-        return other == row->second.end() ? std::nullopt : std::optional(other->second);
+        const auto first = [&](bool set) {
+            return std::find_if(row->second.begin(), row->second.end(), [&](const Entry& entry) {
+                return entry.quantity != &q && (entry.type == k_set) == set;
+            });
+        };
+        const auto stated = first(false), set = first(true), end = row->second.end();
+        const bool is_known_by_it = stated == end || (repeated_.contains({q.table, stated->type}) &&
+                                                      seen_.at({q.table, stated->type}).size() == 1);
+        if (set != end && is_known_by_it && !repeated_.contains({q.table, k_set})) {
+            return set->value;
+        }
+        return stated == end ? std::nullopt : std::optional(stated->value);
     }
 
 private:
@@ -64,8 +79,18 @@ private:
                (end == q.ref_type.size() || q.ref_type[end] == ' ');
     }
 
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::pair<const ImportedQuantity*, NominalValue>>>
-        values_;
+    static constexpr std::array<std::string_view, 3> k_types{"basic_nominalValue", "basic_referenceValue",
+                                                             "gumcert_setting"};
+    static constexpr std::size_t k_set = 2;
+    struct Entry {
+        const ImportedQuantity* quantity = nullptr;
+        std::size_t type = 0;
+        NominalValue value;
+    };
+
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Entry>> values_;  // of a table and a row
+    std::map<std::pair<std::size_t, std::size_t>, std::set<double>> seen_;      // of a table and a type
+    std::set<std::pair<std::size_t, std::size_t>> repeated_;                    // a type that two rows have alike
 };
 
 /// A result that becomes a line.

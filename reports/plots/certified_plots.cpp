@@ -38,21 +38,29 @@ std::optional<double> number_of(std::string printed) {
     return v;
 }
 
-/// Numbers of the points of a table with a layout that its results are drawn against; none: without any.
+/// Numbers of the points of a table with a layout that its results are drawn against, the first that differ from point to
+/// point: of a sensitivity at 100 m/s² and ten frequencies these. None: without any.
 const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
     if (!table.layout) {
         return nullptr;
     }
+    const certificate::PointColumn* constant = nullptr;
     for (const char* const role : {"nominal", "reference", "setting", "indication"}) {
         for (const certificate::PointColumn& column : table.layout->columns) {
             const bool complete =
                 std::all_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); });
-            if (column.role == role && complete) {
+            if (column.role != role || !complete) {
+                continue;
+            }
+            const bool differs = std::any_of(column.values.begin(), column.values.end(),
+                                             [&](const auto& v) { return v != column.values.front(); });
+            if (differs) {
                 return &column;
             }
+            constant = constant == nullptr ? &column : constant;  // all results upon one another
         }
     }
-    return nullptr;
+    return constant;
 }
 
 /// One limit of all values: a line where it is the same for all, else a bar at each value. Between the points nothing is

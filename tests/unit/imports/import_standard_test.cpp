@@ -131,6 +131,27 @@ TEST(ImportStandard, RowsOfATableAreLinesOfOneQuantity) {
     EXPECT_NE(lines[1]["quantity"], lines[2]["quantity"]) << "nominal values do not tell the rows apart";
 }
 
+// Ten frequencies at one acceleration: the nominal value says nothing of a row, the frequency does.
+TEST(ImportStandard, WhatWasSetTellsRowsOfOneNominalValueApart) {
+    const auto lines = [](const std::string& stated, const std::string& set) {
+        return nlohmann::json::parse(
+            import_list((stated.empty() ? "" : list_of("basic_referenceValue", stated, "\\metre", "")) +
+                        list_of("gumcert_setting gumcert_f", set, "\\hertz", "") +
+                        list_of("basic_measuredValue", "1.1 1.2 1.3", "\\volt", "0.01 0.02 0.03"))
+                .job)["calibrations"][0]["results"];
+    };
+    for (const std::string stated : {"", "100 100 100"}) {
+        const nlohmann::json by_frequency = lines(stated, "10 40 160");
+        ASSERT_EQ(by_frequency.size(), 3U);
+        EXPECT_EQ(by_frequency[1]["nominal"], 40);
+        EXPECT_EQ(by_frequency[1]["nominal_unit"], "Hz");
+        EXPECT_EQ(by_frequency[0]["quantity"], by_frequency[2]["quantity"]);
+    }
+    EXPECT_EQ(lines("1 2 3", "10 40 160")[1]["nominal"], 2) << "the reference tells them apart";
+    EXPECT_EQ(lines("1 1 3", "10 40 160")[1]["nominal"], 1) << "a table of two quantities";
+    EXPECT_EQ(lines("100 100 100", "10 40 40")[1]["nominal"], 100) << "nothing tells them apart";
+}
+
 /// A result with one table of errors at nominal values.
 std::string result_of(const std::string& heading, const std::string& quantities) {
     return "<dcc:result><dcc:name><dcc:content lang='en'>" + heading + "</dcc:content></dcc:name><dcc:data><dcc:list>" +

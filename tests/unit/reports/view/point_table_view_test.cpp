@@ -258,6 +258,16 @@ TEST(PointTableView, ResultsAreDrawnAgainstTheNominalValue) {
     ASSERT_EQ(plot->panels.size(), 1U);
     ASSERT_EQ(plot->panels[0].series.size(), 3U) << "the error and both limits, which differ from point to point";
     EXPECT_EQ(plot->panels[0].series[0].points[2].x, 10.0);
+    // One nominal value for all says nothing of a point: what was set does.
+    certificate::Certificate at_one = table_of_points();
+    std::vector<certificate::PointColumn>& columns = at_one.tables[0].layout->columns;
+    columns[0].values = {1.0, 1.0, 1.0};
+    EXPECT_EQ(certified_plot(at_one.tables[0], "T.", words, "p")->x_label, "Nominal value / V") << "there is no other";
+    columns.push_back(columns[0]);
+    columns[1].role = columns[1].name = "setting";
+    columns[1].unit = columns[1].printed_unit = "Hz";
+    columns[1].values = {10.0, 40.0, 160.0};
+    EXPECT_EQ(certified_plot(at_one.tables[0], "T.", words, "p")->x_label, "Setting / Hz");
     for (const std::size_t limit : {std::size_t{1}, std::size_t{2}}) {
         EXPECT_EQ(plot->panels[0].series[limit].marker, PlotMarker::bar);
         EXPECT_FALSE(plot->panels[0].series[limit].joined) << "between the points other limits hold";
