@@ -531,7 +531,7 @@ void layout_table(CertificateBuilder& builder, const Wording& words, const Certi
         }
         Text caption = layout_caption(*table.layout, words);
         if (parts.size() > 1 && !names.empty()) {
-            caption += " " + names + ".";
+            caption += " " + words.filled("point_table", "title", {{"title", names}});
         }
         std::vector<const CertifiedValue*> of_results;
         for (const auto& [result, value] : marked) {
