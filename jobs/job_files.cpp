@@ -43,11 +43,16 @@ std::string JobFiles::place_of(const std::string& name_in_job) const {
     if (!document) {
         return "";
     }
+    // A standard is named by its identification, and the file of the laboratory itself by the folder.
+    const auto names_it = [&](const std::string& text) {
+        return text == name_in_job || (!text.empty() && (name_in_job.ends_with("/" + text + ".json") ||
+                                                         name_in_job == text + "/laboratory.json"));
+    };
     std::vector<std::pair<const nlohmann::json*, std::string>> open{{&document->value, ""}};
     while (!open.empty()) {
         const auto [value, pointer] = open.back();
         open.pop_back();
-        if (value->is_string() && value->get_ref<const std::string&>() == name_in_job) {
+        if (value->is_string() && names_it(value->get_ref<const std::string&>())) {
             return document->where(pointer);
         }
         if (value->is_object()) {

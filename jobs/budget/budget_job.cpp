@@ -337,7 +337,7 @@ private:
 
     /// A result has one name in the whole job, and an input is used in one section at least.
     void check_sections(const BudgetInputs& inputs) {
-        if (job_.sections.empty() || problems_->refusals() > 0) {
+        if (job_.sections.empty() || problems_->refusals() > 0 || !inputs.symbols_are_whole()) {
             return;
         }
         std::map<std::string, std::string> seen;

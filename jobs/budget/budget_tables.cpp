@@ -1152,8 +1152,8 @@ void read_tables(const std::vector<JsonObject>& parts, const JsonDocument& docum
                                        [](const auto& s) { return s.limits.has_value(); });
     const bool is_wanted = parts.empty() || !job.sections.empty() || parts.front().has("tables") || has_limits ||
                            !job.point_columns.empty() || !job.input_parts.empty() || !job.output_parts.empty();
-    if (!is_wanted || problems.refusals() > 0) {
-        return;  // nothing to show; or names and units are not known
+    if (!is_wanted || problems.refusals() > 0 || !inputs.symbols_are_whole()) {
+        return;  // nothing to show; or names and units are not known, as of a standard whose file was refused
     }
     TableReader(document, inputs, job, problems).read(parts);
 }

@@ -82,6 +82,68 @@ TEST(LaboratoryUseTest, OwnComponentsStandBehindThoseOfTheRegister) {
     EXPECT_EQ(parts[1].u, 0.1);
 }
 
+/// A standard that cannot be read, or whose file is refused, is told as that, whatever the job makes of it: a model that lacks
+/// its input is no fault of the model.
+TEST(LaboratoryUseTest, AFaultOfTheRegisterIsNoFaultOfTheModel) {
+    const auto told = [](const json& job, std::map<std::string, std::string> files) {
+        std::vector<std::string> messages;
+        try {
+            files["p.csv"] = "V.at,x\n10,1\n10,2\n";
+            (void)read(job, std::move(files));
+        } catch (const gum::DiagnosedError& error) {
+            for (const gum::Diagnostic& one : error.diagnostics()) {
+                messages.push_back(one.code + " " + gum::message(one));
+            }
+        }
+        return messages;
+    };
+    const json specification{
+        {"id", "s"}, {"results", {"y"}}, {"unit", "V"}, {"rule", {{"id", "DR-01"}}}, {"limits", {{"by", "points"}}}};
+    for (const bool in_sections : {false, true}) {
+        for (const std::string role : {"", "reference"}) {
+            for (const std::string points : {"file", "list", ""}) {
+                for (const bool limits : {false, true}) {
+                    json certificate = k_work;
+                    if (limits) {
+                        certificate["specifications"] = {specification};
+                    }
+                    json job =
+                        job_of({{"V", {{"standard", "STD-1"}, {"unit", "V"}}}, {"x", {{"unit", "V"}, {"u", 0.1}}}},
+                               certificate);
+                    if (!role.empty()) {
+                        job["inputs"]["V"]["role"] = role;
+                    }
+                    json part{{"model", {"y = x - V"}}};
+                    if (points == "file") {
+                        part["points"] = {{"file", "p.csv"}};
+                    } else if (points == "list") {
+                        part["points"] = {{{"V", {{"at", 10}}}, {"x", 1}}, {{"V", {{"at", 10}}}, {"x", 2}}};
+                    } else {
+                        job["inputs"]["x"]["value"] = 1;
+                    }
+                    if (in_sections) {
+                        job["sections"]["A"] = part;
+                    } else {
+                        job.update(part);
+                    }
+                    SCOPED_TRACE(job.dump());
+                    std::map<std::string, std::string> files = test::sample_laboratory_files("lab/");
+                    files.erase("lab/standards/STD-1.json");
+                    const std::vector<std::string> missing = told(job, files);
+                    EXPECT_THAT(missing, testing::ElementsAre(testing::HasSubstr("lab/standards/STD-1.json")));
+                    EXPECT_THAT(missing, testing::Each(testing::StartsWith("GC-STORAGE-0001")));
+                    EXPECT_THAT(missing, testing::Each(testing::HasSubstr("named at job.json#/inputs/V/standard")));
+                    files["lab/standards/STD-1.json"] =
+                        R"j({"schema": "gumcert/standard/1", "id": "STD-1", "drif": 1})j";
+                    const std::vector<std::string> refused = told(job, files);
+                    EXPECT_FALSE(refused.empty());
+                    EXPECT_THAT(refused, testing::Each(testing::HasSubstr("lab/standards/STD-1.json")));
+                }
+            }
+        }
+    }
+}
+
 TEST(LaboratoryUseTest, PointsMayUseStandards) {
     json job = job_of({{"V", {{"unit", "V"}}}});
     job["points"] = {{{"V", {{"standard", "STD-1"}, {"date", "2026-01-01"}}}},
