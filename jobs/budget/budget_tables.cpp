@@ -866,6 +866,7 @@ private:
             return;
         }
         const certificate::PointTable points = table_of_points();
+        warn_of_unused_limits();
         for (const certificate::AgreedSpecification& s : job_.certificate->specifications) {
             if (!s.limits) {
                 continue;
@@ -924,6 +925,34 @@ private:
                                    argument.unit + ", the end of a step of the limits, by less than 1 % at the point" +
                                    (past.size() == 1 ? " " : "s ") + text::listed(past, 5),
                                "the limits there are those of the next step", k_take_nominal_values);
+            }
+        }
+    }
+
+    /// Limits that the points state and no specification takes: the verdicts would be those of other limits.
+    void warn_of_unused_limits() {
+        for (const std::string_view name : certificate::k_limit_columns) {
+            const PointColumn* const limits = column(name);
+            std::vector<std::string> at;
+            for (std::size_t p = 0; limits != nullptr && p < limits->values.size() && p < job_.points.size(); ++p) {
+                const auto takes = [&](const certificate::AgreedSpecification& s) {
+                    const std::vector<std::string> names =
+                        s.limits ? certificate::columns_of_limits(*s.limits) : std::vector<std::string>();
+                    return is_about(s, p) && ((s.limits && s.limits->by == "points") ||
+                                              std::find(names.begin(), names.end(), name) != names.end());
+                };
+                const auto& specifications = job_.certificate->specifications;
+                if (limits->values[p] && std::none_of(specifications.begin(), specifications.end(), takes)) {
+                    at.push_back(text::in_quotes(job_.points[p].name));
+                }
+            }
+            if (!at.empty()) {
+                problems_.warn(k_warn_extra_column, document_.where("/certificate"),
+                               "the column " + text::in_quotes(name) + " states limits of the point" +
+                                   (at.size() == 1 ? " " : "s ") + text::listed(at, 5) +
+                                   ", and no specification takes them",
+                               "limits of points hold where \"limits\" of a specification are {\"by\": \"points\"}",
+                               "state that in the specification, or remove the column");
             }
         }
     }

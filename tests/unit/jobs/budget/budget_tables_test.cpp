@@ -433,6 +433,40 @@ TEST(BudgetTables, RefuseLimitsOfAnErrorAboutANominalValue) {
     EXPECT_TRUE(budget_refusals(limits("E", "measured_value", "nominal"), k_points).empty());
 }
 
+/// Limits in a column that no specification takes would be other ones than those of the verdicts.
+TEST(BudgetTables, TellLimitsOfPointsThatNoSpecificationTakes) {
+    const auto told = [](const std::string& result, const std::string& limits, const std::string& mpe_of_low,
+                         const std::string& column) {
+        const std::string keys =
+            k_meter + R"j(, "points": {"columns": {"range": "text"}, "list": [
+            {"point": "low", "range": "1 V", "V_s": 1, "V_x": {"observations": [1.01, 1.02]})j" +
+            mpe_of_low +
+            R"j(}, {"point": "high", "range": "1 V", "V_s": 2, "V_x": {"observations": [2.01, 2.02]}, ")j" + column +
+            R"j(": 0.5}]}, "certificate": {"specifications": [{"id": "s", "results": [")j" + result +
+            R"j("], "unit": "mV", "rule": {"id": "DR-01"}, )j" + limits + "}]}";
+        std::string all;
+        for (const gum::Diagnostic& one : read_budget(keys).warnings) {
+            all += one.code == k_warn_extra_column.code ? gum::message(one) : "";
+        }
+        return all;
+    };
+    const std::string by_points = R"j("limits": {"by": "points"})j", constant = R"j("lower": -1, "upper": 1)j";
+    const std::string accuracy =
+        R"j("limits": {"by": "accuracy", "of": "V_s", "accuracy": [{"percent_of_reading": 1}]})j";
+    for (const std::string column : {"mpe", "limit_low", "limit_high"}) {
+        SCOPED_TRACE(column);
+        const std::string stated = ", \"" + column + "\": 0.4";
+        EXPECT_EQ(told("E", by_points, stated, column), "");
+        EXPECT_EQ(told("E[high]", by_points, "", column), "");
+        for (const std::string& other : {constant, accuracy}) {
+            EXPECT_THAT(told("E", other, stated, column), HasSubstr("\"low\", \"high\", and no specification"));
+            EXPECT_THAT(told("E", other, "", column), HasSubstr("the point \"high\", and no specification"));
+        }
+        EXPECT_THAT(told("E[high]", by_points, stated, column), HasSubstr("the point \"low\", and no specification"));
+        EXPECT_THAT(told("F", by_points, stated, column), HasSubstr("no specification takes them"));
+    }
+}
+
 /// What a specification does not name needs no limits of it.
 TEST(BudgetTables, AskLimitsOfThePointsThatASpecificationNames) {
     const auto keys = [](const std::string& result) {
