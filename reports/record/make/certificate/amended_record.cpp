@@ -135,19 +135,38 @@ bool is_left_out(std::string_view at) {
     return at.starts_with("/amendment/") || std::find(k_left_out.begin(), k_left_out.end(), at) != k_left_out.end();
 }
 
-/// Numbers of the data with the unit that stands beside them: "upper" of a specification, "minimum" of a condition.
+/// The unit of a number of the data: that which stands beside it or around it ("upper" of a specification, "mpe" of its
+/// steps, "U" of a capability), or that of what it is a value of ("at" of a capability, "low" of a range).
+std::string unit_of_number(const std::map<std::string, std::string>& units, std::string parent, std::string_view key) {
+    static constexpr std::array<std::string_view, 15> k_around = {
+        "lower", "upper",      "minimum",   "maximum",              "value",             "U",     "U_to",
+        "mpe",   "guard_band", "largest_U", "population_deviation", "population_centre", "digit", "constant",
+        "full_scale"};
+    const auto at = [&](const std::string& place) {
+        const auto unit = units.find(place);
+        return unit == units.end() ? std::string() : unit->second;
+    };
+    if (key == "percent_of_reading" || key == "percent_of_range") {
+        return "%";
+    }
+    if (key == "low" || key == "high") {
+        return at(parent + "/argument");
+    }
+    const bool is_of_argument = key == "at" || key == "up_to";
+    if (!is_of_argument && std::find(k_around.begin(), k_around.end(), key) == k_around.end()) {
+        return "";
+    }
+    for (; !parent.empty(); parent.resize(parent.rfind('/'))) {
+        const std::string unit = at(is_of_argument ? parent + "/arguments/0" : parent);
+        if (!unit.empty()) {
+            return unit;
+        }
+    }
+    return "";
+}
+
+/// Numbers of the data with their units.
 void add_units(Texts& texts) {
-    static constexpr std::array<std::string_view, 11> k_with_unit = {"lower",
-                                                                     "upper",
-                                                                     "minimum",
-                                                                     "maximum",
-                                                                     "value",
-                                                                     "U",
-                                                                     "U_to",
-                                                                     "guard_band",
-                                                                     "largest_U",
-                                                                     "population_deviation",
-                                                                     "population_centre"};
     std::map<std::string, std::string> units;
     for (const StatedLeaf& leaf : texts) {
         if (leaf.at.ends_with("/unit")) {
@@ -155,20 +174,13 @@ void add_units(Texts& texts) {
         }
     }
     for (StatedLeaf& leaf : texts) {
-        const std::size_t slash = leaf.at.rfind('/');
-        const std::string_view key = std::string_view(leaf.at).substr(slash + 1);
-        if (leaf.kind != std::string_view("number") ||
-            std::find(k_with_unit.begin(), k_with_unit.end(), key) == k_with_unit.end()) {
+        if (leaf.kind != std::string_view("number")) {
             continue;
         }
-        std::string parent = leaf.at.substr(0, slash);
-        if (parent.ends_with("/rule")) {
-            parent.resize(parent.size() -
-                          std::string_view("/rule").size());  // parameters are in the unit of the limits
-        }
-        if (const auto unit = units.find(parent); unit != units.end()) {
-            leaf.text += "\u00A0" + unit->second;
-        }
+        const std::size_t slash = leaf.at.rfind('/');
+        const std::string unit =
+            unit_of_number(units, leaf.at.substr(0, slash), std::string_view(leaf.at).substr(slash + 1));
+        leaf.text += unit.empty() ? "" : "\u00A0" + unit;
     }
 }
 

@@ -180,6 +180,54 @@ TEST(AmendedRecord, GivesBothEndsOfAUTheirUnit) {
     EXPECT_NE(found.find("/U_to: 3\u00A0MHz -> 4\u00A0MHz"), std::string::npos) << found;
 }
 
+/// A number of a scope or of limits has the unit that stands around it, or that of its argument.
+TEST(AmendedRecord, GivesNumbersOfScopesAndLimitsTheirUnits) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::ScopeEntry entry;
+    entry.id = "S1";
+    entry.results = {"E"};
+    entry.ranges = {{.argument = {.name = "I", .unit = "mA", .of = "I_N"}, .low = 1.0, .high = 20.0}};
+    entry.capability.form = "table";
+    entry.capability.unit = "uA";
+    entry.capability.arguments = {{.name = "I", .unit = "mA", .of = "I_N"}};
+    entry.capability.points = {{.at = 1.0, .U = 0.1}, {.at = 20.0, .U = 2.0}};
+    earlier.data.accreditation.emplace().scope = {entry};
+    certificate::AgreedSpecification specification;
+    specification.id = "s";
+    specification.results = {"E"};
+    specification.unit = "mV";
+    specification.limits.emplace().by = "steps";
+    specification.limits->arguments = {{.name = "I", .unit = "mA", .of = "I_N"}};
+    specification.limits->steps = {{.up_to = 5.0, .mpe = 0.3}};
+    specification.limits->accuracy = {{.range = "A",
+                                       .unit = "",
+                                       .percent_of_reading = 0.5,
+                                       .percent_of_range = {},
+                                       .full_scale = {},
+                                       .digits = 2.0,
+                                       .digit = 0.1,
+                                       .constant = {}}};
+    specification.rule.id = "DR-04";
+    specification.rule.guard_factor = 0.5;
+    earlier.data.specifications = {specification};
+    certificate::Certificate later = earlier;
+    later.data.accreditation->scope[0].ranges[0].high = 30.0;
+    later.data.accreditation->scope[0].capability.points[1] = {.at = 30.0, .U = 3.0};
+    later.data.specifications[0].limits->steps[0] = {.up_to = 6.0, .mpe = 0.4};
+    later.data.specifications[0].limits->accuracy[0].percent_of_reading = 0.6;
+    later.data.specifications[0].limits->accuracy[0].digits = 3.0;
+    later.data.specifications[0].limits->accuracy[0].digit = 0.2;
+    later.data.specifications[0].rule.guard_factor = 0.6;
+    const std::string found = said(changes_between(earlier, later));
+    for (const char* const change :
+         {"/high: 20\u00A0mA -> 30\u00A0mA", "/points/1/at: 20\u00A0mA -> 30\u00A0mA", "/points/1/U: 2\u00A0µA -> 3\u00A0µA",
+          "/up_to: 5\u00A0mA -> 6\u00A0mA", "/mpe: 0.3\u00A0mV -> 0.4\u00A0mV",
+          "/percent_of_reading: 0.5\u00A0% -> 0.6\u00A0%", "/digits: 2 -> 3", "/digit: 0.1\u00A0mV -> 0.2\u00A0mV",
+          "/guard_factor: 0.5 -> 0.6"}) {
+        EXPECT_NE(found.find(change), std::string::npos) << change << "\n" << found;
+    }
+}
+
 /// Where the table of results shows the verdicts the certificate has no table of them.
 TEST(AmendedRecord, TellsNothingOfADecisionThatIsNotPrinted) {
     certificate::Certificate earlier = certificate_with_layout();
