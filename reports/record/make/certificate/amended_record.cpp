@@ -138,10 +138,21 @@ bool is_left_out(std::string_view at) {
 /// The unit of a number of the data: that which stands beside it or around it ("upper" of a specification, "mpe" of its
 /// steps, "U" of a capability), or that of what it is a value of ("at" of a capability, "low" of a range).
 std::string unit_of_number(const std::map<std::string, std::string>& units, std::string parent, std::string_view key) {
-    static constexpr std::array<std::string_view, 15> k_around = {
-        "lower", "upper",      "minimum",   "maximum",              "value",             "U",     "U_to",
-        "mpe",   "guard_band", "largest_U", "population_deviation", "population_centre", "digit", "constant",
-        "full_scale"};
+    static constexpr std::array<std::string_view, 15> k_around = {"lower",
+                                                                  "upper",
+                                                                  "minimum",
+                                                                  "maximum",
+                                                                  "value",
+                                                                  "U",
+                                                                  "U_to",
+                                                                  "mpe",
+                                                                  "guard_band",
+                                                                  "largest_U",
+                                                                  "population_deviation",
+                                                                  "population_centre",
+                                                                  "digit",
+                                                                  "constant",
+                                                                  "full_scale"};
     const auto at = [&](const std::string& place) {
         const auto unit = units.find(place);
         return unit == units.end() ? std::string() : unit->second;

@@ -220,8 +220,8 @@ TEST(AmendedRecord, GivesNumbersOfScopesAndLimitsTheirUnits) {
     later.data.specifications[0].rule.guard_factor = 0.6;
     const std::string found = said(changes_between(earlier, later));
     for (const char* const change :
-         {"/high: 20\u00A0mA -> 30\u00A0mA", "/points/1/at: 20\u00A0mA -> 30\u00A0mA", "/points/1/U: 2\u00A0µA -> 3\u00A0µA",
-          "/up_to: 5\u00A0mA -> 6\u00A0mA", "/mpe: 0.3\u00A0mV -> 0.4\u00A0mV",
+         {"/high: 20\u00A0mA -> 30\u00A0mA", "/points/1/at: 20\u00A0mA -> 30\u00A0mA",
+          "/points/1/U: 2\u00A0µA -> 3\u00A0µA", "/up_to: 5\u00A0mA -> 6\u00A0mA", "/mpe: 0.3\u00A0mV -> 0.4\u00A0mV",
           "/percent_of_reading: 0.5\u00A0% -> 0.6\u00A0%", "/digits: 2 -> 3", "/digit: 0.1\u00A0mV -> 0.2\u00A0mV",
           "/guard_factor: 0.5 -> 0.6"}) {
         EXPECT_NE(found.find(change), std::string::npos) << change << "\n" << found;
