@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "certificate/capability.h"
 #include "gum/argument_check.h"
+#include "gum/quantity/diagnostic.h"
 #include "text/numbers.h"
 
 namespace gumcert::certificate {
@@ -27,6 +32,59 @@ namespace {
 
 /// Roles of columns at whose values an error is measured, the one that says it best first.
 constexpr std::array<std::string_view, 5> k_places{"nominal", "setting", "reference", "indication", "measured_value"};
+
+constexpr double k_a_little = 0.01;         // of a range
+constexpr double k_same_capability = 0.02;  // what two digits of U do not show
+
+/// Values of the other arguments of a capability, so far as the scope states them: nodes of a matrix, ends of ranges.
+std::vector<std::vector<ArgumentValue>> places_of_others(const ScopeEntry& entry, const std::string& argument) {
+    const Capability& capability = entry.capability;
+    std::vector<std::vector<ArgumentValue>> places = {{}};
+    for (std::size_t a = 0; a < capability.arguments.size(); ++a) {
+        const CapabilityArgument& other = capability.arguments[a];
+        if (other.name == argument) {
+            continue;
+        }
+        std::vector<double> values;
+        if (capability.form == "matrix") {
+            values = a == 0 ? capability.rows : capability.columns;
+        } else {
+            for (const ScopeEntry::Range& range : entry.ranges) {
+                if (range.argument.name == other.name && range.argument.unit == other.unit) {
+                    values = {range.low, range.high};
+                }
+            }
+        }
+        std::vector<std::vector<ArgumentValue>> more;
+        for (const std::vector<ArgumentValue>& place : places) {
+            for (const double value : values) {
+                more.push_back(place);
+                more.back().push_back({.name = other.name, .value = value});
+            }
+        }
+        places = std::move(more);
+    }
+    return places;
+}
+
+/// Whether a scope allows at one value of an argument, but for what two digits do not show, no less than at another: of 0.49 °C and 0 °C the
+/// number is another one, and the capability the same.
+bool allows_no_less(const ScopeEntry& entry, const std::string& argument, double claimed, double value) {
+    try {
+        const CapabilityEvaluator evaluator(entry.capability);
+        const auto at = [&](std::vector<ArgumentValue> place, double own) {
+            place.push_back({.name = argument, .value = own});
+            return evaluator.at(place).U;
+        };
+        const std::vector<std::vector<ArgumentValue>> places = places_of_others(entry, argument);
+        return !places.empty() && std::all_of(places.begin(), places.end(), [&](const auto& place) {
+            const std::optional<double> there = at(place, claimed), here = at(place, value);
+            return there && here && *here <= *there * (1.0 + k_same_capability);
+        });
+    } catch (const gum::InputError&) {
+        return false;  // a finding of its own
+    }
+}
 
 /// The column of a result as its table shows it; nullptr where it is not shown, or is no error, deviation or correction.
 const ShownColumn* error_column(const CertifiedTable& table, const std::string& result) {
@@ -72,8 +130,12 @@ bool is_nominal_of(double claimed, double value) {
     return std::abs(value - claimed) <= k_same * std::max(std::abs(value), std::abs(claimed));
 }
 
+bool is_nominal_in(double claimed, double value, double low, double high) {
+    // Near 0 nothing is a tenth of anything: 0.49 °C was measured at the ice point.
+    return is_nominal_of(claimed, value) || std::abs(value - claimed) <= k_a_little * (high - low);
+}
+
 bool is_beyond(double value, double low, double high) {
-    constexpr double k_a_little = 0.01;
     // An item whose nominal value is the end of the range may measure a little more.
     const double little = k_a_little * (high - low);
     return value > high + little || value < low - little;
@@ -96,6 +158,10 @@ std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::
     // A capability mostly grows with the quantity: taken at a smaller number it would allow a smaller U than the scope
     // does.
     const bool larger = std::abs(value) > std::abs(claimed);
+    if (larger && allows_no_less(entry, argument.name, unit.from_si(stated.to_si(held.value)),
+                                 unit.from_si(result.to_si(measured.value)))) {
+        return std::nullopt;
+    }
     return Finding{.id = "X12",
                    .clause = "ILAC-P14:09/2020",
                    .severity = larger ? FindingSeverity::critical : FindingSeverity::minor,

@@ -44,12 +44,15 @@ struct Measured : HeldAgainst {
 /// Whether a number can be the nominal value of what was measured: within a tenth.
 [[nodiscard]] bool is_nominal_of(double claimed, double value);
 
+/// The same of one that a range holds: within a hundredth of the range as well, for nominal values near 0.
+[[nodiscard]] bool is_nominal_in(double claimed, double value, double low, double high);
+
 /// Whether what was measured lies beyond a range that its nominal value keeps. What is measured may lie a little beyond its
 /// nominal value at the end of a range: a hundredth of the range.
 [[nodiscard]] bool is_beyond(double value, double low, double high);
 
 /// Tells of a capability that is taken at another number than what was measured (X12): critical where that is the larger
-/// one.
+/// one, unless the capability is the same there.
 /// \param i  index of the entry in the scope
 [[nodiscard]] std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::size_t i,
                                                                 const CapabilityArgument& argument,

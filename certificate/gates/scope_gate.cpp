@@ -147,7 +147,7 @@ void ranges(FindingList& found, const Certificate& certificate, const ScopeEntry
             // Below a range of magnitudes lies 0, the result of a zero point or of a small error; that an item was
             // better than the range is no breach of it.
             const double low = has_sign(unit, range.low) ? range.low : 0.0;
-            if (is_nominal_of(claimed, value) && !is_beyond(value, low, range.high)) {
+            if (is_nominal_in(claimed, value, low, range.high) && !is_beyond(value, low, range.high)) {
                 continue;
             }
             const bool beyond = is_beyond(value, low, range.high);

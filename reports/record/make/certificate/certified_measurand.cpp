@@ -84,8 +84,8 @@ std::optional<Finding> range_of_input(const ScopeEntry& entry, std::size_t i, co
     const double value = certificate::value_for_scope(measured.value, of, unit, range.low);
     const double low = certificate::has_sign(unit, range.low) ? range.low : 0.0;
     const bool beyond = certificate::is_beyond(value, low, range.high);
-    const bool nominal =
-        certificate::is_nominal_of(certificate::value_for_scope(*row->value.number, stated, unit, range.low), value);
+    const bool nominal = certificate::is_nominal_in(
+        certificate::value_for_scope(*row->value.number, stated, unit, range.low), value, low, range.high);
     if (!beyond && (nominal || row->u.number > 0.0)) {
         return std::nullopt;
     }

@@ -41,6 +41,13 @@ TEST(HeldAgainst, NominalValueIsWithinATenth) {
     EXPECT_FALSE(is_nominal_of(5.0, -5.0));
 }
 
+TEST(HeldAgainst, NominalValueNearZeroIsWithinAHundredthOfTheRange) {
+    EXPECT_TRUE(is_nominal_in(0.0, 0.49, -40.0, 300.0));
+    EXPECT_FALSE(is_nominal_in(0.0, 4.9, -40.0, 300.0));
+    EXPECT_TRUE(is_nominal_in(100.0, 109.0, 0.0, 1000.0));
+    EXPECT_FALSE(is_nominal_in(20.0, 50.0, 0.0, 100.0));
+}
+
 TEST(HeldAgainst, RangeReachesAHundredthFurther) {
     EXPECT_FALSE(is_beyond(100.5, 0.0, 100.0));
     EXPECT_TRUE(is_beyond(101.5, 0.0, 100.0));
@@ -120,6 +127,53 @@ TEST_F(TakenElsewhere, IsCriticalWhereTheResultIsLarger) {
     EXPECT_TRUE(told({.name = "nominal", .value = 0.1, .unit = "m"}));
     EXPECT_EQ(only(found).severity, FindingSeverity::minor)
         << "a capability at more than was measured is the worse one";
+}
+
+/// At the ice point another number was measured than 0 °C, at 0 V another than 0 V: what the scope allows there is the same.
+TEST(HeldAgainst, CapabilityThatIsTheSameElsewhereIsNotTold) {
+    const auto told = [](const std::string& expression, double claimed, double value) {
+        ScopeEntry entry;
+        entry.id = "T1";
+        entry.capability.form = "function";
+        entry.capability.unit = "K";
+        entry.capability.arguments = {{.name = "t", .unit = "degC", .of = "t_N"}};
+        entry.capability.expression = expression;
+        const Measured measured{{.name = "t_c", .value = value, .unit = "degC"}, "the result"};
+        const std::optional<Finding> finding = capability_taken_elsewhere(
+            entry, 0, entry.capability.arguments.front(), {.name = "t_N", .value = claimed, .unit = "degC"}, measured);
+        return finding && finding->severity == FindingSeverity::critical;
+    };
+    const std::string slow = "0.05 + 0.0001*abs(t)", steep = "0.05 + 0.01*abs(t)";
+    EXPECT_FALSE(told(slow, 0.0, 0.49));
+    EXPECT_FALSE(told(slow, 0.0, -0.49));
+    EXPECT_TRUE(told(slow, 0.0, 20.0)) << "52 mK in place of 50 mK";
+    EXPECT_TRUE(told(steep, 0.0, 0.49)) << "55 mK in place of 50 mK";
+    EXPECT_FALSE(told(steep, 0.0, 0.02));
+    EXPECT_TRUE(told("0.05 + ", 0.0, 0.49)) << "nothing is known of it";
+    // Of two arguments, wherever the other one is.
+    const auto told_of_two = [](double slope, double value, bool is_stated) {
+        ScopeEntry entry;
+        entry.id = "A1";
+        entry.capability.form = is_stated ? "matrix" : "function";
+        entry.capability.unit = "dB";
+        entry.capability.arguments = {{.name = "f", .unit = "GHz", .of = "f"},
+                                      {.name = "A", .unit = "dB", .of = "A_N"}};
+        if (is_stated) {
+            entry.capability.rows = {1.0, 18.0};
+            entry.capability.columns = {0.0, 10.0};
+            entry.capability.matrix = {{0.01, 0.01}, {0.02, 0.02 + 10.0 * slope}};
+            entry.capability.lookup = "linear";
+        } else {
+            entry.capability.expression = "0.01 + 0.001*f + 0.001*A";
+        }
+        const Measured measured{{.name = "A", .value = value, .unit = "dB"}, "the result"};
+        return capability_taken_elsewhere(entry, 0, entry.capability.arguments.back(),
+                                          {.name = "A_N", .value = 0.0, .unit = "dB"}, measured)
+            .has_value();
+    };
+    EXPECT_FALSE(told_of_two(0.001, 0.12, true));
+    EXPECT_TRUE(told_of_two(0.01, 0.12, true)) << "at 18 GHz 21.2 mdB in place of 20 mdB";
+    EXPECT_TRUE(told_of_two(0.001, 0.12, false)) << "where the frequency is, nobody says";
 }
 
 TEST_F(TakenElsewhere, SaysNothingWhereItIsTheResultOrAnotherKind) {
