@@ -59,11 +59,22 @@ std::string with_power_of_ten(const std::string& text) {
             out += text[i];
             continue;
         }
-        out += "\u00A0×\u00A010";
-        out += text[first - 1] == '-' ? "⁻" : "";
         std::size_t end = first;
-        for (; is_digit(end); ++end) {
-            out += k_raised.at(static_cast<std::size_t>(text[end] - '0'));
+        while (is_digit(end)) {
+            ++end;
+        }
+        std::size_t mantissa = out.size();
+        while (mantissa > 0 && (out[mantissa - 1] == '.' || (out[mantissa - 1] >= '0' && out[mantissa - 1] <= '9'))) {
+            --mantissa;
+        }
+        if (out.find_first_not_of("0.", mantissa) == std::string::npos) {
+            out.replace(mantissa, std::string::npos, "0");  // whatever the power: a value of 0 beside U = 4.8 × 10²
+        } else {
+            out += "\u00A0×\u00A010";
+            out += text[first - 1] == '-' ? "⁻" : "";
+            for (std::size_t digit = first; digit < end; ++digit) {
+                out += k_raised.at(static_cast<std::size_t>(text[digit] - '0'));
+            }
         }
         i = end - 1;
     }

@@ -305,6 +305,9 @@ TEST(Languages, ANumberKeepsItsDigitsAndItsForm) {
     EXPECT_EQ(words.number("1.2E+3").in(0), "1,2\u00A0×\u00A010³");
     EXPECT_EQ(with_power_of_ten("-1.50E-12 nm"), "-1.50\u00A0×\u00A010⁻¹² nm");
     EXPECT_EQ(with_power_of_ten("EXA 5E, 2E+, E5"), "EXA 5E, 2E+, E5") << "names are no numbers";
+    EXPECT_EQ(with_power_of_ten("0E+1"), "0");
+    EXPECT_EQ(with_power_of_ten("0.0E+3 ± 1.2E+4 nm"), "0 ± 1.2\u00A0×\u00A010⁴ nm");
+    EXPECT_EQ(with_power_of_ten("10E+1, 0.10E-3"), "10\u00A0×\u00A010¹, 0.10\u00A0×\u00A010⁻³");
     EXPECT_EQ(words.number(">99.99").in(0), ">99,99");
     EXPECT_EQ(words.number("0.41\u00A0K").in(0), "0,41\u00A0K");
     EXPECT_EQ(words.number("12. ").in(0), "12. ");
