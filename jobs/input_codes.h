@@ -181,6 +181,7 @@ inline constexpr InputCode k_warn_beyond_range{"GC-WARN-0015", "a reading beyond
 inline constexpr InputCode k_warn_step_passed{"GC-WARN-0016",
                                               "a measured value that passes the end of a step of limits"};
 inline constexpr InputCode k_warn_range_of_no_point{"GC-WARN-0017", "the accuracy of a range that no point has"};
+inline constexpr InputCode k_warn_point_not_shown{"GC-WARN-0018", "a specified point whose row a table does not name"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,
@@ -320,6 +321,7 @@ inline constexpr std::array k_input_codes{k_file_too_large,
                                           k_warn_correlations_repaired,
                                           k_warn_beyond_range,
                                           k_warn_step_passed,
-                                          k_warn_range_of_no_point};
+                                          k_warn_range_of_no_point,
+                                          k_warn_point_not_shown};
 
 }  // namespace gumcert::jobs

@@ -608,26 +608,41 @@ private:
 
     /// Sentences name a value by its point ("E[low]"): a table that the program makes shows the names that its rows do not
     /// say anyway (ISO/IEC 17025:2017, 7.8.6.2 a). Numbers that count the rows are left out until a specification needs
-    /// them.
+    /// them. Columns that the job chooses stay as they are, and what a specification needs is told.
     void name_points() {
-        for (const std::size_t made : made_) {
-            TableRequest& table = job_.tables[made];
+        for (std::size_t t = 0; t < job_.tables.size(); ++t) {
+            TableRequest& table = job_.tables[t];
             const auto is_point = [](const ShownColumn& c) { return c.show == "point"; };
             if (std::any_of(table.columns.begin(), table.columns.end(), is_point)) {
                 continue;
             }
+            const bool is_made = std::find(made_.begin(), made_.end(), t) != made_.end();
             bool needed = false;
-            for (std::size_t p = 0; p < job_.points.size() && !needed; ++p) {
+            std::vector<std::string> alone;
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
                 const std::string& name = job_.points[p].name;
-                needed = holds(table, p) && (name != std::to_string(p + 1) || is_named_alone(p)) &&
-                         std::none_of(table.columns.begin(), table.columns.end(), [&](const ShownColumn& c) {
-                             const PointColumn* const shown_column = c.show == "column" ? column(c.of) : nullptr;
-                             return shown_column != nullptr && says(*shown_column, p, name);
-                         });
+                const bool is_said = !holds(table, p) ||
+                                     std::any_of(table.columns.begin(), table.columns.end(), [&](const ShownColumn& c) {
+                                         const PointColumn* const shown_column =
+                                             c.show == "column" ? column(c.of) : nullptr;
+                                         return shown_column != nullptr && says(*shown_column, p, name);
+                                     });
+                if (!is_said && is_named_alone(p)) {
+                    alone.push_back(text::in_quotes(name));
+                }
+                needed = needed || (!is_said && (name != std::to_string(p + 1) || !alone.empty()));
             }
-            if (needed) {
+            if (is_made && needed) {
                 table.columns.insert(table.columns.begin(),
                                      {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+            } else if (!is_made && !alone.empty()) {
+                problems_.warn(k_warn_point_not_shown, document_.where("/certificate"),
+                               "a specification names a result of the point" +
+                                   std::string(alone.size() == 1 ? " " : "s ") + text::listed(alone, 5) +
+                                   ", and the table does not say which row that is",
+                               "a certificate says to which results a statement of conformity applies (ISO/IEC "
+                               "17025:2017, 7.8.6.2 a)",
+                               "add \"point\" to the columns of the table");
             }
         }
     }

@@ -374,6 +374,16 @@ TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotSay) {
         }
         const BudgetJob job = read_budget(keys, files);
         EXPECT_EQ(shown(job.tables.at(0)).front(), named.is_shown ? "point:" : "column:V_s");
+        // Columns that the job chooses stay; what a specification of one point needs is told.
+        for (const std::string point : {"", R"j("point", )j"}) {
+            const BudgetJob chosen =
+                read_budget(keys + R"j(, "tables": [{"columns": [)j" + point + R"j("V_s", "V_x", "E", "U"]}])j", files);
+            EXPECT_EQ(shown(chosen.tables.at(0)).front(), point.empty() ? "column:V_s" : "point:");
+            const bool is_told =
+                std::any_of(chosen.warnings.begin(), chosen.warnings.end(),
+                            [](const gum::Diagnostic& one) { return one.code == k_warn_point_not_shown.code; });
+            EXPECT_EQ(is_told, point.empty() && named.is_shown && named.specified.find('[') != std::string::npos);
+        }
     }
 }
 
