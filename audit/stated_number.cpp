@@ -44,8 +44,7 @@ std::u32string characters(std::string_view text) {
                 all += U'\'';
                 break;
             case k_dot_operator:
-            case k_middle_dot:
-                all += k_times;
+                all += k_middle_dot;  // "N⋅m" is the unit "N·m"
                 break;
             default:
                 all += next.code;
@@ -76,7 +75,7 @@ char32_t lowered(char32_t code) {
     return at == std::u32string_view::npos ? code : k_plain[at];
 }
 bool is_times(char32_t code) {
-    return code == k_times || code == U'*' || code == k_bullet_operator || code == k_bullet;
+    return code == k_times || code == k_middle_dot || code == U'*' || code == k_bullet_operator || code == k_bullet;
 }
 
 /// Walks over the characters of a text.

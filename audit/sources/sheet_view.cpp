@@ -159,7 +159,7 @@ namespace {
 
 /// Whether behind a number stands what it is multiplied by or divided by: "2×0.10", "0.20/2". The first number alone is another one.
 bool goes_on(std::string_view rest) {
-    for (const std::string_view sign : {"×", "*", "∙", "•", "/"}) {
+    for (const std::string_view sign : {"×", "·", "*", "∙", "•", "/"}) {
         if (!rest.starts_with(sign)) {
             continue;
         }
