@@ -573,7 +573,7 @@ std::string_view without_unit(std::string_view head) {
 }
 
 std::optional<Column> meaning_of_head(std::string_view text) {
-    if (text == "u") {
+    if (text == "u" || text == "w") {  // w is a relative u (ISO 376)
         return Column::u;
     }
     if (text == "U" || text == "±" || text == "+/-") {
@@ -727,8 +727,9 @@ bool is_of_expanded(const CoverageText& coverage) {
 /// What a name in words says of an uncertainty: "standard uncertainty of the result", "Overall uncertainty", "Messunsicherheit U".
 /// Nothing where it may be that of anything else, "uncertainty of calibration", or is one of the two only with its coverage, and
 /// that says nothing.
-/// \param coverage  what follows it, "(k = 2)"
-std::optional<Statement> uncertainty_in_words(std::string_view name, std::string_view coverage) {
+/// \param coverage     what follows it, "(k = 2)"
+/// \param is_relative  set where the name says so
+std::optional<Statement> uncertainty_in_words(std::string_view name, std::string_view coverage, bool& is_relative) {
     constexpr std::size_t k_longest = 80;
     bool is_standard = false, is_expanded = false, is_total = false, is_noun = false;
     bool is_tail = false, has_tail = false;  // behind "of"
@@ -757,6 +758,8 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
             is_tail = true;
         } else if (is_one_of(word, {"expanded", "extended", "erweiterte"})) {
             is_expanded = true;
+        } else if (!is_noun && is_one_of(word, {"relative", "rel.", "relat."})) {
+            is_relative = true;
         } else if (is_one_of(word, {"standard", "std", "std."})) {
             is_standard = true;
         } else if (is_one_of(word, {"combined", "overall", "total", "resulting", "final", "kombinierte", "gesamte",
@@ -768,9 +771,9 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
             is_noun = is_standard = true;
         } else if (is_one_of(word, {"gesamtunsicherheit", "gesamtmessunsicherheit"})) {
             is_noun = is_total = true;
-        } else if (is_noun && is_one_of(symbol, {"U", "U(y)", "U95", "U_95"})) {
+        } else if (is_noun && is_one_of(symbol, {"U", "U(y)", "U95", "U_95", "W"})) {
             is_expanded = true;
-        } else if (is_noun && is_one_of(symbol, {"u", "u_c", "uc", "u(y)", "u_c(y)", "uc(y)"})) {
+        } else if (is_noun && is_one_of(symbol, {"u", "u_c", "uc", "u(y)", "u_c(y)", "uc(y)", "w", "w_c", "wc"})) {
             is_standard = true;
         } else if (word != "measurement") {
             return std::nullopt;
@@ -810,6 +813,11 @@ std::string_view factor_of_u(std::string_view product) {
     return has_sign && is_u ? product.substr(0, factor) : std::string_view();
 }
 
+/// What follows a part of a name.
+std::string_view behind_of(std::string_view name, std::string_view part) {
+    return name.substr(static_cast<std::size_t>(part.data() - name.data()) + part.size());
+}
+
 /// Of a name that is a statement as it stands, or before what it has in brackets.
 /// \param further  what is said of coverage behind it
 std::optional<NamedStatement> whole_statement(std::string_view name, std::string_view further = {}) {
@@ -819,6 +827,9 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
         std::optional<NamedStatement> named;
         if (text == "U" || text == "U(y)" || text == "W") {  // W is a relative U (ISO 376)
             named = NamedStatement{.statement = Statement::U, .may_be_quantity = text != "U(y)"};
+        } else if (text.starts_with("U(") && text.find(')') + 1 == text.size() &&
+                   is_of_expanded(coverage_in(std::string(behind_of(name, text)) + std::string(further)))) {
+            named = NamedStatement{.statement = Statement::U};  // "U(f) k = 2"
         } else if (text == "k") {
             named = NamedStatement{.statement = Statement::k, .may_be_quantity = true};
         } else if (text == "u" || text == "u(y)") {
@@ -838,11 +849,12 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
                 named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
             }
         }
-        const std::string_view behind = name.substr(static_cast<std::size_t>(text.data() - name.data()) + text.size());
+        const std::string_view behind = behind_of(name, text);
         const std::string coverage = std::string(behind) + std::string(further);
-        if (const std::optional<Statement> by_words = uncertainty_in_words(text, coverage);
+        bool is_relative = false;
+        if (const std::optional<Statement> by_words = uncertainty_in_words(text, coverage, is_relative);
             by_words && (!named || named->statement == Statement::u_c)) {
-            named = NamedStatement{.statement = *by_words};
+            named = NamedStatement{.statement = *by_words, .is_relative = is_relative};
         }
         if (named) {
             if (coverage_in(behind).says_any()) {
@@ -861,6 +873,15 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
 
 std::optional<NamedStatement> named_statement(std::string_view name) {
     name = trimmed(name);
+    // "Result: (10.0020 ± 0.0047) bar": brackets about a value and its U explain no name.
+    const std::size_t plus_minus = std::min(name.find("±"), name.find("+/-"));
+    if (const std::size_t sign = name.find_first_of("=:"); sign < plus_minus && plus_minus != name.npos) {
+        std::optional<NamedStatement> named = whole_statement(name.substr(0, sign));
+        if (named && named->statement == Statement::value) {
+            named->assigned = trimmed(name.substr(sign + 1));
+            return named;
+        }
+    }
     if (std::optional<NamedStatement> whole = whole_statement(name)) {
         return whole;
     }
@@ -871,10 +892,19 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
     if (const std::size_t sign = name.find_first_of("=:"); sign != std::string_view::npos) {
         const std::string_view behind = trimmed(name.substr(sign + 1));
         const std::string_view symbol = trimmed(name.substr(0, sign));
-        if (const std::string_view factor = factor_of_u(behind);
-            !factor.empty() && (symbol == "U" || symbol.starts_with("U(") || symbol == "U95" || symbol == "U_95")) {
-            return NamedStatement{.statement = Statement::U,
-                                  .coverage = factor == "k" ? std::string() : "k = " + std::string(factor)};
+        // "U = k · u mit k = 2": what k is stands behind the product.
+        std::size_t with = std::string_view::npos;
+        for (const std::string_view word : {" mit ", " with ", ", ", "; ", " ("}) {
+            const std::size_t at = behind.find(word);
+            with = at != std::string_view::npos && begins_with_coverage(behind.substr(at)) ? std::min(with, at) : with;
+        }
+        if (const std::string_view factor = factor_of_u(behind.substr(0, with)); !factor.empty()) {
+            const std::optional<NamedStatement> whole = whole_statement(symbol);
+            if ((whole && whole->statement == Statement::U) || symbol.starts_with("U(") || symbol == "U_95") {
+                const std::string said(with == std::string_view::npos ? std::string_view() : behind.substr(with));
+                return NamedStatement{.statement = Statement::U,
+                                      .coverage = factor == "k" ? said : "k = " + std::string(factor) + said};
+            }
         }
         if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {
             (begins_with_coverage(behind) && named->statement != Statement::coverage_probability ? named->coverage
@@ -896,6 +926,100 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
         }
     }
     return std::nullopt;
+}
+
+SumName sum_name(std::string_view name) {
+    constexpr std::size_t k_longest = 80;
+    if (name.size() > k_longest) {
+        return SumName::none;
+    }
+    const std::string lower = text::in_small_letters(name);
+    for (const std::string_view part :
+         {"subtotal", "sub-total", "sub total", "subsum", "intermediate sum", "partial sum", "partial total",
+          "zwischensumme", "teilsumme", "zwischenergebnis", "suma parcial", "小計", "小计"}) {
+        if (lower.find(part) != std::string::npos) {
+            return SumName::part;
+        }
+    }
+    bool has_sum = false, has_type = false, has_letter = false, has_others = false, has_squares = false,
+         has_root = false, has_variance = false, is_of_type = false;
+    for (std::size_t at = 0; at < lower.size();) {
+        const std::size_t end = std::min(lower.find_first_of(" :,;()/-", at), lower.size());
+        const std::string_view word = std::string_view(lower).substr(at, end - at);
+        at = end + 1;
+        if (is_one_of(word, {"sum", "summe", "suma", "total", "gesamt", "insgesamt", "combined", "kombiniert", "rss",
+                             "intermediate", "合計", "合计"})) {
+            has_sum = true;
+        } else if (is_one_of(word, {"u_a", "u_b", "ua", "ub"})) {
+            is_of_type = true;
+        } else if (is_one_of(word, {"type", "typ", "tipo"})) {
+            has_type = true;
+        } else if (is_one_of(word, {"a", "b"})) {
+            has_letter = true;
+        } else if (is_one_of(word, {"squares", "quadrate", "cuadrados"})) {
+            has_squares = true;
+        } else if (word == "quadratsumme") {
+            has_squares = has_sum = true;
+        } else if (is_one_of(word, {"root", "wurzel", "raíz"})) {
+            has_root = true;
+        } else if (is_one_of(word, {"variance", "variances", "varianz", "varianzen", "u²", "u_c²", "uc²", "u_c^2",
+                                    "uc^2", "u^2"})) {
+            has_variance = true;
+        } else if (!word.empty() && !is_one_of(word, {"uncertainty",
+                                                      "uncertainties",
+                                                      "unsicherheit",
+                                                      "unsicherheiten",
+                                                      "standardunsicherheit",
+                                                      "messunsicherheit",
+                                                      "incertidumbre",
+                                                      "standard",
+                                                      "contribution",
+                                                      "contributions",
+                                                      "component",
+                                                      "components",
+                                                      "beiträge",
+                                                      "of",
+                                                      "the",
+                                                      "all",
+                                                      "der",
+                                                      "des",
+                                                      "von",
+                                                      "aller",
+                                                      "de",
+                                                      "evaluation",
+                                                      "evaluations",
+                                                      "result",
+                                                      "kombinierte",
+                                                      "u"})) {
+            has_others = true;
+        }
+    }
+    if (!has_others && !has_root && ((has_sum && has_squares) || has_variance)) {
+        return SumName::of_squares;
+    }
+    if (has_others) {
+        return has_sum ? SumName::of_quantity : SumName::none;
+    }
+    if (is_of_type || ((has_sum || has_type) && has_letter)) {
+        return SumName::of_type;
+    }
+    return has_sum ? SumName::whole : SumName::none;
+}
+
+bool are_u_and_U(std::string_view u_c, std::string_view U) {
+    u_c = trimmed(u_c);
+    U = trimmed(U);
+    if (!u_c.starts_with('u') || !U.starts_with('U')) {
+        return false;
+    }
+    const std::string_view of_u = u_c.substr(1);
+    std::string_view of_U = U.substr(1);
+    if (of_u.empty() || std::string_view("(_ ").find(of_u.front()) == std::string_view::npos ||
+        !of_U.starts_with(of_u)) {
+        return false;
+    }
+    of_U.remove_prefix(of_u.size());
+    return trimmed(of_U).empty() || begins_with_coverage(of_U);
 }
 
 std::optional<Statement> statement_of(std::string_view name) {

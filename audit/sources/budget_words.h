@@ -70,10 +70,25 @@ struct NamedStatement {
     bool may_be_quantity = false;
     /// A constant of a table may be called so, as "correction"; what is the value stands last.
     bool may_be_constant = false;
+    bool is_relative =
+        false;  ///< "Relative expanded uncertainty": a part of the value, and none of a number in another unit
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
 };
 [[nodiscard]] std::optional<NamedStatement> named_statement(std::string_view name);
+
+/// What the name of a line says of a sum of rows.
+enum class SumName {
+    none,
+    of_quantity,  ///< "Temperature total": a sum of some rows, if it is one
+    whole,        ///< "Total", "RSS": of all rows, or of a part of them
+    of_type,      ///< "Type A", "RSS of type B": of a part of the rows, or a contribution
+    part,         ///< "Subtotal", "Zwischensumme"
+    of_squares,   ///< "Sum of squares", "u_c²"
+};
+[[nodiscard]] SumName sum_name(std::string_view name);
+/// Whether two names are those of u_c and U: the same but for their first letter, as "u(f)" and "U(f) (k = 2)".
+[[nodiscard]] bool are_u_and_U(std::string_view u_c, std::string_view U);
 
 /// The certificate that a text names by its number: "certificate 91-E" of "U = 1.5 µV, k = 2; certificate 91-E; 39 µV/K"; ""
 /// where it names none.

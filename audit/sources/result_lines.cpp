@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "audit/claims.h"
@@ -231,6 +233,12 @@ void state_coverage_words(Claims& claims, const Statements& statements, std::vec
     }
 }
 
+/// Whether an uncertainty is stated: of these a unit may be a part of the value.
+bool may_be_part(Statement statement) {
+    return statement == Statement::u_c || statement == Statement::U || statement == Statement::reported_U ||
+           statement == Statement::capability;
+}
+
 /// The numbers of statements, in the unit of the result.
 class ResultNumbers {
 public:
@@ -240,6 +248,10 @@ public:
                   std::vector<Sentence>& not_read)
         : statements_(statements), not_read_(not_read) {
         const std::string of_value = own(Statement::value);
+        // U in percent below rows and u_c in volts is a part of the value: the budget is in volts.
+        for (const std::string& unit : {own(Statement::u_c), of_contributions, of_rows}) {
+            of_sum_ = of_sum_.empty() ? unit : of_sum_;
+        }
         for (const std::string& unit :
              {own(Statement::reported_U), own(Statement::U), own(Statement::u_c), of_contributions, of_value,
               own(Statement::capability), own(Statement::lower_limit), own(Statement::upper_limit),
@@ -292,11 +304,14 @@ public:
     }
 
 private:
+    /// The unit of a statement; "" where it has none, or is a part of a result whose rows are added in a unit.
     [[nodiscard]] std::string own(Statement statement) const {
         const auto found = statements_.numbers.find(statement);
-        return found == statements_.numbers.end() ? "" : found->second.unit;
+        const std::string unit = found == statements_.numbers.end() ? "" : found->second.unit;
+        return may_be_part(statement) && is_part_beside(unit, of_sum_) ? "" : unit;
     }
 
+    std::string of_sum_;  ///< unit in which rows are added
     const Statements& statements_;
     std::vector<Sentence>& not_read_;
     std::string unit_;
@@ -349,6 +364,49 @@ bool is_of_result(Statement statement) {
     }
 }
 
+namespace {
+
+/// "10.002 bar ± 4.9 mbar (k = 2)", "(10.0020 ± 0.0047) bar; k = 2": a value and its U (JCGM 100:2008, 7.2.4).
+struct ValueWithU {
+    NumberWithUnit value, U;
+    std::string_view behind;  ///< U, with what is said of coverage
+};
+std::optional<ValueWithU> value_with_U(const SheetView& sheet, const Cell& cell, std::string_view text) {
+    std::size_t sign = std::string_view::npos, behind = 0;
+    for (const std::string_view both : {"±", "+/-"}) {
+        if (sign == std::string_view::npos && (sign = text.find(both)) != std::string_view::npos) {
+            behind = sign + both.size();
+        }
+    }
+    if (sign == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const std::string_view all = text.substr(behind);
+    std::string_view of_value = text.substr(0, sign),
+                     of_U = all.substr(std::min(all.find_first_not_of(' '), all.size()));
+    std::string of_both;
+    if (of_value.starts_with('(')) {
+        const std::size_t close = of_U.find(')');
+        if (close == std::string_view::npos) {
+            return std::nullopt;
+        }
+        of_value.remove_prefix(1);
+        of_both = unit_in_rest(std::string(of_U.substr(close + 1)));
+        of_U = of_U.substr(0, close);
+    }
+    std::optional<NumberWithUnit> value = sheet.number_in_text(of_value, cell), U = sheet.number_in_text(of_U, cell);
+    if (!value || !U || value->is_open || U->is_open) {
+        return std::nullopt;
+    }
+    for (const std::string& unit : {of_both, U->unit}) {
+        value->unit = value->unit.empty() && !is_unit_of_part(unit) ? unit : value->unit;
+    }
+    U->unit = U->unit.empty() ? value->unit : U->unit;
+    return ValueWithU{.value = std::move(*value), .U = std::move(*U), .behind = all};
+}
+
+}  // namespace
+
 std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::Row& row, const Heads* heads) {
     // A name stands before what it names; before it may stand the symbol of what it names.
     for (std::size_t i = 0; i < row.size() && i < 2; ++i) {
@@ -358,7 +416,10 @@ std::optional<NamedLine> name_of_line(const SheetView& sheet, const SheetView::R
         }
         std::optional<NamedStatement> named = named_statement(held.text);
         if (named && !named->assigned.empty()) {
-            const bool has_number = !is_in_words(named->statement) && sheet.number_in_text(named->assigned, *row[i]);
+            const bool is_both = named->statement == Statement::value && !named->may_be_quantity &&
+                                 value_with_U(sheet, *row[i], named->assigned);
+            const bool has_number =
+                is_both || (!is_in_words(named->statement) && sheet.number_in_text(named->assigned, *row[i]));
             const bool is_alone =
                 std::none_of(row.begin() + static_cast<std::ptrdiff_t>(i) + 1, row.end(),
                              [&sheet](const Cell* cell) { return sheet.number_with_unit(*cell).has_value(); });
@@ -520,6 +581,62 @@ void tell_second(Statement statement, const StatedResult& second, const std::str
 
 }  // namespace
 
+namespace {
+
+/// Takes a value that has its U behind it, in the cell of its name or in the next one with anything.
+bool take_value_with_U(const SheetView& sheet, const SheetView::Row& row, const NamedLine& line, Statements& statements,
+                       std::vector<Sentence>& not_read) {
+    if (line.named.statement != Statement::value || line.named.may_be_quantity) {
+        return false;
+    }
+    std::size_t at = line.cell;
+    std::string held = line.named.assigned;
+    for (std::size_t i = line.cell + 1; i < row.size() && held.empty(); ++i) {
+        at = i;
+        held = sheet.words(*row[i]);
+    }
+    std::optional<ValueWithU> both = value_with_U(sheet, *row[at], held);
+    if (!both) {
+        return false;
+    }
+    const std::uint32_t column = row[at]->address.column;
+    const StatedResult U{.number = std::move(both->U.number), .unit = std::move(both->U.unit), .column = column};
+    tell_second(Statement::U, U, held, statements, not_read);
+    statements.numbers.emplace(
+        Statement::value,
+        StatedResult{.number = std::move(both->value.number), .unit = std::move(both->value.unit), .column = column});
+    statements.numbers.emplace(Statement::U, U);
+    for (std::size_t i = at; i < row.size() && statements.coverage.empty(); ++i) {
+        const std::string words = i == at ? std::string(both->behind) : sheet.words(*row[i]);
+        if (coverage_in(words).says_any()) {
+            statements.coverage = words;
+            statements.coverage_place = sheet.place(row[i]->address);
+        }
+    }
+    return true;
+}
+
+/// Takes what stands behind the number of a statement in its line: "u_c = | 0.186 | k = | 2 | U = | 0.37".
+void take_further(const SheetView& sheet, const SheetView::Row& row, const Cell& number, Statements& statements,
+                  std::vector<Sentence>& not_read) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+        const std::string held = sheet.words(*row[i]);
+        if (row[i]->address.column <= number.address.column || sheet.value(*row[i]).kind != CellKind::text) {
+            continue;
+        }
+        const std::optional<NamedStatement> named = named_statement(held);
+        const bool is_name =
+            named && is_of_coverage(named->statement) && named->assigned.empty() && !(known_unit(held) && held != "k");
+        if (is_name && sheet.number_with_unit(*row[i + 1])) {
+            (void)take_statement(sheet, {row.begin() + static_cast<std::ptrdiff_t>(i), row.end()}, nullptr, statements,
+                                 not_read);
+            return;  // and what stands behind that one
+        }
+    }
+}
+
+}  // namespace
+
 std::optional<Statement> take_statement(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
                                         Statements& statements, std::vector<Sentence>& not_read) {
     const std::optional<NamedLine> line = name_of_line(sheet, row, heads);
@@ -529,6 +646,9 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
     const Statement statement = line->named.statement;
     if (is_in_words(statement)) {
         take_words(sheet, row, *line, statements);
+        return statement;
+    }
+    if (take_value_with_U(sheet, row, *line, statements, not_read)) {
         return statement;
     }
     const NumbersUnderHeads numbers =
@@ -590,6 +710,17 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
             (name.find("(CMC)") != std::string::npos || name.find("(BMC)") != std::string::npos)) {
             statements.numbers.emplace(Statement::capability, *result);
         }
+        const auto held = statements.numbers.find(statement);
+        const auto of_head = heads == nullptr ? std::map<std::uint32_t, std::string>::const_iterator()
+                                              : heads->all_units.find(result->column);
+        const bool is_of_head = heads != nullptr && of_head != heads->all_units.end() && result->unit.empty();
+        if (line->named.is_relative && !is_unit_of_part(is_of_head ? of_head->second : result->unit)) {
+            return std::nullopt;  // a part, in a unit that nobody states
+        }
+        if (may_be_part(statement) && held != statements.numbers.end() &&
+            is_part_beside(held->second.unit, result->unit)) {
+            statements.numbers.erase(held);  // "U | 0.004 | %" before "U | 0.4 | mV"
+        }
         replace_U_of_one(*line, statement, statements);
         tell_second(statement, *result, name, statements, not_read);
         statements.numbers.emplace(statement, std::move(*result));
@@ -605,7 +736,77 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
     if (statement == Statement::U || statement == Statement::reported_U) {
         take_coverage(sheet, row, *line, statements);
     }
+    if (by_head == nullptr && at != nullptr && is_of_coverage(statement)) {
+        take_further(sheet, row, *at, statements, not_read);
+    }
     return statement;
+}
+
+bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, const std::vector<SheetView::Row>& below,
+                        Statements& statements, std::vector<Sentence>& not_read) {
+    std::map<std::uint32_t, Statement> columns;
+    std::map<std::uint32_t, std::string> units;
+    std::optional<std::uint32_t> of_units;
+    std::string coverage;
+    std::set<Statement> different;
+    for (const Cell* cell : heads) {
+        const std::string held = sheet.words(*cell);
+        if (held.empty()) {
+            continue;
+        }
+        if (sheet.value(*cell).kind != CellKind::text || sheet.number_with_unit(*cell)) {
+            return false;
+        }
+        const std::optional<NamedStatement> named = named_statement(held);
+        if (column_of(held) == Column::unit) {
+            of_units = cell->address.column;
+        }
+        if (!named || !is_of_coverage(named->statement) || !named->assigned.empty()) {
+            continue;
+        }
+        columns.emplace(cell->address.column, named->statement);
+        units.emplace(cell->address.column, unit_in_head(held));
+        different.insert(named->statement);
+        coverage = named->statement == Statement::U ? named->coverage : coverage;
+    }
+    const bool has_uncertainty = different.contains(Statement::u_c) || different.contains(Statement::U);
+    if (different.size() < 2 || different.size() != columns.size() || !has_uncertainty) {
+        return false;
+    }
+    std::vector<const SheetView::Row*> with_numbers;
+    for (const SheetView::Row& row : below) {
+        const bool has_number = std::any_of(columns.begin(), columns.end(), [&](const auto& column) {
+            const Cell* cell = cell_in(row, column.first);
+            return cell != nullptr && sheet.number_with_unit(*cell);
+        });
+        if (has_number) {
+            with_numbers.push_back(&row);
+        }
+    }
+    if (with_numbers.size() != 1) {
+        return !with_numbers.empty();  // of several points nobody knows which one the table is of
+    }
+    const SheetView::Row& row = *with_numbers.front();
+    const Cell* unit_cell = of_units ? cell_in(row, *of_units) : nullptr;
+    for (const auto& [column, statement] : columns) {
+        const Cell* cell = cell_in(row, column);
+        std::optional<StatedResult> result =
+            cell == nullptr ? std::nullopt : result_in(sheet, *cell, statement, not_read);
+        if (!result) {
+            continue;
+        }
+        for (const std::string& unit :
+             {units.at(column), unit_cell == nullptr ? std::string() : sheet.words(*unit_cell)}) {
+            result->unit = result->unit.empty() && is_of_result(statement) ? unit : result->unit;
+        }
+        tell_second(statement, *result, sheet.words(*cell), statements, not_read);
+        statements.numbers.emplace(statement, std::move(*result));
+    }
+    if (statements.coverage.empty() && !coverage.empty()) {
+        statements.coverage = coverage;
+        statements.coverage_place = sheet.place(row.front()->address);
+    }
+    return true;
 }
 
 void state_coverage(AuditedBudget& budget) {

@@ -273,6 +273,17 @@ std::string unit_in_rest(const std::string& rest) {
     return first.find(' ') == std::string::npos ? first : "";
 }
 
+bool is_unit_of_part(const std::string& unit) {
+    const std::optional<gum::Unit> known = known_unit(unit);
+    const std::string_view bare = bare_unit(unit);
+    return known && known->dimension().is_one() && bare != "1" && bare != "-" && bare != "–";
+}
+
+bool is_part_beside(const std::string& unit, const std::string& other) {
+    const std::optional<gum::Unit> known = known_unit(other);
+    return is_unit_of_part(unit) && known && !known->dimension().is_one();
+}
+
 std::optional<double> factor_between(const std::string& from, const std::string& to) {
     if (from == to || from.empty() || to.empty()) {
         return 1.0;

@@ -24,6 +24,11 @@ namespace gumcert::audit {
 /// The unit that a line of words states for all numbers of a table: "all values in mm", "Angaben in mbar"; "" where it states none.
 [[nodiscard]] std::string unit_in_words(const std::string& line);
 
+/// Whether a unit is that of a part of a value: "%", "ppm", "µm/m".
+[[nodiscard]] bool is_unit_of_part(const std::string& unit);
+/// Whether a unit is that of a part beside one that has a dimension.
+[[nodiscard]] bool is_part_beside(const std::string& unit, const std::string& other);
+
 /// What a number in one unit is multiplied by to be in another one, as a difference: °C and K are the same. 1 where both are
 /// written alike, or one of them is not stated; nothing where one cannot be turned into the other.
 [[nodiscard]] std::optional<double> factor_between(const std::string& from, const std::string& to);
