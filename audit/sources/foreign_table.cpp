@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "audit/row_facts.h"
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
+#include "audit/sources/correlation_words.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
 #include "audit/sources/table_heads.h"
@@ -213,7 +215,14 @@ public:
 
 private:
     void take(std::uint32_t number, const std::vector<const Cell*>& row) {
-        if (std::optional<Heads> heads = heads_of(sheet_, row)) {
+        if (number <= skip_until_) {
+            return;
+        }
+        std::optional<Heads> heads = heads_of(sheet_, row);
+        if (!heads && (heads = heads_in_two_lines(number, row))) {
+            skip_until_ = number + 1;
+        }
+        if (heads) {
             Statements above = heads_ ? Statements{} : std::move(statements_);
             finish();
             statements_ = std::move(above);
@@ -239,6 +248,14 @@ private:
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
+        if (heads_ && is_near_ && !budget_.rows.empty() && is_words_alone(row)) {
+            const std::vector<SheetView::Row> below = lines_below(number);
+            if (take_results_below(sheet_, row, below, statements_, tables_.not_read)) {
+                in_rows_ = is_near_ = false;
+                skip_until_ = number + static_cast<std::uint32_t>(below.size());
+                return;
+            }
+        }
         if (heads_ && is_near_ && heads_results(sheet_, row)) {
             in_rows_ = is_near_ = false;
             return;
@@ -249,7 +266,7 @@ private:
             line_above_ = number;
             unit_in_words_ = heads_ && is_near_ && unit_in_words_.empty() ? unit_in_words(above_) : unit_in_words_;
         }
-        if (is_next_ && in_rows_ && budget_.rows.empty() && take_units(row)) {
+        if (is_next_ && in_rows_ && budget_.rows.empty() && (take_units(row) || repeats_heads(row))) {
             return;
         }
         if (note_correlation(row) || note_constant(row)) {
@@ -288,6 +305,65 @@ private:
         } else if (tables_.not_read.size() == told && !is_constant(row)) {
             note_unread(row);
         }
+    }
+
+    /// Whether a line has two texts or more, and no number.
+    [[nodiscard]] bool is_words_alone(const SheetView::Row& row) const {
+        const std::vector<const Cell*> held = cells_with_words(row);
+        return held.size() > 1 && std::all_of(held.begin(), held.end(), [this](const Cell* cell) {
+                   return sheet_.value(*cell).kind == CellKind::text && !sheet_.number_with_unit(*cell);
+               });
+    }
+    /// Heads of a line together with those of the next one, as of merged cells: in each column the one that is known, the lower
+    /// before the upper one.
+    [[nodiscard]] std::optional<Heads> heads_in_two_lines(std::uint32_t number, const SheetView::Row& row) const {
+        const auto next = rows_->find(number + 1);
+        if (next == rows_->end() || !is_words_alone(row) || !is_words_alone(next->second) ||
+            heads_of(sheet_, next->second)) {
+            return std::nullopt;
+        }
+        std::map<std::uint32_t, const Cell*> columns;
+        for (const SheetView::Row* line : {&row, &next->second}) {
+            for (const Cell* cell : *line) {
+                const Cell*& kept = columns[cell->address.column];
+                const bool is_better = kept == nullptr || column_of(sheet_.words(*cell)) ||
+                                       (!column_of(sheet_.words(*kept)) && !sheet_.words(*cell).empty());
+                kept = is_better ? cell : kept;
+            }
+        }
+        SheetView::Row joined;
+        for (const auto& [column, cell] : columns) {
+            joined.push_back(cell);
+        }
+        return heads_of(sheet_, joined);
+    }
+    /// Whether a line below heads has their symbols: "x_i | u(x_i) | c_i" (EA-4/02).
+    [[nodiscard]] bool repeats_heads(const SheetView::Row& row) const {
+        if (!is_words_alone(row)) {
+            return false;
+        }
+        std::size_t same = 0;
+        for (const auto& [column, position] : heads_->columns) {
+            const Cell* cell = has_numbers_with_units(column) ? cell_in(row, position) : nullptr;
+            const std::string held = cell == nullptr ? "" : sheet_.words(*cell);
+            same += !held.empty() && column_of(held) == column ? 1U : 0U;
+        }
+        return same > 1;
+    }
+    /// The lines below one, up to an empty one, or to a line that has words alone.
+    [[nodiscard]] std::vector<SheetView::Row> lines_below(std::uint32_t line) const {
+        constexpr std::size_t k_most = 20;
+        std::vector<SheetView::Row> below;
+        for (auto at = rows_->find(line + 1); at != rows_->end() && below.size() < k_most; ++at) {
+            const bool has_number = std::any_of(at->second.begin(), at->second.end(), [this](const Cell* cell) {
+                return sheet_.number_with_unit(*cell).has_value();
+            });
+            if (at->first != line + 1 + below.size() || !has_number) {
+                break;
+            }
+            below.push_back(at->second);
+        }
+        return below;
     }
 
     /// The number of a row below some heads in a column.
@@ -420,29 +496,64 @@ private:
         return !units.empty();
     }
 
-    /// A line that states a correlation: "Correlation r(T1; T2)" and a number.
+    /// A line that states a correlation: "Correlation r(T1; T2)" and a number, or "r(T1; T2) = 0.6". What has a coefficient, a
+    /// divisor or a distribution is a row whatever its name.
     [[nodiscard]] bool note_correlation(const SheetView::Row& row) {
         if (!heads_ || !is_near_ || sheet_.value(*row.front()).kind != CellKind::text) {
             return false;
         }
-        const std::string name = text::in_small_letters(sheet_.words(*row.front()));
-        constexpr std::string_view k_words[] = {"correlation", "korrelation", "correlaci", "相關", "相关"};
-        const bool is_named = name.starts_with("r(") ||
-                              std::any_of(std::begin(k_words), std::end(k_words),
-                                          [&name](std::string_view word) { return name.find(word) != name.npos; });
+        const std::string name = sheet_.words(*row.front());
+        const std::optional<CorrelationWords> words = correlation_words(name);
         const NumbersUnderHeads numbers = numbers_under(sheet_, *heads_, row);
-        const bool has_amount =
-            numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
-        if (!is_named || has_amount || !correlation_in(row)) {
+        const auto shape = heads_->columns.find(Column::distribution);
+        const Cell* shape_cell = shape == heads_->columns.end() ? nullptr : cell_in(row, shape->second);
+        if ((!words && name != "r") || numbers.contains(Column::sensitivity) || numbers.contains(Column::divisor) ||
+            (shape_cell != nullptr && !says_nothing(sheet_.words(*shape_cell)))) {
             return false;
         }
-        correlation_lines_.push_back(&row);
+        const bool has_amount =
+            numbers.contains(Column::u) || numbers.contains(Column::contribution) || numbers.contains(Column::stated);
+        std::optional<double> r = words && words->r ? words->r : correlation_in(row);
+        if (!words) {  // "r" alone may be a radius or a resistance
+            const bool is_constant = has_amount || numbers.contains(Column::estimate);
+            r = is_constant ? std::nullopt : r;
+        }
+        if (words && words->is_covariance) {
+            const bool has_number = std::any_of(row.begin() + 1, row.end(), [this](const Cell* cell) {
+                return sheet_.number_with_unit(*cell).has_value();
+            });
+            covariance_line_ = has_number && covariance_line_ == nullptr ? &row : covariance_line_;
+            return has_number;
+        }
+        if (!r || (has_amount && !words->is_coefficient && !rows_of(words->pairs))) {
+            return false;
+        }
+        correlation_lines_.push_back({.row = &row, .r = *r, .pairs = words ? words->pairs : Pairs{}});
         return true;
     }
+    /// A number from -1 to 1 without a unit, behind the name.
     [[nodiscard]] std::optional<double> correlation_in(const SheetView::Row& row) const {
+        const auto unit = heads_->columns.find(Column::unit);
         for (auto cell = row.begin() + 1; cell != row.end(); ++cell) {
-            if (const std::optional<NumberWithUnit> r = sheet_.number_with_unit(**cell)) {
-                return !r->is_open && std::abs(r->number.value) <= 1.0 ? std::optional(r->number.value) : std::nullopt;
+            const std::optional<NumberWithUnit> r = sheet_.number_with_unit(**cell);
+            if (!r || (unit != heads_->columns.end() && unit->second == (*cell)->address.column)) {
+                continue;
+            }
+            const Cell* of_row = unit == heads_->columns.end() ? nullptr : cell_in(row, unit->second);
+            const std::string in = !r->unit.empty() || of_row == nullptr ? r->unit : sheet_.words(*of_row);
+            const bool has_none = says_nothing(in) || in == "1";
+            return has_none && !r->is_open && std::abs(r->number.value) <= 1.0 ? std::optional(r->number.value)
+                                                                               : std::nullopt;
+        }
+        return std::nullopt;
+    }
+    using Pairs = std::vector<std::pair<std::string, std::string>>;
+    /// The two rows that the first of some pairs of symbols are words of.
+    [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> rows_of(const Pairs& pairs) const {
+        for (const auto& [one, other] : pairs) {
+            const std::optional<std::size_t> first = row_with(one), second = row_with(other);
+            if (first && second && *first != *second) {
+                return std::pair(*first, *second);
             }
         }
         return std::nullopt;
@@ -475,30 +586,23 @@ private:
     }
     void settle_correlations() {
         last_unread_.reset();
-        for (const SheetView::Row* row : correlation_lines_) {
-            const std::string name = sheet_.words(*row->front());
-            const double r = *correlation_in(*row);
-            const std::size_t open = name.rfind('('), close = name.rfind(')');
-            std::optional<std::size_t> first, second;
-            if (open != name.npos && close != name.npos && close > open) {
-                const std::string pair = name.substr(open + 1, close - open - 1);
-                const std::size_t sign = pair.find_first_of(";,");
-                if (sign != pair.npos && pair.find_first_of(";,", sign + 1) == pair.npos) {
-                    const auto bare = [](std::string text) {
-                        text.erase(0, text.find_first_not_of(' '));
-                        text.erase(text.find_last_not_of(' ') + 1);
-                        return text;
-                    };
-                    first = row_with(bare(pair.substr(0, sign)));
-                    second = row_with(bare(pair.substr(sign + 1)));
-                }
-            }
-            if (first && second && *first != *second) {
-                budget_.correlations.push_back({.first = *first, .second = *second, .r = r});
+        for (const CorrelationLine& line : correlation_lines_) {
+            if (const auto rows = rows_of(line.pairs)) {
+                budget_.correlations.push_back({.first = rows->first, .second = rows->second, .r = line.r});
             } else {
-                budget_.unread_correlations.push_back(r);
-                note_unread(*row);
+                budget_.unread_correlations.push_back(line.r);
+                note_unread(*line.row);
             }
+        }
+        if (covariance_line_ != nullptr && !correlation_lines_.empty()) {
+            note_unread(*covariance_line_);
+        } else if (covariance_line_ != nullptr) {
+            is_unusable_ = true;
+            tables_.not_read.push_back(
+                say("{cell}: {text} is a term of the sum that no row has; the table is not looked at; which rows are "
+                    "correlated, and what is r?",
+                    sheet_.place(covariance_line_->front()->address),
+                    text::in_quotes(sheet_.words(*covariance_line_->front()))));
         }
     }
 
@@ -622,14 +726,22 @@ private:
     }
     /// \param count  rows from the first one on
     [[nodiscard]] std::optional<Interval> sum_of_first(const StatedResult& of, std::size_t count) const {
+        std::vector<std::size_t> first(count);
+        std::iota(first.begin(), first.end(), std::size_t{0});
+        return sum_of(of, first);
+    }
+    /// \param which  places of rows
+    [[nodiscard]] std::optional<Interval> sum_of(const StatedResult& of, const std::vector<std::size_t>& which) const {
         std::string unit = of.unit;
         if (const auto head = heads_->all_units.find(of.column); unit.empty() && head != heads_->all_units.end()) {
             unit = head->second;
         }
-        std::vector<AuditedRow> rows = budget_.rows;
-        std::vector<RowUnits> units = units_;
-        rows.resize(count);
-        units.resize(count);
+        std::vector<AuditedRow> rows;
+        std::vector<RowUnits> units;
+        for (const std::size_t row : which) {
+            rows.push_back(budget_.rows[row]);
+            units.push_back(units_[row]);
+        }
         std::vector<Sentence> unused;
         if (rows.empty() || !settle_units(rows, units, unit, unused)) {
             return std::nullopt;
@@ -786,6 +898,7 @@ private:
             budget_.title = title_;
             settle_constants();
             tell_unknown_columns();
+            settle_sums_between();
             settle_last_lines();
             settle_last_row();
             settle_result_line();
@@ -796,6 +909,11 @@ private:
             }
             settle_statements();
             settle_correlations();
+            if (covariance_line_ != nullptr && is_unusable_) {
+                tables_.has_unusable = true;
+                clear();
+                return;
+            }
             if (needs_unread_column() || has_no_sum()) {
                 tables_.has_unusable = true;
                 clear();
@@ -843,6 +961,7 @@ private:
         last_constants_.clear();
         with_numbers_.clear();
         correlation_lines_.clear();
+        covariance_line_ = nullptr;
         looks_ = 0;
     }
 
@@ -918,9 +1037,12 @@ private:
         if (const std::optional<StatedNumber> u_c = stated(Statement::u_c)) {
             return seen(*u_c, 1.0).meets(sum);
         }
-        const std::optional<StatedNumber> U = stated(Statement::U), k = stated(Statement::k);
-        if (U && k && k->value > 0.0) {
-            return seen(*U, k->value).meets(sum);
+        const std::optional<StatedNumber> U = stated(Statement::U), of_line = stated(Statement::k);
+        const std::optional<LeadingNumber> of_words =
+            read_leading_number(coverage_in(statements_.coverage).k, "", Percent::unit);
+        const double k = of_line ? of_line->value : of_words ? of_words->number.value : 0.0;
+        if (U && k > 0.0) {
+            return seen(*U, k).meets(sum);
         }
         return std::nullopt;
     }
@@ -965,6 +1087,179 @@ private:
         }
         return 0.0;
     }
+    /// Sums of rows that stand between them are no contributions: "Subtotal type A", "Zwischensumme", "Temperature total". What is
+    /// named so, has an amount alone, and is the root of the sum of squares of rows directly above it is one; of a name that
+    /// says nothing of a sum, and of one row alone, what is stated has to say so.
+    void settle_sums_between() {
+        constexpr std::size_t k_least = 3, k_most_lines = 40, k_most_looks = 200;
+        const std::size_t count = budget_.rows.size();
+        if (count < k_least) {
+            return;
+        }
+        drop_squares();
+        const auto is_amount_alone = [](const AuditedRow& row) {
+            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
+        };
+        std::size_t end = budget_.rows.size(), lines = 0, looks = 0, begin = 0;
+        while (end > 0 && is_amount_alone(budget_.rows[end - 1])) {
+            --end;  // behind it are lines that may be u_c and U
+        }
+        std::vector<std::size_t> sums, certain, of_type;
+        bool is_any_of_type = false;
+        for (std::size_t i = 1; i < budget_.rows.size() && lines < k_most_lines && looks < k_most_looks; ++i) {
+            const AuditedRow& row = budget_.rows[i];
+            const SumName name = sum_name(row.quantity);
+            if (!is_amount_alone(row) || (name == SumName::none && i >= end)) {
+                continue;
+            }
+            ++lines;
+            if (name == SumName::of_type) {
+                of_type.push_back(i);
+            }
+            const StatedResult amount = amount_of(i);
+            // From the last sum on, and where the name says that it is one, from any row on.
+            const std::size_t last_begin = name == SumName::none ? begin : i - 1;
+            bool is_sum = false, is_certain = name == SumName::part;
+            for (std::size_t from = begin; from <= last_begin && looks < k_most_looks && !is_sum; ++from) {
+                const bool is_last = end > 0 ? i >= end : is_stated_u_c(amount) || !stated_of_sum();
+                const bool is_of_all = from == 0 && sums.empty() && is_last && name != SumName::part;
+                const bool is_one = i - from < 2;
+                if (is_one && (name == SumName::none || name == SumName::of_quantity)) {
+                    continue;  // a number that only looks like another one
+                }
+                std::vector<std::size_t> block(i - from);
+                std::iota(block.begin(), block.end(), from);
+                ++looks;
+                const std::optional<Interval> sum = sum_of(amount, block);
+                is_sum = sum && seen(amount.number, 1.0).meets(*sum);
+                if (is_sum && is_of_all) {
+                    is_sum = false;
+                    break;  // u_c
+                }
+                is_certain = is_certain || (is_sum && !is_one && (name == SumName::whole || name == SumName::of_type));
+                is_any_of_type = is_any_of_type || (is_sum && name == SumName::of_type);
+            }
+            if (is_sum || is_certain) {
+                sums.push_back(i);
+                begin = i + 1;
+            }
+            if (is_certain) {
+                certain.push_back(i);
+            }
+        }
+        // Where "Type A" is a sum, so is "Type B", whatever its number; two that fit are none by chance.
+        if (is_any_of_type) {
+            std::vector<std::size_t> all;
+            std::set_union(sums.begin(), sums.end(), of_type.begin(), of_type.end(), std::back_inserter(all));
+            sums = std::move(all);
+        }
+        const bool are_several = is_any_of_type && of_type.size() > 1;
+        if (!sums.empty() && (are_several || holds_by(sums, false))) {
+            drop_sums(sums);
+        } else if (!certain.empty() && !holds_by(certain, true)) {
+            drop_sums(certain);
+        }
+    }
+    /// Whether what is stated follows only with sums of other rows added once more (`with`), or only without them.
+    [[nodiscard]] bool holds_by(const std::vector<std::size_t>& sums, bool with) const {
+        std::vector<std::size_t> all(budget_.rows.size()), others;
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        std::set_difference(all.begin(), all.end(), sums.begin(), sums.end(), std::back_inserter(others));
+        const StatedResult of = stated_of_sum().value_or(amount_of(sums.front()));
+        const std::optional<Interval> sum_of_all = sum_of(of, all), of_others = sum_of(of, others);
+        const bool holds_with = sum_of_all && gives_statements(*sum_of_all).value_or(false);
+        const bool holds_without = of_others && gives_statements(*of_others).value_or(false);
+        return with ? holds_with && !holds_without : holds_without && !holds_with;
+    }
+    /// The number that rows are held against: u_c, else U.
+    [[nodiscard]] std::optional<StatedResult> stated_of_sum() const {
+        for (const Statement statement : {Statement::u_c, Statement::U}) {
+            if (const auto found = statements_.numbers.find(statement); found != statements_.numbers.end()) {
+                return found->second;
+            }
+        }
+        return std::nullopt;
+    }
+    void drop_sums(const std::vector<std::size_t>& sums) {
+        for (auto sum = sums.rbegin(); sum != sums.rend(); ++sum) {
+            const AuditedRow& row = budget_.rows[*sum];
+            tables_.not_read.push_back(say("{cell}: {text} is taken for a sum of rows above it, and is not added again",
+                                           row.place, text::in_quotes(row.quantity)));
+            drop_row(*sum);
+        }
+    }
+    void drop_row(std::size_t row) {
+        budget_.rows.erase(budget_.rows.begin() + static_cast<std::ptrdiff_t>(row));
+        units_.erase(units_.begin() + static_cast<std::ptrdiff_t>(row));
+    }
+    /// "Sum of squares | 0.0344" is a square, and neither a contribution nor u_c.
+    void drop_squares() {
+        for (std::size_t i = budget_.rows.size(); i > 1; --i) {
+            const AuditedRow& row = budget_.rows[i - 1];
+            if (!has_columns_of_a_row(row, true) && sum_name(row.quantity) == SumName::of_squares) {
+                tables_.not_read.push_back(
+                    say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used",
+                        row.place, text::in_quotes(row.quantity)));
+                drop_row(i - 1);
+            }
+        }
+    }
+    /// A table of names and u alone ends with u_c and U where a line is the root of the sum of squares of all above it, and those
+    /// behind it are what k makes of it; or where the last two have one name but for their first letter, "u(f)" and "U(f)".
+    /// \return whether these lines were taken, or asked about
+    [[nodiscard]] bool settle_plain_last_lines() {
+        constexpr std::size_t k_least = 2, k_most_results = 3;
+        const std::size_t count = budget_.rows.size();
+        const auto is_other = [](const AuditedRow& row) {
+            return contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
+        };
+        if (count >= k_least + 2 && are_u_and_U(budget_.rows[count - 2].quantity, budget_.rows[count - 1].quantity)) {
+            state(Statement::u_c, amount_of(count - 2));
+            state(Statement::U, amount_of(count - 1));
+            budget_.rows.resize(count - 2);
+            units_.resize(count - 2);
+            return true;
+        }
+        for (std::size_t i = count > k_most_results + k_least ? count - k_most_results : k_least; i + 1 < count; ++i) {
+            const StatedResult amount = amount_of(i);
+            const std::optional<Interval> sum = sum_of_first(amount, i);
+            if (!sum || !seen(amount.number, 1.0).meets(*sum) || !is_other(budget_.rows[i])) {
+                continue;
+            }
+            const auto is_U = [&](std::size_t row) {
+                if (k_to(amount_of(row), budget_.rows[row].quantity, *sum) > 0.0) {
+                    return true;
+                }
+                for (const double k : {2.0, 3.0}) {
+                    const StatedNumber &of = amount.number, &by_k = amount_of(row).number;
+                    const double step = k * printed_half_step(of) + printed_half_step(by_k) + 1e-9 * std::abs(of.value);
+                    if (is_other(budget_.rows[row]) &&
+                        std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
+                        return true;
+                    }
+                }
+                return false;
+            };
+            bool are_U = true;
+            for (std::size_t row = i + 1; row < count; ++row) {
+                are_U = are_U && is_U(row);
+            }
+            if (are_U) {
+                take_last_lines(i, *sum);
+            } else {
+                ask_for_row(budget_.rows[i]);
+            }
+            return true;
+        }
+        return false;
+    }
+    void ask_for_row(const AuditedRow& row) {
+        is_open_ = true;
+        tables_.not_read.push_back(
+            say("{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
+                "looked at; which one is it?",
+                row.place, text::in_quotes(row.quantity)));
+    }
     /// Lines at the end of the rows that have an amount alone, where the rows above them have what makes up theirs, are results
     /// whatever their names: u_c where their number is the root of the sum of squares of the rows above, U where it is k times that.
     void settle_last_lines() {
@@ -981,11 +1276,17 @@ private:
         const bool is_distinct =
             std::all_of(budget_.rows.begin(), budget_.rows.begin() + static_cast<std::ptrdiff_t>(first),
                         [](const AuditedRow& row) { return has_columns_of_a_row(row); });
-        if (first < k_least || first == count || count - first > k_most || !is_distinct) {
+        if (first == count || count < k_least) {
             return;
         }
         const std::optional<Interval> all = sum_of_first(amount_of(count - 1), count);
         if (all && gives_statements(*all).value_or(false)) {
+            return;
+        }
+        if (first == 0 && settle_plain_last_lines()) {
+            return;
+        }
+        if (first < k_least || count - first > k_most || !is_distinct) {
             return;
         }
         for (std::size_t i = first; i < count; ++i) {
@@ -1063,11 +1364,7 @@ private:
                 std::any_of(std::begin(k_words), std::end(k_words),
                             [&name](std::string_view word) { return name.find(word) != name.npos; });
             if (is_called_so && contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other) {
-                is_open_ = true;
-                tables_.not_read.push_back(say(
-                    "{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
-                    "looked at; which one is it?",
-                    row.place, text::in_quotes(row.quantity)));
+                ask_for_row(row);
                 return;
             }
         }
@@ -1109,7 +1406,7 @@ private:
         while (budget_.rows.size() >= k_least && is_lone_number(budget_.rows.back()) && is_no_row()) {
             drop_last_row();
         }
-        if (budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back(), true)) {
+        if (is_open_ || budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back(), true)) {
             return;
         }
         const bool is_called_normal = has_columns_of_a_row(budget_.rows.back());
@@ -1156,11 +1453,7 @@ private:
         const bool looks_like_result =
             is_distinct && last.estimate && !has_u_c && !result_line_ && !(is_stated && *without);
         if (is_sum || looks_like_result) {
-            is_open_ = true;
-            tables_.not_read.push_back(
-                say("{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
-                    "looked at; which one is it?",
-                    last.place, text::in_quotes(last.quantity)));
+            ask_for_row(last);
         }
     }
     /// A row of which nothing is known but one number in the column of what is divided.
@@ -1283,22 +1576,29 @@ private:
     ForeignTables& tables_;
     std::optional<Heads> heads_;
     bool in_rows_ = false;
-    bool is_near_ = false;  ///< no two empty lines since the heads
-    bool is_next_ = false;  ///< no empty line before this one
-    bool is_open_ = false;  ///< nobody can know what the result is, and it was said
+    bool is_near_ = false;          ///< no two empty lines since the heads
+    std::uint32_t skip_until_ = 0;  ///< line up to which all was taken together
+    bool is_next_ = false;          ///< no empty line before this one
+    bool is_open_ = false;          ///< nobody can know what the result is, and it was said
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;
     std::vector<RowUnits> units_;  ///< of its rows
     Statements statements_;
-    std::optional<NumbersUnderHeads> result_line_;          ///< states the value, and more
-    std::size_t looks_ = 0;                                 ///< at sums of the rows, for lines that look like rows
-    std::optional<std::uint32_t> last_unread_;              ///< line that was named as not read, or follows such
-    std::vector<const SheetView::Row*> last_constants_;     ///< behind the last row so far
-    std::set<const Cell*> with_numbers_;                    ///< unknown heads of columns of numbers
-    std::vector<const SheetView::Row*> correlation_lines_;  ///< that state a correlation
-    std::string unit_in_words_;                             ///< that a line above or below the table has for all of it
-    std::string above_, title_;                             ///< last line of words alone, and that above the heads
+    std::optional<NumbersUnderHeads> result_line_;       ///< states the value, and more
+    std::size_t looks_ = 0;                              ///< at sums of the rows, for lines that look like rows
+    std::optional<std::uint32_t> last_unread_;           ///< line that was named as not read, or follows such
+    std::vector<const SheetView::Row*> last_constants_;  ///< behind the last row so far
+    std::set<const Cell*> with_numbers_;                 ///< unknown heads of columns of numbers
+    struct CorrelationLine {
+        const SheetView::Row* row;
+        double r;
+        Pairs pairs;  ///< what may be the symbols of its rows
+    };
+    std::vector<CorrelationLine> correlation_lines_;
+    const SheetView::Row* covariance_line_ = nullptr;  ///< the first one with a covariance
+    std::string unit_in_words_;                        ///< that a line above or below the table has for all of it
+    std::string above_, title_;                        ///< last line of words alone, and that above the heads
     std::uint32_t line_above_ = 0;
     std::vector<std::string>& titles_;
 };

@@ -1,0 +1,129 @@
+#include "audit/sources/correlation_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "audit/stated_number.h"
+#include "text/small_letters.h"
+
+namespace gumcert::audit {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+    while (!text.empty() && text.front() == ' ') {
+        text.remove_prefix(1);
+    }
+    while (!text.empty() && text.back() == ' ') {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+template <std::size_t N>
+bool has_one_of(std::string_view text, const std::string_view (&words)[N]) {
+    return std::any_of(std::begin(words), std::end(words),
+                       [text](std::string_view word) { return text.find(word) != std::string_view::npos; });
+}
+
+/// Whether "r" or "ρ" begins at a place as a word of its own.
+std::size_t end_of_symbol(std::string_view name, std::size_t at) {
+    const auto is_of_word = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               static_cast<unsigned char>(c) >= 0x80U;
+    };
+    for (const std::string_view symbol : {"r", "ρ"}) {
+        const std::size_t end = at + symbol.size();
+        if (name.substr(at).starts_with(symbol) && (at == 0 || !is_of_word(name[at - 1])) &&
+            (end == name.size() || !is_of_word(name[end]))) {
+            return end;
+        }
+    }
+    return 0;
+}
+
+/// The number behind "r =" or "r(X; Y) =".
+std::optional<double> assigned_r(std::string_view name) {
+    for (std::size_t at = 0; at < name.size(); ++at) {
+        std::size_t end = end_of_symbol(name, at);
+        if (end == 0) {
+            continue;
+        }
+        if (end < name.size() && name[end] == '(') {
+            const std::size_t close = name.find(')', end);
+            end = close == std::string_view::npos ? name.size() : close + 1;
+        }
+        const std::string_view behind = without_blanks(name.substr(end));
+        if (!behind.starts_with('=') && !behind.starts_with(':')) {
+            continue;
+        }
+        const std::optional<LeadingNumber> number =
+            read_leading_number(without_blanks(behind.substr(1)), "", Percent::unit);
+        if (number && std::abs(number->number.value) <= 1.0) {
+            return number->number.value;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view name) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (std::size_t open = name.find('('); open != std::string_view::npos; open = name.find('(', open + 1)) {
+        const std::size_t close = name.find(')', open);
+        if (close == std::string_view::npos) {
+            break;
+        }
+        const std::string_view inside = name.substr(open + 1, close - open - 1);
+        const std::size_t sign = inside.find_first_of(";,");
+        if (sign != std::string_view::npos && inside.find_first_of(";,", sign + 1) == std::string_view::npos) {
+            pairs.emplace_back(without_blanks(inside.substr(0, sign)), without_blanks(inside.substr(sign + 1)));
+        }
+    }
+    for (const std::string_view between : {" and ", " und ", " et ", " y ", " with ", " mit ", "/", " - ", "-", "–"}) {
+        for (std::size_t at = name.find(between); at != std::string_view::npos; at = name.find(between, at + 1)) {
+            const std::string_view before = without_blanks(name.substr(0, at));
+            const std::string_view behind = without_blanks(name.substr(at + between.size()));
+            const std::size_t begin = before.find_last_of(" (,;:");
+            const std::string_view first = before.substr(begin == std::string_view::npos ? 0 : begin + 1);
+            const std::string_view second = behind.substr(0, behind.find_first_of(" ),;:="));
+            if (!first.empty() && !second.empty()) {
+                pairs.emplace_back(first, second);
+            }
+        }
+    }
+    return pairs;
+}
+
+}  // namespace
+
+std::optional<CorrelationWords> correlation_words(std::string_view name) {
+    constexpr std::size_t k_longest = 200;
+    name = without_blanks(name);
+    if (name.empty() || name.size() > k_longest) {
+        return std::nullopt;
+    }
+    const std::string lower = text::in_small_letters(name);
+    constexpr std::string_view k_correlation[] = {"correlation", "korrelation", "correlaci",
+                                                  "corrélation", "相關",        "相关"};
+    constexpr std::string_view k_covariance[] = {"covarian", "kovarian", "協方差", "共變異", "协方差"};
+    constexpr std::string_view k_coefficient[] = {"coefficient", "koeffizient", "coeficiente", "係數", "系数"};
+    const bool is_named = has_one_of(lower, k_correlation);
+    const bool is_symbol = name.starts_with("r(") || name.starts_with("ρ(");
+    const std::optional<double> r =
+        is_named || is_symbol || end_of_symbol(name, 0) > 0 ? assigned_r(name) : std::nullopt;
+    const bool is_covariance = has_one_of(lower, k_covariance);
+    if (!is_named && !is_symbol && !is_covariance) {
+        return std::nullopt;
+    }
+    std::size_t symbol = name.find("r(");
+    while (symbol != std::string_view::npos && end_of_symbol(name, symbol) == 0) {
+        symbol = name.find("r(", symbol + 1);
+    }
+    return CorrelationWords{.is_coefficient = !is_covariance && (is_symbol || symbol != std::string_view::npos ||
+                                                                 r.has_value() || has_one_of(lower, k_coefficient)),
+                            .is_covariance = is_covariance,
+                            .r = r,
+                            .pairs = pairs_in(name)};
+}
+
+}  // namespace gumcert::audit

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gumcert::audit {
+
+/// What the name of a line says of a correlation of two rows.
+struct CorrelationWords {
+    /// A coefficient by its name, "r(T1; T2)", "Correlation coefficient": its number is r, whatever the column that it stands in.
+    bool is_coefficient = false;
+    bool is_covariance = false;    ///< a term of the sum, and no coefficient
+    std::optional<double> r = {};  ///< that the name has: "r(T1, T2) = 0.6", "(r = 0.6)"
+    /// What may be the symbols of the two rows, likeliest first: of "r(T1; T2)", "T1 and T2", "T1/T2".
+    std::vector<std::pair<std::string, std::string>> pairs = {};
+};
+/// Nothing where the name says nothing of a correlation.
+[[nodiscard]] std::optional<CorrelationWords> correlation_words(std::string_view name);
+
+}  // namespace gumcert::audit

@@ -1,0 +1,74 @@
+#include "audit/sources/correlation_words.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/workbook_subject.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+AuditReport audit_of_correlated(const std::string& table) {
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+bool has_critical(const AuditReport& report) {
+    return std::any_of(report.findings.begin(), report.findings.end(),
+                       [](const AuditFinding& finding) { return finding.severity == FindingSeverity::critical; });
+}
+
+TEST(Correlations, AreReadWhereverTheirLineHasR) {
+    const std::string
+        heads = "Difference of two thermometers\nQuantity,symbol,unit,u,c,contribution\n",
+        rows = "Thermometer 1,T1,mK,5,1,5\nThermometer 2,T2,mK,5,-1,-5\nRepeatability (s of 10),d,mK,2,1,2\n",
+        claims = "Combined standard uncertainty,,mK,,,4.9\nExpanded uncertainty (k=2),,mK,,,9.8\n";
+    for (const std::string line :
+         {"Correlation r(T1; T2),,,0.6", "\"r(T1, T2)\",,,0.6", "\"r(T1, T2) = 0.6\"",
+          "Correlation coefficient T1-T2,,,0.6", "Correlation T1/T2,,1,0.6",
+          "\"Correlation r(T1, T2) = 0.6\",,mK,,,-5.5", "Korrelation r(T1; T2),,,0.6",
+          "Correlation of T1 and T2 (r = 0.6)", "Correlation r(T1; T2),0.6", "Korrelation T1 und T2,,,,,0.6"}) {
+        for (const std::string& table : {heads + rows + line + "\n" + claims, heads + rows + claims + line + "\n"}) {
+            SCOPED_TRACE(table);
+            const AuditReport report = audit_of_correlated(table);
+            ASSERT_EQ(report.results.size(), 1U);
+            EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+            EXPECT_NEAR(report.results[0].recomputed.u_c, std::sqrt(24.0), 1e-9);
+            EXPECT_FALSE(has_critical(report));
+        }
+    }
+    // A covariance is a term that no row has; nobody knows whose.
+    const std::string covariance = "Covariance term,,mK²,,,-30\n";
+    EXPECT_TRUE(audit_of_correlated(heads + rows + covariance + claims).results.empty());
+    EXPECT_TRUE(audit_of_correlated(heads + rows + claims + covariance).results.empty());
+    const AuditReport both = audit_of_correlated(heads + rows + "Correlation r(T1; T2),0.6\n" + covariance + claims);
+    ASSERT_EQ(both.results.size(), 1U);
+    EXPECT_NEAR(both.results[0].recomputed.u_c, std::sqrt(24.0), 1e-9);
+    // What has a coefficient is a row whatever its name.
+    const AuditReport row =
+        audit_of_correlated(heads + rows + "Correlation of the readings,,mK,0.6,1,0.6\nu_c,,mK,,,7.37\n");
+    ASSERT_EQ(row.results.size(), 1U);
+    EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
+}
+
+TEST(Correlations, AreNamedByWords) {
+    EXPECT_FALSE(correlation_words("Temperature of the reference"));
+    EXPECT_FALSE(correlation_words("r"));
+    EXPECT_FALSE(correlation_words("Error r = 0.6 mm"));
+    const std::optional<CorrelationWords> words = correlation_words("Correlation (t_S, t_X): r = -0.25");
+    ASSERT_TRUE(words);
+    EXPECT_TRUE(words->is_coefficient);
+    EXPECT_EQ(words->r, -0.25);
+    ASSERT_FALSE(words->pairs.empty());
+    EXPECT_EQ(words->pairs.front(), std::pair(std::string("t_S"), std::string("t_X")));
+    EXPECT_TRUE(correlation_words("Kovarianz u(a; b)")->is_covariance);
+    EXPECT_FALSE(correlation_words("Correlation")->is_coefficient);
+}
+
+}  // namespace
+}  // namespace gumcert::audit

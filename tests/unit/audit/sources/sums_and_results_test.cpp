@@ -1,0 +1,291 @@
+// Lines of a table that are no contributions: sums between its rows, its last lines where it has names and u alone, parts of a value
+// beside numbers with a unit, results beside each other. The law: what a budget comes to does not depend on which
+// of them a laboratory writes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "audit/audit.h"
+#include "audit/rules/registry.h"
+#include "audit/sources/workbook_subject.h"
+#include "text/numbers.h"
+#include "workbook/read_csv.h"
+
+namespace gumcert::audit {
+namespace {
+
+AuditReport audit_of_sums(const std::string& table) {
+    return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
+}
+const AuditFinding* first_of(const AuditReport& report, std::string_view rule) {
+    const auto found = std::find_if(report.findings.begin(), report.findings.end(),
+                                    [rule](const AuditFinding& finding) { return finding.rule == rule; });
+    return found == report.findings.end() ? nullptr : &*found;
+}
+std::string critical_of(const AuditReport& report) {
+    std::string all;
+    for (const AuditFinding& finding : report.findings) {
+        if (finding.severity == FindingSeverity::critical) {
+            all += finding.rule + " " + finding.where + ": " + finding.what.english() + "\n";
+        }
+    }
+    return all;
+}
+double root_of_squares(const std::vector<double>& terms) {
+    double sum = 0.0;
+    for (const double term : terms) {
+        sum += term * term;
+    }
+    return std::sqrt(sum);
+}
+
+TEST(SumsBetweenRows, AreNoContributions) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> size(0.1, 0.9);
+    const std::vector<std::pair<std::string, std::string>> names = {
+        {"Subtotal type A", "Subtotal type B"},
+        {"Type A", "Type B"},
+        {"Zwischensumme Typ A", "Zwischensumme Typ B"},
+        {"u_A", "u_B"},
+        {"Combined type A uncertainty", "Combined type B uncertainty"},
+        {"RSS of type A", "RSS of type B"},
+        {"Teilsumme A", "Teilsumme B"},
+        {"小計 A", "小計 B"}};
+    for (const auto& [a, b] : names) {
+        for (int layout = 0; layout < 3; ++layout) {
+            std::vector<double> of_a, of_b;
+            std::string table = layout == 2   ? "Component,Unit,u\n"
+                                : layout == 1 ? "Component,Unit,a,Divisor,u\n"
+                                              : "Component,Unit,u,c,Contribution\n";
+            const auto line = [layout](const std::string& name, const std::string& u, bool is_row) {
+                return name + ",mg," +
+                       (layout == 2   ? u
+                        : layout == 1 ? (is_row ? u + ",1," + u : ",," + u)
+                                      : (is_row ? u + ",1," + u : ",," + u)) +
+                       "\n";
+            };
+            for (const char* name : {"Handling of the load", "Operator to operator"}) {
+                of_a.push_back(std::round(1000.0 * size(random)) / 1000.0);
+                table += line(name, text::fixed(of_a.back(), 3), true);
+            }
+            table += line(a, text::fixed(root_of_squares(of_a), 3), false);
+            for (const char* name : {"Balance", "Timer", "Buoyancy"}) {
+                of_b.push_back(std::round(1000.0 * size(random)) / 1000.0);
+                table += line(name, text::fixed(of_b.back(), 3), true);
+            }
+            table += line(b, text::fixed(root_of_squares(of_b), 3), false);
+            std::vector<double> all = of_a;
+            all.insert(all.end(), of_b.begin(), of_b.end());
+            const double u_c = root_of_squares(all);
+            const std::string claims = line("u_c", text::fixed(u_c, 3), false) + "k,,2\n";
+            SCOPED_TRACE(table + claims);
+            const AuditReport sound = audit_of_sums(table + claims);
+            ASSERT_EQ(sound.results.size(), 1U);
+            EXPECT_EQ(sound.subject.budgets[0].rows.size(), 5U);
+            EXPECT_NEAR(sound.results[0].recomputed.u_c, u_c, 1e-9);
+            EXPECT_EQ(critical_of(sound), "");
+        }
+    }
+}
+
+TEST(SumsBetweenRows, AreFoundWhereTheyWereAddedTwice) {
+    const std::string rows =
+        "Component,Unit,u,c,Contribution\nHandling,mg,0.3,1,0.3\nOperators,mg,0.2,1,0.2\nSubtotal type A,mg,,,0.36\n"
+        "Balance,mg,0.4,1,0.4\nTimer,mg,0.1,1,0.1\nBuoyancy,mg,0.25,1,0.25\nSubtotal type B,mg,,,0.48\n";
+    const AuditReport twice = audit_of_sums(rows + "u_c,mg,,,0.72\nk,,,,2\nU,mg,,,1.44\n");
+    ASSERT_EQ(twice.results.size(), 1U);
+    EXPECT_NEAR(twice.results[0].audited.u_c, std::sqrt(0.09 + 0.04 + 0.16 + 0.01 + 0.0625), 1e-9);
+    EXPECT_NE(first_of(twice, "K01"), nullptr);
+    // One that is wrong is a sum all the same, and its error reaches u_c.
+    const std::string of_type =
+        "Component,Unit,u,c,Contribution\nHandling,mg,0.30,1,0.30\nType A,mg,,,0.30\nBalance,mg,0.40,1,0.40\n"
+        "Timer,mg,0.10,1,0.10\nBuoyancy,mg,0.25,1,0.25\n";
+    for (const char* claims : {"Type B,mg,,,0.41\nu_c,mg,,,0.51\nk,,,,2\nU,mg,,,1.02\n",     // a row was left out
+                               "Type B,mg,,,0.48\nu_c,mg,,,0.78\nk,,,,2\nU,mg,,,1.56\n"}) {  // A + B
+        const AuditReport wrong = audit_of_sums(of_type + claims);
+        ASSERT_EQ(wrong.results.size(), 1U);
+        EXPECT_NEAR(wrong.results[0].audited.u_c, std::sqrt(0.09 + 0.16 + 0.01 + 0.0625), 1e-9);
+        EXPECT_NE(first_of(wrong, "K01"), nullptr);
+    }
+    // "Type A" and "Type B" may be all that a table has.
+    const AuditReport two =
+        audit_of_sums("Component,Unit,u\nType A,mg,0.30\nType B,mg,0.40\nu_c,mg,0.50\nk,,2\nU,mg,1.0\n");
+    ASSERT_EQ(two.results.size(), 1U);
+    EXPECT_EQ(two.subject.budgets[0].rows.size(), 2U);
+    EXPECT_EQ(critical_of(two), "");
+    // A row that has the size of a sum by chance, and is needed for what is stated, is one.
+    const AuditReport row = audit_of_sums(
+        "Component,Unit,u,c,Contribution\nBalance,mg,3.0,1,3.0\nTimer,mg,4.0,1,4.0\nFixture total,mg,,,5.0\n"
+        "Buoyancy,mg,1.0,1,1.0\nu_c,mg,,,7.14\nk,,,,2\nU,mg,,,14.3\n");
+    ASSERT_EQ(row.results.size(), 1U);
+    EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(critical_of(row), "");
+    // And one that is not, is none.
+    const AuditReport sum = audit_of_sums(
+        "Component,Unit,u,c,Contribution\nBalance,mg,1.0,1,1.0\nSensor,mg,3.0,1,3.0\nGradient,mg,4.0,1,4.0\n"
+        "Temperature total,mg,,,5.0\nu_c,mg,,,5.10\nk,,,,2\nU,mg,,,10.2\n");
+    ASSERT_EQ(sum.results.size(), 1U);
+    EXPECT_NEAR(sum.results[0].recomputed.u_c, std::sqrt(26.0), 1e-9);
+    EXPECT_EQ(critical_of(sum), "");
+}
+
+TEST(PlainTables, EndWithTheirResultsWhateverTheirNames) {
+    const std::string rows =
+        "Frequency\nComponent,u / mHz\nReference (certificate; U = 1.0 mHz; k = 2),0.5\n"
+        "Drift of the reference,0.3\nCounter resolution,0.6\nRepeatability,0.2\n";
+    const double u_c = root_of_squares({0.5, 0.3, 0.6, 0.2});
+    for (const auto& [one, other] :
+         std::vector<std::pair<std::string, std::string>>{{"u(f)", "U(f)"},
+                                                          {"u(f)", "U(f) (k = 2)"},
+                                                          {"u_f", "U_f"},
+                                                          {"Standard uncertainty u(f)", "Expanded uncertainty U(f)"},
+                                                          {"Sum", "2 × Sum"},
+                                                          {"RSS", "RSS × 2"},
+                                                          {"1 sigma", "2 sigma"},
+                                                          {"σ", "2σ"},
+                                                          {"Gesamt", "Gesamt (k = 2)"},
+                                                          {"u gesamt", "U gesamt"},
+                                                          {"What comes out", "Twice that"}}) {
+        const AuditReport sound = audit_of_sums(rows + one + ",0.86\n" + other + ",1.72\n");
+        SCOPED_TRACE(one);
+        ASSERT_EQ(sound.results.size(), 1U);
+        EXPECT_EQ(sound.subject.budgets[0].rows.size(), 4U);
+        EXPECT_NEAR(sound.results[0].recomputed.u_c, u_c, 1e-9);
+        ASSERT_TRUE(sound.subject.budgets[0].claims.U);
+        EXPECT_EQ(sound.subject.budgets[0].claims.U->text, "1.72");
+        EXPECT_EQ(critical_of(sound), "");
+        const AuditReport planted = audit_of_sums(rows + one + ",0.86\n" + other + ",1.20\n");
+        // What nobody states of k, nobody can hold U against.
+        EXPECT_TRUE(planted.results.empty() || first_of(planted, "K01") != nullptr ||
+                    first_of(planted, "R04") != nullptr);
+    }
+    // Influences at the end are rows, and so are two that are of such sizes by chance.
+    const AuditReport influences = audit_of_sums(
+        "Component,u / mHz\nReference,0.3\nDrift of the reference,0.4\nResolution,0.5\nRepeatability,1.0\n"
+        "u_c,1.22\nk,2\nU,2.45\n");
+    ASSERT_EQ(influences.results.size(), 1U);
+    EXPECT_EQ(influences.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(critical_of(influences), "");
+}
+
+TEST(PartsOfAValue, LeaveTheUnitOfTheRows) {
+    const std::string rows =
+        "Torque 10 N·m\nQuantity,Unit,a,divisor,u\nReference (certificate; U = 0.2 mN·m; k = 2),mN·m,0.2,2,"
+        "0.1000\nDrift of the standard,mN·m,0.2,1.732,0.1155\nResolution,mN·m,0.15,1.732,0.0866\n"
+        "Repeatability,mN·m,0.06,1,0.0600\nu_c,mN·m,,,0.186\nk,,,2\n";
+    for (const char* U : {"U,%,,,0.0037\n", "U,ppm,,,37\n", "U,µN·m/(N·m),,,37\n", "U,,,,0.0037 %\n"}) {
+        for (const std::string beside : {"", "U,mN·m,,,0.37\n"}) {
+            const AuditReport report = audit_of_sums(rows + U + beside);
+            SCOPED_TRACE(U + beside);
+            ASSERT_EQ(report.results.size(), 1U);
+            EXPECT_EQ(report.subject.budgets[0].unit, "mN·m");
+            EXPECT_NEAR(report.results[0].recomputed.U, 0.3712, 1e-3);
+            EXPECT_EQ(first_of(report, "S01"), nullptr);
+            EXPECT_EQ(critical_of(report), "");
+            EXPECT_EQ(report.subject.budgets[0].claims.U.has_value(), !beside.empty());
+        }
+    }
+}
+
+TEST(ResultsBesideEachOther, AreWhatTheirHeadsSay) {
+    const std::string rows =
+        "Torque 10 N·m\nQuantity,Unit,a,divisor,u\nReference (certificate; U = 0.2 mN·m; k = 2),mN·m,0.2,2,"
+        "0.1000\nDrift of the standard,mN·m,0.2,1.732,0.1155\nResolution,mN·m,0.15,1.732,0.0866\n"
+        "Repeatability,mN·m,0.06,1,0.0600\n";
+    for (const std::string U : {"0.37", "0.20"}) {
+        for (const std::string& lines :
+             {"\nResult,Unit,u_c,k,U\nDeviation,mN·m,0.186,2," + U + "\n", "u_c,k,U\n0.186,2," + U + "\n",
+              "\nu_c =,0.186,mN·m,k =,2,U =," + U + ",mN·m\n", "u_c [mN·m],k,U [mN·m]\n0.186,2," + U + "\n",
+              "\ny,u(y),k,U\n10.0012 N·m,0.186 mN·m,2," + U + " mN·m\n",
+              "Result,u_c,ν_eff,k,U\n10.0012 N·m,0.186 mN·m,∞,2," + U + " mN·m\n"}) {
+            const AuditReport report = audit_of_sums(rows + lines);
+            SCOPED_TRACE(lines);
+            ASSERT_EQ(report.results.size(), 1U);
+            const AuditedBudget& budget = report.subject.budgets[0];
+            ASSERT_TRUE(budget.claims.U && budget.claims.u_c);
+            EXPECT_NEAR(budget.claims.U->value, std::stod(U), 1e-12);
+            EXPECT_NEAR(budget.claims.u_c->value, 0.186, 1e-12);
+            EXPECT_EQ(budget.coverage.k, 2.0);
+            EXPECT_FALSE(budget.value && std::abs(*budget.value - 0.186) < 1e-9);
+            EXPECT_EQ(first_of(report, "K01") != nullptr, U == "0.20");
+        }
+    }
+    // Of several points nobody knows which one the rows are of.
+    const AuditReport points = audit_of_sums(rows + "\nPoint,u_c,k,U\n10,0.186,2,0.37\n20,0.190,2,0.38\n");
+    ASSERT_EQ(points.results.size(), 1U);
+    EXPECT_FALSE(points.subject.budgets[0].claims.U);
+}
+
+TEST(ResultsBesideEachOther, AreAValueAndItsU) {
+    const std::string rows =
+        "Pressure 10 bar\nQuantity,Unit,u,c,Contribution\nReference (certificate; U = 4 mbar; k = 2),mbar,2,1,2\n"
+        "Drift of the reference,mbar,1.15,1,1.15\nResolution,mbar,0.29,1,0.29\nRepeatability,mbar,0.36,1,0.36\n";
+    for (const std::string line : {"Result,10.002 bar ± 4.7 mbar (k = 2)", "Result: 10.002 bar ± 4.7 mbar (k = 2)",
+                                   "Result: (10.0020 ± 0.0047) bar; k = 2", "Result = (10002.0 +/- 4.7) mbar,k = 2",
+                                   "y,10.002 bar ± 4.7 mbar,k = 2"}) {
+        for (const bool is_sound : {true, false}) {
+            std::string stated = line;
+            if (!is_sound) {
+                stated.replace(stated.find("47") != std::string::npos ? stated.find("47") : stated.find("4.7"),
+                               stated.find("47") != std::string::npos ? 2 : 3,
+                               stated.find("47") != std::string::npos ? "25" : "2.5");
+            }
+            SCOPED_TRACE(stated);
+            const AuditReport report = audit_of_sums(rows + stated + "\n");
+            ASSERT_EQ(report.results.size(), 1U);
+            const AuditedBudget& budget = report.subject.budgets[0];
+            ASSERT_TRUE(budget.claims.U);
+            ASSERT_TRUE(budget.value);
+            const double in_bar = budget.unit == "bar" ? 1.0 : 1e-3;
+            EXPECT_NEAR(budget.claims.U->value * in_bar, is_sound ? 0.0047 : 0.0025, 1e-9);
+            EXPECT_NEAR(*budget.value * in_bar, 10.002, 1e-9);
+            EXPECT_EQ(budget.coverage.k, 2.0);
+            EXPECT_EQ(critical_of(report).empty(), is_sound);
+        }
+    }
+}
+
+TEST(Heads, MayStandInTwoLines) {
+    const AuditReport merged = audit_of_sums(
+        "Source of uncertainty,,Input,,,Standard uncertainty,Sensitivity coefficient,Contribution,Degrees of freedom\n"
+        ",unit,value ±,distribution,divisor,u(xi),ci,ui(y),νi\n"
+        "Reference (certificate; U = 0.04 Ω; k = 2),Ω,0.04,normal,2,0.02,1,0.02,\nDrift of the "
+        "reference,Ω,0.03,rectangular,√3,0.0173,1,0.0173,\n"
+        "Resolution,Ω,0.005,rectangular,√3,0.0029,1,0.0029,\nRepeatability,Ω,0.006,normal,1,0.006,1,0.006,9\n"
+        "u_c,Ω,,,,,,0.0273,\nk,,,,,,,2\nU,Ω,,,,,,0.055\n");
+    ASSERT_EQ(merged.results.size(), 1U);
+    EXPECT_EQ(merged.subject.budgets[0].rows.size(), 4U);
+    EXPECT_NEAR(merged.results[0].recomputed.u_c, root_of_squares({0.02, 0.0173, 0.0029, 0.006}), 1e-4);
+    EXPECT_EQ(critical_of(merged), "");
+    // Symbols below heads are no numbers that could not be read.
+    const AuditReport symbols = audit_of_sums(
+        "quantity,estimate,standard uncertainty,distribution,sensitivity coefficient,uncertainty contribution\n"
+        "X_i,x_i,u(x_i),,c_i,u_i(y)\nm_S,10.005 g,22.5 mg,normal,1,22.5 mg\nm_D,0 g,8.95 mg,rectangular,1,8.95 mg\n"
+        "m_X,10.005 g,,,,24.2 mg\n");
+    ASSERT_EQ(symbols.results.size(), 1U);
+    EXPECT_NEAR(symbols.results[0].recomputed.u_c, root_of_squares({22.5, 8.95}), 1e-9);
+    EXPECT_TRUE(std::none_of(symbols.subject.not_read.begin(), symbols.subject.not_read.end(),
+                             [](const Sentence& said) { return said.english().find("x_i") != std::string::npos; }));
+}
+
+TEST(Units, KeepTheirDotsBehindANumber) {
+    const std::string heads = "Air density\nQuantity,Unit,u,Sensitivity,Contribution\n",
+                      rest = "Pressure,hPa,0.30,1.18 g/(m³·hPa),0.354 g/m³\nFormula,g/m³,0.026,1,0.026 g/m³\n";
+    const AuditReport sound = audit_of_sums(heads + "Temperature,K,0.10,-4.1 g/(m³·K),-0.41 g/m³\n" + rest +
+                                            "u_c,g/m³,,,0.542\nk,,,,2\nU,g/m³,,,1.08\n");
+    ASSERT_EQ(sound.results.size(), 1U);
+    EXPECT_EQ(critical_of(sound), "");
+    EXPECT_EQ(sound.subject.budgets[0].rows[0].sensitivity_unit, "g/(m³·K)");
+    const AuditReport planted = audit_of_sums(heads + "Temperature,K,0.10,-4.1 g/(m³·hPa),-0.41 g/m³\n" + rest +
+                                              "u_c,g/m³,,,0.542\nk,,,,2\nU,g/m³,,,1.08\n");
+    EXPECT_NE(first_of(planted, "S01"), nullptr);
+}
+
+}  // namespace
+}  // namespace gumcert::audit
