@@ -631,11 +631,17 @@ Shape shape_of(std::string_view text) {
     if (raw == "t" || words.has_any({"t faktor", "t factor"})) {
         return Shape::student_t;
     }
+    if (words.has_any({"lognorm", "log norm"})) {
+        return Shape::other;
+    }
     if (words.has_any({"normal", "norm ", "gaus", "n "})) {
         return Shape::normal;
     }
     if (words.has_any({"tri ", "dreieck"})) {
         return Shape::triangular;
+    }
+    if (words.has_any({"r "})) {  // as "N" beside it
+        return Shape::rectangular;
     }
     if (words.has_any({"u form", "ushape", "cyclic", "sinus"})) {
         return Shape::arcsine;

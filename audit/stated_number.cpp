@@ -311,11 +311,11 @@ std::optional<int> take_exponent(Walk& walk) {
     return sign * exponent;
 }
 
-/// "√3", "sqrt(3)", "sqrt 3".
+/// "√3", "sqrt(3)", "sqrt 3", "Wurzel 3", "root 3".
 std::optional<double> take_root(Walk& walk) {
     const std::size_t start = walk.position();
     const bool sign = walk.take_if(k_root);
-    if (!sign && !walk.take_word("sqrt")) {
+    if (!sign && !walk.take_word("sqrt") && !walk.take_word("wurzel") && !walk.take_word("root")) {
         return std::nullopt;
     }
     walk.skip_spaces();
@@ -332,6 +332,24 @@ std::optional<double> take_root(Walk& walk) {
     double value = 0.0;
     std::from_chars(digits->plain.data(), digits->plain.data() + digits->plain.size(), value);
     return std::sqrt(value);
+}
+
+/// "^0.5", "^(1/2)", "^½" behind a number: its root.
+bool takes_power_of_half(Walk& walk) {
+    const std::size_t start = walk.position();
+    if (walk.take_if(U'^')) {
+        for (const std::string_view half : {"(1/2)", "(0.5)", "(0,5)", "1/2", "0.5", "0,5"}) {
+            if (walk.take_word(half) && !is_digit(walk.peek())) {
+                return true;
+            }
+        }
+        constexpr char32_t k_half = 0x00BD;
+        if (walk.take_if(k_half)) {
+            return true;
+        }
+    }
+    walk.go_to(start);
+    return false;
 }
 
 std::optional<LeadingNumber> take_number(Walk& walk, Percent percent, DecimalSign sign_of_others) {
@@ -372,6 +390,10 @@ std::optional<LeadingNumber> take_number(Walk& walk, Percent percent, DecimalSig
     // A whole number is meant exactly, as a divisor or a number of readings is; decimals say to which digit a number
     // was rounded.
     number.half_step = digits->whole && !exponent ? 0.0 : 0.5 * std::pow(10.0, exponent.value_or(0) - digits->decimals);
+    if (takes_power_of_half(walk)) {
+        number.value = std::sqrt(number.value);
+        number.half_step = 0.0;
+    }
     const std::size_t before = walk.position();
     walk.skip_spaces();
     if (percent == Percent::hundredth && walk.take_if(U'%')) {

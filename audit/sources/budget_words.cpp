@@ -247,6 +247,12 @@ constexpr std::array k_statement_words = {
     Word{U"k95", Statement::k},
     Word{U"kp", Statement::k},
     Word{U"kfaktor", Statement::k},
+    Word{U"t95", Statement::k},
+    Word{U"tfactor", Statement::k},
+    Word{U"tfaktor", Statement::k},
+    Word{U"studentfactor", Statement::k},
+    Word{U"studentsfactor", Statement::k},
+    Word{U"studentfaktor", Statement::k},
     Word{U"erweiterungsfaktor", Statement::k},
     Word{U"erweiterungsfaktork", Statement::k},
     Word{U"expanded", Statement::U},
@@ -793,8 +799,11 @@ std::optional<Statement> uncertainty_in_words(std::string_view name, std::string
 /// What "U =" is a product of: "k·u_c", "2 · u(y)"; the number or "k". Empty where it is none, or something is added to it.
 std::string_view factor_of_u(std::string_view product) {
     product = trimmed(product);
-    const bool is_k = product.starts_with('k');
-    const std::size_t factor = is_k ? 1 : product.find_first_not_of("0123456789.,");
+    std::size_t symbol = 0;
+    for (const std::string_view k : {"k", "t_95", "t95", "t_p", "t"}) {
+        symbol = symbol == 0 && product.starts_with(k) ? k.size() : symbol;
+    }
+    const std::size_t factor = symbol > 0 ? symbol : product.find_first_not_of("0123456789.,");
     if (factor == 0 || factor == std::string_view::npos || product.find_first_of("+|-/") != std::string_view::npos) {
         return {};
     }
@@ -903,7 +912,9 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
             if ((whole && whole->statement == Statement::U) || symbol.starts_with("U(") || symbol == "U_95") {
                 const std::string said(with == std::string_view::npos ? std::string_view() : behind.substr(with));
                 return NamedStatement{.statement = Statement::U,
-                                      .coverage = factor == "k" ? said : "k = " + std::string(factor) + said};
+                                      .coverage = factor.front() == 'k' || factor.front() == 't'
+                                                      ? said
+                                                      : "k = " + std::string(factor) + said};
             }
         }
         if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {
@@ -1086,6 +1097,24 @@ CoverageText coverage_in(std::string_view text) {
         }
     }
     return found;
+}
+
+std::optional<double> k_of_distribution(std::string_view text) {
+    text = cut(text, k_longest_text);
+    const CoverageText coverage = coverage_in(text);
+    std::string_view k = coverage.k;
+    for (const std::string_view sign : {"σ", "sigma", "Sigma"}) {
+        std::size_t at = k.empty() ? text.find(sign) : std::string_view::npos;
+        while (at != std::string_view::npos && at > 0 && text[at - 1] == ' ') {
+            --at;
+        }
+        if (at != std::string_view::npos && at > 0 && text[at - 1] >= '1' && text[at - 1] <= '3' &&
+            (at == 1 || !is_of_number(text[at - 2]))) {
+            k = text.substr(at - 1);
+        }
+    }
+    const std::optional<LeadingNumber> number = k.empty() ? std::nullopt : read_leading_number(k, "", Percent::unit);
+    return number && number->number.value > 0.0 ? std::optional(number->number.value) : std::nullopt;
 }
 
 }  // namespace gumcert::audit

@@ -102,4 +102,7 @@ struct CoverageText {
 };
 [[nodiscard]] CoverageText coverage_in(std::string_view text);
 
+/// The k that a distribution is said with: "normal (k = 2)", "Normal 2σ", "N (2 sigma)".
+[[nodiscard]] std::optional<double> k_of_distribution(std::string_view text);
+
 }  // namespace gumcert::audit

@@ -85,6 +85,10 @@ public:
         if (!read.type_a && (read.shape_text == "A" || read.shape_text == "B")) {
             read.type_a = read.shape_text == "A";
         }
+        if (const std::optional<double> k = k_of_distribution(read.shape_text);
+            k && read.stated && !read.divisor && !read.u && !read.contribution) {
+            read.divisor = exact_number(*k, read.place);  // "normal (k = 2)" in a table without divisors
+        }
         for (std::optional<StatedNumber>* rounded : {&read.u, &read.contribution}) {
             if (*rounded) {
                 (*rounded)->half_step = printed_half_step(**rounded);  // "12" of an uncertainty was rounded as well
@@ -96,6 +100,8 @@ public:
     [[nodiscard]] bool has_open_number() const { return has_open_; }
     /// Places and words of cells in which a number of the sum should stand.
     [[nodiscard]] const std::vector<std::string>& unread() const { return unread_; }
+    /// Whether one of them should have an uncertainty, and holds digits: "≈ 0.10", and not "< 0.01" or "negligible".
+    [[nodiscard]] bool lost_amount() const { return lost_amount_; }
 
 private:
     [[nodiscard]] const Cell* at(Column column) const {
@@ -124,6 +130,11 @@ private:
                 if (column != Column::estimate && column != Column::nu) {
                     unread_.push_back(sheet_.place(cell->address) + " (" + text::in_quotes(held) + ")");
                 }
+                const bool is_amount =
+                    column == Column::u || column == Column::stated || column == Column::contribution;
+                const std::size_t digit = held.find_first_of("0123456789");
+                const bool is_bound = held.starts_with('<') || held.starts_with("≤");
+                lost_amount_ = lost_amount_ || (is_amount && digit <= k_longest_sign && !is_bound);
             }
             return std::nullopt;
         }
@@ -179,7 +190,9 @@ private:
     const Heads& heads_;
     const std::vector<const Cell*>& row_;
     std::vector<Sentence>& not_read_;
+    static constexpr std::size_t k_longest_sign = 6;  // bytes before the digits of what is meant as a number
     bool has_open_ = false;
+    bool lost_amount_ = false;
     std::vector<std::string> unread_;
 };
 
@@ -302,8 +315,11 @@ private:
             units_.push_back(std::move(units));
             last_constants_.clear();
             note_numbers_of_unknown(row);
-        } else if (tables_.not_read.size() == told && !is_constant(row)) {
-            note_unread(row);
+        } else {
+            lost_a_row_ = lost_a_row_ || reader.lost_amount();
+            if (tables_.not_read.size() == told && !is_constant(row)) {
+                note_unread(row);
+            }
         }
     }
 
@@ -597,7 +613,7 @@ private:
         if (covariance_line_ != nullptr && !correlation_lines_.empty()) {
             note_unread(*covariance_line_);
         } else if (covariance_line_ != nullptr) {
-            is_unusable_ = true;
+            is_told_ = true;
             tables_.not_read.push_back(
                 say("{cell}: {text} is a term of the sum that no row has; the table is not looked at; which rows are "
                     "correlated, and what is r?",
@@ -907,9 +923,10 @@ private:
                 clear();
                 return;
             }
+            settle_lost_row();
             settle_statements();
             settle_correlations();
-            if (covariance_line_ != nullptr && is_unusable_) {
+            if (is_told_) {
                 tables_.has_unusable = true;
                 clear();
                 return;
@@ -955,7 +972,7 @@ private:
         statements_ = {};
         heads_.reset();
         in_rows_ = is_near_ = false;
-        is_too_long_ = is_unusable_ = is_open_ = false;
+        is_too_long_ = is_unusable_ = is_open_ = is_told_ = lost_a_row_ = false;
         result_line_.reset();
         last_unread_.reset();
         last_constants_.clear();
@@ -963,6 +980,16 @@ private:
         correlation_lines_.clear();
         covariance_line_ = nullptr;
         looks_ = 0;
+    }
+
+    /// A row of which no uncertainty was read is missing, unless the others make up what is stated.
+    void settle_lost_row() {
+        if (!lost_a_row_ || budget_.rows.empty()) {
+            return;
+        }
+        const std::optional<StatedResult> of = stated_of_sum();
+        const std::optional<Interval> sum = of ? sum_above(*of) : std::nullopt;
+        is_unusable_ = is_unusable_ || !sum || !gives_statements(*sum).value_or(false);
     }
 
     /// Takes a number for a statement that no other line has made.
@@ -1528,6 +1555,7 @@ private:
         is_unusable_ = !settle_units(budget_.rows, units_, budget_.unit, tables_.not_read) || is_unusable_;
         for (AuditedRow& row : budget_.rows) {
             settle_words(row);
+            ask_for_divisor(row);
             if (row.open_expansion && !row.origin_value && row.origin == Origin::certificate) {
                 tables_.not_read.push_back(
                     say("{cell}: the words of {text} state U of a certificate, and its size does not follow from them; "
@@ -1541,6 +1569,19 @@ private:
         }
     }
 
+    /// What is divided by a number that nobody knows has no u: neither a divisor is stated, nor a distribution that has one.
+    void ask_for_divisor(const AuditedRow& row) {
+        const bool is_open = row.stated && !row.divisor && !row.u && !row.contribution && !row.certificate_k;
+        const bool is_expanded = row.shape == Shape::normal && coverage_in(row.shape_text).p;  // "normal (95 %)"
+        const bool has_no_divisor = row.shape == Shape::other || row.shape == Shape::trapezoidal || is_expanded;
+        if (is_open && has_no_divisor && heads_->columns.contains(Column::distribution)) {
+            is_told_ = true;
+            tables_.not_read.push_back(
+                say("{cell}: no divisor is stated, and {text} is no distribution that has one; the table is not looked "
+                    "at; what is the number divided by?",
+                    row.place, text::in_quotes(row.shape_text)));
+        }
+    }
     static void settle_words(AuditedRow& row) {
         row.contributor = contributor_of(name_in_words(row), row.comment, row.source);
         read_comment(row);
@@ -1580,6 +1621,8 @@ private:
     std::uint32_t skip_until_ = 0;  ///< line up to which all was taken together
     bool is_next_ = false;          ///< no empty line before this one
     bool is_open_ = false;          ///< nobody can know what the result is, and it was said
+    bool lost_a_row_ = false;       ///< its uncertainty has digits, and was not read
+    bool is_told_ = false;          ///< why the table is not looked at
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -272,6 +273,88 @@ TEST(Heads, MayStandInTwoLines) {
     EXPECT_NEAR(symbols.results[0].recomputed.u_c, root_of_squares({22.5, 8.95}), 1e-9);
     EXPECT_TRUE(std::none_of(symbols.subject.not_read.begin(), symbols.subject.not_read.end(),
                              [](const Sentence& said) { return said.english().find("x_i") != std::string::npos; }));
+}
+
+/// A voltage without columns of u and divisors: what is divided, and by what its distribution says.
+std::string distributions(const std::string& normal, const std::string& rectangular, const std::string& one) {
+    return "Voltage 10 V\nQuantity,unit,U or a,distribution,c\nReference,mV,0.20,\"" + normal +
+           "\",1\nDrift of the reference,mV,0.35,\"" + rectangular + "\",1\nRepeatability,mV,0.30,\"" + one +
+           "\",1\nTemperature,mV,0.20,\"" + rectangular + "\",1\nu_c,mV,0.397\nk,2\nU,mV,0.79\n";
+}
+
+TEST(Distributions, SayWhatIsDividedByOrAreAskedAbout) {
+    const double u_c = root_of_squares({0.1, 0.35 / std::sqrt(3.0), 0.3, 0.2 / std::sqrt(3.0)});
+    for (const auto& [normal, rectangular, one] :
+         std::vector<std::array<std::string, 3>>{{"normal (k = 2)", "rectangular", "normal"},
+                                                 {"N (k=2)", "R", "N (k=1)"},
+                                                 {"Normal 2σ", "rect.", "Normal 1σ"},
+                                                 {"gaussian; 2 sigma", "uniform", "gaussian"},
+                                                 {"normal, k = 2", "R (√3)", "Normal (k = 1)"}}) {
+        SCOPED_TRACE(normal + rectangular);
+        const AuditReport report = audit_of_sums(distributions(normal, rectangular, one));
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
+        EXPECT_EQ(critical_of(report), "");
+    }
+    for (const char* open : {"trapezoidal", "log-normal", "T", "B", "normal (95 %)"}) {
+        EXPECT_TRUE(audit_of_sums(distributions("normal (k = 2)", open, "normal")).results.empty()) << open;
+    }
+}
+
+TEST(Divisors, MayBeRootsInAnyForm) {
+    for (const char* root : {"√3", "sqrt(3)", "3^0.5", "3^(1/2)", "3^½", "Wurzel 3", "root 3"}) {
+        const AuditReport report =
+            audit_of_sums(std::string("Voltage 10 V\nQuantity,unit,U or a,divisor,c\nReference,mV,0.20,2,1\nDrift of "
+                                      "the reference,mV,0.35,") +
+                          root + ",1\nRepeatability,mV,0.30,1,1\nu_c,mV,0.375\nk,2\nU,mV,0.75\n");
+        SCOPED_TRACE(root);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, root_of_squares({0.1, 0.35 / std::sqrt(3.0), 0.3}), 1e-9);
+        EXPECT_EQ(critical_of(report), "");
+    }
+    // Another power, or a half behind a number, is none that could be guessed.
+    for (const char* open : {"3^2", "3½"}) {
+        const AuditReport report =
+            audit_of_sums(std::string("Voltage 10 V\nQuantity,unit,U or a,divisor,c\nReference,mV,0.20,2,1\nDrift of "
+                                      "the reference,mV,0.35,") +
+                          open + ",1\nRepeatability,mV,0.30,1,1\nu_c,mV,0.375\nk,2\nU,mV,0.75\n");
+        EXPECT_TRUE(
+            std::any_of(report.subject.not_read.begin(), report.subject.not_read.end(),
+                        [open](const Sentence& said) { return said.english().find(open) != std::string::npos; }));
+    }
+}
+
+TEST(Rows, OfWhichNoUncertaintyWasReadAreMissing) {
+    const auto table = [](const std::string& u) {
+        return audit_of_sums("Voltage 10 V\nQuantity,unit,u,c\nReference,mV,0.10,1\nDrift of the reference,mV," + u +
+                             ",1\nRepeatability,mV,0.30,1\nu_c,mV,0.374\nk,,2\nU,mV,0.75\n");
+    };
+    EXPECT_EQ(table("0.20").results.size(), 1U);
+    EXPECT_TRUE(table("≈ 0.20").results.empty());
+    EXPECT_TRUE(table("(0.20)").results.empty());
+    // What is stated needs none of these.
+    const AuditReport small = audit_of_sums(
+        "Voltage 10 V\nQuantity,unit,u,c\nReference,mV,0.10,1\nHumidity,mV,(0.001),1\nRepeatability,mV,0.30,1\n"
+        "Temperature,mV,< 0.01,1\nPressure,mV,negligible,1\nu_c,mV,0.316\nk,,2\nU,mV,0.63\n");
+    ASSERT_EQ(small.results.size(), 1U);
+    EXPECT_EQ(critical_of(small), "");
+}
+
+TEST(StudentFactors, AreCoverageFactors) {
+    for (const std::string lines : {"ν_eff,9.9\nt95 (ν_eff),2.28\nU = t95 · u_c,mV,,,0.86\n",
+                                    "ν_eff,9.9\nStudent factor,2.28\nExpanded uncertainty,mV,,,0.86\n",
+                                    "ν_eff,9.9\nt-Faktor,2.28\nU,mV,,,0.86\n"}) {
+        const AuditReport report = audit_of_sums(
+            "Voltage 10 V\nQuantity,unit,u,c,contribution,nu\nReference,mV,0.10,1,0.10,inf\nDrift,mV,0.20,1,0.20,inf\n"
+            "Repeatability,mV,0.30,1,0.30,4\nResolution,mV,0.05,1,0.05,inf\nu_c,mV,,,0.377\n" +
+            lines);
+        SCOPED_TRACE(lines);
+        ASSERT_EQ(report.results.size(), 1U);
+        const Claims& claims = report.subject.budgets[0].claims;
+        ASSERT_TRUE(claims.k && claims.U);
+        EXPECT_EQ(claims.k->text, "2.28");
+        EXPECT_EQ(critical_of(report), "");
+    }
 }
 
 TEST(Units, KeepTheirDotsBehindANumber) {
