@@ -1131,7 +1131,8 @@ private:
         while (end > 0 && is_amount_alone(budget_.rows[end - 1])) {
             --end;  // behind it are lines that may be u_c and U
         }
-        std::vector<std::size_t> sums, certain, of_type;
+        std::vector<std::size_t> sums, named, certain, parts, of_type;
+        std::size_t matches = 0;
         bool is_any_of_type = false;
         for (std::size_t i = 1; i < budget_.rows.size() && lines < k_most_lines && looks < k_most_looks; ++i) {
             const AuditedRow& row = budget_.rows[i];
@@ -1170,21 +1171,30 @@ private:
                 sums.push_back(i);
                 begin = i + 1;
             }
-            if (is_certain) {
-                certain.push_back(i);
-            }
+            const auto keep = [i](std::vector<std::size_t>& rows, bool is_one_of_them) {
+                if (is_one_of_them) {
+                    rows.push_back(i);
+                }
+            };
+            keep(named, (is_sum || is_certain) && name != SumName::none);
+            keep(certain, is_certain);
+            keep(parts, is_sum && name == SumName::part);
+            matches += is_sum && name != SumName::none ? 1U : 0U;
         }
-        // Where "Type A" is a sum, so is "Type B", whatever its number; two that fit are none by chance.
+        // Where "Type A" is a sum, so is "Type B", whatever its number; two that fit are none by chance, though the stated u_c
+        // was made of all.
         if (is_any_of_type) {
             std::vector<std::size_t> all;
-            std::set_union(sums.begin(), sums.end(), of_type.begin(), of_type.end(), std::back_inserter(all));
-            sums = std::move(all);
+            std::set_union(named.begin(), named.end(), of_type.begin(), of_type.end(), std::back_inserter(all));
+            named = std::move(all);
         }
-        const bool are_several = is_any_of_type && of_type.size() > 1;
-        if (!sums.empty() && (are_several || holds_by(sums, false))) {
+        const bool are_several = matches > 1 || (is_any_of_type && of_type.size() > 1);
+        if (are_several && !holds_by(sums, false)) {
+            drop_sums(named);
+        } else if (!sums.empty() && holds_by(sums, false)) {
             drop_sums(sums);
-        } else if (!certain.empty() && !holds_by(certain, true)) {
-            drop_sums(certain);
+        } else if (!certain.empty()) {
+            drop_sums(holds_by(certain, true) ? parts : certain);
         }
     }
     /// Whether what is stated follows only with sums of other rows added once more (`with`), or only without them.

@@ -103,6 +103,11 @@ TEST(SumsBetweenRows, AreFoundWhereTheyWereAddedTwice) {
     ASSERT_EQ(twice.results.size(), 1U);
     EXPECT_NEAR(twice.results[0].audited.u_c, std::sqrt(0.09 + 0.04 + 0.16 + 0.01 + 0.0625), 1e-9);
     EXPECT_NE(first_of(twice, "K01"), nullptr);
+    // As a formula adds them that reaches over all lines.
+    const AuditReport all = audit_of_sums(rows + "u_c,mg,,,0.85\nk,,,,2\nU,mg,,,1.70\n");
+    ASSERT_EQ(all.results.size(), 1U);
+    EXPECT_NEAR(all.results[0].audited.u_c, std::sqrt(0.09 + 0.04 + 0.16 + 0.01 + 0.0625), 1e-9);
+    EXPECT_NE(first_of(all, "K01"), nullptr);
     // One that is wrong is a sum all the same, and its error reaches u_c.
     const std::string of_type =
         "Component,Unit,u,c,Contribution\nHandling,mg,0.30,1,0.30\nType A,mg,,,0.30\nBalance,mg,0.40,1,0.40\n"
