@@ -257,7 +257,7 @@ private:
             in_rows_ = is_near_ = true;
             constexpr std::uint32_t k_near = 2;  // lines
             title_ = number <= line_above_ + k_near ? above_ : "";
-            unit_in_words_ = unit_in_words(title_);
+            unit_in_words_ = number <= line_of_unit_ + k_near ? unit_above_ : "";
             budget_.place = sheet_.place({.row = number, .column = row.front()->address.column});
             return;
         }
@@ -277,8 +277,8 @@ private:
             held.size() == 1 && sheet_.value(*held[0]).kind == CellKind::text) {
             above_ = sheet_.words(*held[0]);
             line_above_ = number;
-            unit_in_words_ = heads_ && is_near_ && unit_in_words_.empty() ? unit_in_words(above_) : unit_in_words_;
         }
+        take_unit_in_words(number, row);
         if (is_next_ && in_rows_ && budget_.rows.empty() && (take_units(row) || repeats_heads(row))) {
             return;
         }
@@ -323,6 +323,27 @@ private:
         }
     }
 
+    /// A line of words alone may have the unit of all numbers of the table, above it or below.
+    void take_unit_in_words(std::uint32_t number, const SheetView::Row& row) {
+        constexpr std::size_t k_most = 3;  // texts of a line that is none of the table
+        const std::vector<const Cell*> held = cells_with_words(row);
+        if (held.size() > k_most || (held.size() != 1 && !is_words_alone(row))) {
+            return;
+        }
+        for (const Cell* cell : held) {
+            const std::string unit =
+                sheet_.value(*cell).kind == CellKind::text ? unit_in_words(sheet_.words(*cell)) : std::string();
+            if (unit.empty()) {
+                continue;
+            }
+            if (heads_ && is_near_) {
+                unit_in_words_ = unit_in_words_.empty() ? unit : unit_in_words_;
+            }
+            unit_above_ = unit;
+            line_of_unit_ = number;
+            return;
+        }
+    }
     /// Whether a line has two texts or more, and no number.
     [[nodiscard]] bool is_words_alone(const SheetView::Row& row) const {
         const std::vector<const Cell*> held = cells_with_words(row);
@@ -1651,7 +1672,9 @@ private:
     std::vector<CorrelationLine> correlation_lines_;
     const SheetView::Row* covariance_line_ = nullptr;  ///< the first one with a covariance
     std::string unit_in_words_;                        ///< that a line above or below the table has for all of it
-    std::string above_, title_;                        ///< last line of words alone, and that above the heads
+    std::string unit_above_;                           ///< that the line `line_of_unit_` has for all
+    std::uint32_t line_of_unit_ = 0;
+    std::string above_, title_;  ///< last line of words alone, and that above the heads
     std::uint32_t line_above_ = 0;
     std::vector<std::string>& titles_;
 };

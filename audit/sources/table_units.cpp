@@ -232,6 +232,20 @@ std::string unit_in_head(const std::string& head) {
     return is_symbol || is_value(unit) ? "" : unit;
 }
 
+namespace {
+
+/// Whether a line says that all numbers are parts of a value, and so of dimension one.
+bool says_relative(const std::string& lower) {
+    constexpr std::string_view k_words[] = {"relative deviation",    "relative frequency", "fractional frequency",
+                                            "relative uncertaint",   "relative standard",  "dimensionless",
+                                            "relative abweichung",   "relative unsicher",  "relative messunsicher",
+                                            "relative standardunsi", "dimensionslos",      "relative frequenz"};
+    return std::any_of(std::begin(k_words), std::end(k_words),
+                       [&lower](std::string_view word) { return lower.find(word) != lower.npos; });
+}
+
+}  // namespace
+
 std::string unit_in_words(const std::string& line) {
     constexpr std::string_view k_of_all[] = {"all ",    "all in",     "alle ",        "values",        "werte",
                                              "angaben", "uncertaint", "unsicherheit", "contributions", "beiträge",
@@ -243,7 +257,7 @@ std::string unit_in_words(const std::string& line) {
             const bool begins_word = at != lower.npos && (at == 0 || lower[at - 1] < 'a' || lower[at - 1] > 'z');
             return begins_word || (at != lower.npos && word == "unsicherheit");
         })) {
-        return "";
+        return says_relative(lower) ? "1" : "";
     }
     for (const std::string_view word : {" in ", " en "}) {
         const std::size_t at = line.rfind(word);
@@ -256,7 +270,7 @@ std::string unit_in_words(const std::string& line) {
             return unit;
         }
     }
-    return "";
+    return says_relative(lower) ? "1" : "";
 }
 
 std::string unit_in_rest(const std::string& rest) {

@@ -362,6 +362,25 @@ TEST(StudentFactors, AreCoverageFactors) {
     }
 }
 
+TEST(Units, MayStandInACellOfTheTitle) {
+    const std::string rows =
+        "Component,Type,u,c,Contribution\nReference,B,0.3,1,0.3\nDrift,B,0.4,1,0.4\nResolution,B,0.1,1,0.1\n"
+        "u_c,,,,0.51\nk,,,,2\nU,,,,1.02\n";
+    for (const auto& [title, unit] :
+         std::vector<std::pair<std::string, std::string>>{{"Mass flow,all values in g/min", "g/min"},
+                                                          {"Mass flow\nall values in g/min", "g/min"},
+                                                          {"Frequency of a standard,relative deviation", "1"},
+                                                          {"Frequenz eines Normals; relative Abweichung", "1"},
+                                                          {"relative uncertainties in %", "%"},
+                                                          {"Mass flow,Meyer", ""}}) {
+        const AuditReport report = audit_of_sums(title + "\n" + rows);
+        SCOPED_TRACE(title);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].unit, unit);
+        EXPECT_EQ(critical_of(report).empty(), !unit.empty());
+    }
+}
+
 TEST(Units, KeepTheirDotsBehindANumber) {
     const std::string heads = "Air density\nQuantity,Unit,u,Sensitivity,Contribution\n",
                       rest = "Pressure,hPa,0.30,1.18 g/(m³·hPa),0.354 g/m³\nFormula,g/m³,0.026,1,0.026 g/m³\n";
