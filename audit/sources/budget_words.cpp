@@ -939,6 +939,47 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
     return std::nullopt;
 }
 
+std::optional<TypedHead> typed_head(std::string_view head) {
+    constexpr std::size_t k_longest = 80;
+    const std::string lower = text::in_small_letters(head);
+    if (head.size() > k_longest || lower.size() != head.size()) {
+        return std::nullopt;
+    }
+    for (const bool is_a : {true, false}) {
+        for (const std::string_view word : {"(type ", "(typ ", "(tipo ", "type ", "typ ", "tipo ", "("}) {
+            const bool in_brackets = word.starts_with('(');
+            const std::string token = std::string(word) + (is_a ? "a" : "b") + (in_brackets ? ")" : "");
+            const std::size_t at = lower.find(token), end = at + token.size();
+            if (at == std::string::npos ||
+                (!in_brackets && end < lower.size() && (is_letter(lower[end]) || lower[end] == '/'))) {
+                continue;
+            }
+            const std::string rest = std::string(head.substr(0, at)) + std::string(head.substr(end));
+            std::string_view name = trimmed(rest);
+            std::string unit = unit_in_head(rest);
+            if (!name.empty() && !meaning_of_head(name) && known_unit(std::string(name))) {  // "Type A (%)"
+                unit = unit.empty() ? std::string(name) : unit;
+                name = {};
+            }
+            const std::size_t blank = name.rfind(' ');
+            const std::string last(name.substr(blank == std::string_view::npos ? 0 : blank + 1));
+            if (unit.empty() && !meaning_of_head(last) && known_unit(last)) {
+                unit = last;
+                name = trimmed(name.substr(0, name.size() - last.size()));
+            }
+            name = trimmed(without_brackets(without_unit(name)));
+            while (name.ends_with(',') || name.ends_with('-') || name.ends_with('/')) {
+                name = trimmed(name.substr(0, name.size() - 1));
+            }
+            const std::optional<Column> column = name.empty() ? Column::u : column_of(name);
+            if (column == Column::u || column == Column::contribution) {
+                return TypedHead{.is_a = is_a, .column = *column, .unit = unit};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 SumName sum_name(std::string_view name) {
     constexpr std::size_t k_longest = 80;
     if (name.size() > k_longest) {
@@ -958,8 +999,8 @@ SumName sum_name(std::string_view name) {
         const std::size_t end = std::min(lower.find_first_of(" :,;()/-", at), lower.size());
         const std::string_view word = std::string_view(lower).substr(at, end - at);
         at = end + 1;
-        if (is_one_of(word, {"sum", "summe", "suma", "total", "gesamt", "insgesamt", "combined", "kombiniert", "rss",
-                             "intermediate", "合計", "合计"})) {
+        if (is_one_of(word, {"sum", "summation", "summe", "suma", "total", "gesamt", "insgesamt", "combined",
+                             "kombiniert", "rss", "intermediate", "合計", "合计"})) {
             has_sum = true;
         } else if (is_one_of(word, {"u_a", "u_b", "ua", "ub"})) {
             is_of_type = true;

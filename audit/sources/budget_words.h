@@ -35,6 +35,14 @@ inline constexpr int k_columns = 13;
 /// Standardunsicherheit in ppm". Without such a unit, a part of a value would be taken for the value's own unit.
 [[nodiscard]] std::optional<Column> relative_column_of(std::string_view head);
 
+/// A column of the uncertainties of one type: "u (Type A)", "Standard uncertainty (B) %", "Type A (%)".
+struct TypedHead {
+    bool is_a = false;
+    Column column = Column::u;  ///< or contributions
+    std::string unit = {};
+};
+[[nodiscard]] std::optional<TypedHead> typed_head(std::string_view head);
+
 /// Whether a head that names none of these columns is known all the same: shares, squares, numbers of rows.
 [[nodiscard]] bool is_unused_column(std::string_view head);
 

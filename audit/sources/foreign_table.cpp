@@ -299,10 +299,43 @@ private:
             is_too_long_ = true;
             return;
         }
+        if (heads_->type_b.empty()) {
+            read_row(row, *heads_, std::nullopt, "");
+            return;
+        }
+        Heads of_b = *heads_;
+        for (const auto& [column, position] : heads_->type_b) {
+            of_b.columns[column] = position;
+            of_b.units[column] = heads_->all_units.at(position);
+        }
+        const auto has_number = [&](const Heads& of) {
+            return std::any_of(heads_->type_b.begin(), heads_->type_b.end(), [&](const auto& column) {
+                const Cell* cell = cell_in(row, of.columns.at(column.first));
+                return cell != nullptr && sheet_.number_with_unit(*cell);
+            });
+        };
+        const bool has_a = has_number(*heads_), has_b = has_number(of_b);
+        const Cell* name = cell_in(row, heads_->columns.at(Column::quantity));
+        if (has_a && has_b && name != nullptr && sum_name(sheet_.words(*name)) != SumName::none) {
+            tell_sum(sheet_.place(name->address), sheet_.words(*name));
+            return;
+        }
+        if (has_a || !has_b) {
+            read_row(row, *heads_, true, "");
+        }
+        if (has_b) {
+            read_row(row, of_b, false, has_a ? " (B)" : "");
+        }
+    }
+    /// \param type_a  where its column says so
+    /// \param suffix  of the second of two rows that one line has
+    void read_row(const SheetView::Row& row, const Heads& heads, std::optional<bool> type_a, const char* suffix) {
         RowUnits units;
-        RowReader reader(sheet_, *heads_, row, tables_.not_read);
+        RowReader reader(sheet_, heads, row, tables_.not_read);
         const std::size_t told = tables_.not_read.size();
         AuditedRow read = reader.read(units);
+        read.type_a = type_a ? type_a : read.type_a;
+        read.quantity += suffix;
         is_unusable_ = is_unusable_ || reader.has_open_number();
         if (read.u || read.stated || read.contribution || has_formula_of_uncertainty(row)) {
             constexpr std::size_t k_most_told = 4;
@@ -1241,10 +1274,13 @@ private:
     void drop_sums(const std::vector<std::size_t>& sums) {
         for (auto sum = sums.rbegin(); sum != sums.rend(); ++sum) {
             const AuditedRow& row = budget_.rows[*sum];
-            tables_.not_read.push_back(say("{cell}: {text} is taken for a sum of rows above it, and is not added again",
-                                           row.place, text::in_quotes(row.quantity)));
+            tell_sum(row.place, row.quantity);
             drop_row(*sum);
         }
+    }
+    void tell_sum(const std::string& place, const std::string& name) {
+        tables_.not_read.push_back(say("{cell}: {text} is taken for a sum of rows above it, and is not added again",
+                                       place, text::in_quotes(name)));
     }
     void drop_row(std::size_t row) {
         budget_.rows.erase(budget_.rows.begin() + static_cast<std::ptrdiff_t>(row));

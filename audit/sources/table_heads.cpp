@@ -120,6 +120,41 @@ void take_k_for_divisor(const SheetView& sheet, Heads& heads) {
     }
 }
 
+/// Columns of one kind for both types, "u (Type A)" beside "u (Type B)": each row has its number in one of them.
+void take_types_beside(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
+    std::map<Column, std::vector<std::pair<TypedHead, const Cell*>>> typed;
+    for (const Cell* cell : row) {
+        const CellValue held = sheet.value(*cell);
+        if (std::optional<TypedHead> head =
+                held.kind == CellKind::text ? typed_head(held.text) : std::optional<TypedHead>()) {
+            typed[head->column].emplace_back(std::move(*head), cell);
+        }
+    }
+    for (const auto& [column, cells] : typed) {
+        if (cells.size() != 2 || cells[0].first.is_a == cells[1].first.is_a) {
+            continue;
+        }
+        const auto is_one_of_them = [&cells = cells](std::uint32_t position) {
+            return position == cells[0].second->address.column || position == cells[1].second->address.column;
+        };
+        const auto headed = heads.columns.find(column);
+        if (headed != heads.columns.end() && !is_one_of_them(headed->second)) {
+            continue;
+        }
+        if (const auto type = heads.columns.find(Column::type);
+            type != heads.columns.end() && is_one_of_them(type->second)) {
+            heads.columns.erase(type);
+        }
+        for (const auto& [head, cell] : cells) {
+            (head.is_a ? heads.columns : heads.type_b)[column] = cell->address.column;
+            heads.all_units[cell->address.column] = head.unit;
+            std::erase(heads.second, cell);
+            std::erase(heads.unknown, cell);
+        }
+        heads.units[column] = heads.all_units[heads.columns.at(column)];
+    }
+}
+
 /// Of a row of heads: the columns of each of several points, in the order of the points; empty where it has one point, or nobody can
 /// tell which.
 struct PointColumns {
@@ -221,6 +256,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
             heads.unit_columns.emplace(*column, position);
         }
     }
+    take_types_beside(sheet, row, heads);
     take_relative_and_first(sheet, row, heads);
     take_k_for_divisor(sheet, heads);
     const auto has = [&heads](Column column) { return heads.columns.contains(column); };

@@ -381,6 +381,32 @@ TEST(Units, MayStandInACellOfTheTitle) {
     }
 }
 
+TEST(Heads, OfBothTypesBesideEachOther) {
+    const std::string rows =
+                          "Reference detector,,0.30\nWavelength,,0.20\nRepeatability,0.40,\nAmplifier gain,0.05,0.10\n",
+                      claims = "Combined standard uncertainty,,0.55\nExpanded uncertainty (k = 2),,1.10\n";
+    const double u_c = root_of_squares({0.3, 0.2, 0.4, 0.05, 0.1});
+    for (const char* heads :
+         {"Source of uncertainty,Type A (%),Type B (%)", "Uncertainty component,u (Type A) / %,u (Type B) / %",
+          "Component,Standard uncertainty Type A / %,Standard uncertainty Type B / %",
+          "Component,Standard uncertainty (A) %,Standard uncertainty (B) %",
+          "Component,Beitrag Typ A in %,Beitrag Typ B in %"}) {
+        for (const char* sums : {"", "Quadratic sum,0.403,0.374\n"}) {
+            const AuditReport report =
+                audit_of_sums(std::string("Spectral responsivity\n") + heads + "\n" + rows + sums + claims);
+            SCOPED_TRACE(std::string(heads) + sums);
+            ASSERT_EQ(report.results.size(), 1U);
+            const AuditedBudget& budget = report.subject.budgets[0];
+            EXPECT_EQ(budget.unit, "%");
+            ASSERT_EQ(budget.rows.size(), 5U);
+            EXPECT_EQ(budget.rows[0].type_a, false);
+            EXPECT_EQ(budget.rows[2].type_a, true);
+            EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
+            EXPECT_EQ(critical_of(report), "");
+        }
+    }
+}
+
 TEST(Units, KeepTheirDotsBehindANumber) {
     const std::string heads = "Air density\nQuantity,Unit,u,Sensitivity,Contribution\n",
                       rest = "Pressure,hPa,0.30,1.18 g/(m³·hPa),0.354 g/m³\nFormula,g/m³,0.026,1,0.026 g/m³\n";
