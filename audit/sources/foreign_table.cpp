@@ -285,6 +285,9 @@ private:
         if (note_correlation(row) || note_constant(row)) {
             return;
         }
+        if (note_sums_of_types(row)) {
+            return;
+        }
         if (!is_row(row) && take_line(row)) {
             in_rows_ = false;
             return;
@@ -303,29 +306,46 @@ private:
             read_row(row, *heads_, std::nullopt, "");
             return;
         }
-        Heads of_b = *heads_;
-        for (const auto& [column, position] : heads_->type_b) {
-            of_b.columns[column] = position;
-            of_b.units[column] = heads_->all_units.at(position);
-        }
-        const auto has_number = [&](const Heads& of) {
-            return std::any_of(heads_->type_b.begin(), heads_->type_b.end(), [&](const auto& column) {
-                const Cell* cell = cell_in(row, of.columns.at(column.first));
-                return cell != nullptr && sheet_.number_with_unit(*cell);
-            });
-        };
-        const bool has_a = has_number(*heads_), has_b = has_number(of_b);
-        const Cell* name = cell_in(row, heads_->columns.at(Column::quantity));
-        if (has_a && has_b && name != nullptr && sum_name(sheet_.words(*name)) != SumName::none) {
-            tell_sum(sheet_.place(name->address), sheet_.words(*name));
-            return;
-        }
+        const Heads of_b = heads_of_type_b();
+        const bool has_a = has_number_of_type(row, *heads_), has_b = has_number_of_type(row, of_b);
         if (has_a || !has_b) {
             read_row(row, *heads_, true, "");
         }
         if (has_b) {
             read_row(row, of_b, false, has_a ? " (B)" : "");
         }
+    }
+    /// The heads with the columns of type B in the place of those of type A.
+    [[nodiscard]] Heads heads_of_type_b() const {
+        Heads of_b = *heads_;
+        for (const auto& [column, position] : heads_->type_b) {
+            of_b.columns[column] = position;
+            of_b.units[column] = heads_->all_units.at(position);
+        }
+        return of_b;
+    }
+    [[nodiscard]] bool has_number_of_type(const SheetView::Row& row, const Heads& of) const {
+        return std::any_of(heads_->type_b.begin(), heads_->type_b.end(), [&](const auto& column) {
+            const Cell* cell = cell_in(row, of.columns.at(column.first));
+            return cell != nullptr && sheet_.number_with_unit(*cell).has_value();
+        });
+    }
+    /// A line of results with a number of each type has sums of these, and neither u_c nor U (IAEA TRS-398).
+    [[nodiscard]] bool note_sums_of_types(const SheetView::Row& row) {
+        if (!heads_ || !is_near_ || heads_->type_b.empty() || !has_number_of_type(row, *heads_) ||
+            !has_number_of_type(row, heads_of_type_b())) {
+            return false;
+        }
+        const Cell* name = cell_in(row, heads_->columns.at(Column::quantity));
+        const std::optional<NamedLine> line = name_of_line(sheet_, row, &*heads_);
+        const bool is_result = line && !line->named.may_be_quantity &&
+                               (line->named.statement == Statement::u_c || line->named.statement == Statement::U ||
+                                line->named.statement == Statement::reported_U);
+        if (name == nullptr || (!is_result && sum_name(sheet_.words(*name)) == SumName::none)) {
+            return false;
+        }
+        tell_sum(sheet_.place(name->address), sheet_.words(*name));
+        return true;
     }
     /// \param type_a  where its column says so
     /// \param suffix  of the second of two rows that one line has
