@@ -918,9 +918,9 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
             }
         }
         if (std::optional<NamedStatement> named = whole_statement(name.substr(0, sign))) {
-            (begins_with_coverage(behind) && named->statement != Statement::coverage_probability ? named->coverage
-                                                                                                 : named->assigned) =
-                behind;
+            const bool is_of_coverage =  // "k = 2 (p = 95 %)" has its number
+                named->statement == Statement::coverage_probability || named->statement == Statement::k;
+            (begins_with_coverage(behind) && !is_of_coverage ? named->coverage : named->assigned) = behind;
             return named;
         }
     }

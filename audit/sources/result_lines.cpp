@@ -619,15 +619,19 @@ bool take_value_with_U(const SheetView& sheet, const SheetView::Row& row, const 
 /// Takes what stands behind the number of a statement in its line: "u_c = | 0.186 | k = | 2 | U = | 0.37".
 void take_further(const SheetView& sheet, const SheetView::Row& row, const Cell& number, Statements& statements,
                   std::vector<Sentence>& not_read) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
         const std::string held = sheet.words(*row[i]);
         if (row[i]->address.column <= number.address.column || sheet.value(*row[i]).kind != CellKind::text) {
             continue;
         }
         const std::optional<NamedStatement> named = named_statement(held);
-        const bool is_name =
-            named && is_of_coverage(named->statement) && named->assigned.empty() && !(known_unit(held) && held != "k");
-        if (is_name && sheet.number_with_unit(*row[i + 1])) {
+        const bool is_name = named && is_of_coverage(named->statement) && !(known_unit(held) && held != "k");
+        const bool has_number =
+            is_name && named->assigned.empty() && i + 1 < row.size() && sheet.number_with_unit(*row[i + 1]);
+        // "U = 0.755 mV" is one cell; "k = 2" beside U is said of it.
+        const bool is_assigned = is_name && named->statement != Statement::k && !named->assigned.empty() &&
+                                 sheet.number_in_text(named->assigned, *row[i]);
+        if (has_number || is_assigned) {
             (void)take_statement(sheet, {row.begin() + static_cast<std::ptrdiff_t>(i), row.end()}, nullptr, statements,
                                  not_read);
             return;  // and what stands behind that one
@@ -735,6 +739,11 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
     }
     if (statement == Statement::U || statement == Statement::reported_U) {
         take_coverage(sheet, row, *line, statements);
+    }
+    if (const std::string held = sheet.words(*row[line->cell]);
+        statement == Statement::k && statements.coverage.empty() && coverage_in(held).p) {
+        statements.coverage = held;
+        statements.coverage_place = sheet.place(row[line->cell]->address);
     }
     if (by_head == nullptr && at != nullptr && is_of_coverage(statement)) {
         take_further(sheet, row, *at, statements, not_read);

@@ -228,6 +228,24 @@ TEST(ResultsBesideEachOther, AreWhatTheirHeadsSay) {
     EXPECT_FALSE(points.subject.budgets[0].claims.U);
 }
 
+TEST(ResultsBesideEachOther, MayBeWholeCells) {
+    const std::string rows =
+        "Voltage 10 V\nQuantity,unit,u,c,contribution\nReference,mV,0.10,1,0.10\nDrift,mV,0.20,1,0.20\n"
+        "Repeatability,mV,0.30,1,0.30\nResolution,mV,0.05,1,0.05\n";
+    for (const std::string lines : {"Result,10.0002 V,U = 0.755 mV,k = 2\nu_c,mV,,,0.377\n",
+                                    "u_c,mV,,,0.377\nU,mV,,,0.755\nk = 2 (p = 95.45 %)\n"}) {
+        const AuditReport report = audit_of_sums(rows + lines);
+        SCOPED_TRACE(lines);
+        ASSERT_EQ(report.results.size(), 1U);
+        const AuditedBudget& budget = report.subject.budgets[0];
+        ASSERT_TRUE(budget.claims.U && budget.claims.k);
+        EXPECT_NEAR(budget.claims.U->value, 0.755, 1e-12);
+        EXPECT_EQ(budget.claims.k->value, 2.0);
+        EXPECT_TRUE(first_of(report, "R04") == nullptr || first_of(report, "R04")->severity == FindingSeverity::minor);
+        EXPECT_EQ(critical_of(report), "");
+    }
+}
+
 TEST(ResultsBesideEachOther, AreAValueAndItsU) {
     const std::string rows =
         "Pressure 10 bar\nQuantity,Unit,u,c,Contribution\nReference (certificate; U = 4 mbar; k = 2),mbar,2,1,2\n"
