@@ -75,6 +75,11 @@ void require_chi_square_arguments(double chi_square, double degrees_of_freedom) 
 double coverage_factor(double coverage_probability, double degrees_of_freedom) {
     require_probability(coverage_probability, "coverage probability");
     require_degrees_of_freedom(degrees_of_freedom, "degrees of freedom");
+    // ln k is about −ln(1 − p)/ν for ν far below 1. Beyond e^355 the square of k, which the quantile goes by, is no double.
+    constexpr double k_beyond_all = 400.0;
+    if (-std::log1p(-coverage_probability) > k_beyond_all * degrees_of_freedom) {
+        throw no_finite_factor(coverage_probability, degrees_of_freedom);
+    }
     constexpr double k_small = 1e-3;  // above, the tails keep 13 digits
     if (coverage_probability < k_small) {
         if (const std::optional<double> near_zero = quantile_near_zero(coverage_probability, degrees_of_freedom)) {

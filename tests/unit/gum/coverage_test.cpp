@@ -175,6 +175,17 @@ TEST(CoverageFactor, RefusesDegreesOfFreedomThatAreNotPositive) {
 TEST(CoverageFactor, SaysSoWhenThereIsNoFiniteValue) {
     EXPECT_EQ(code_of<NoResultError>([] { (void)coverage_factor(0.95, 1e-4); }), "GC-GUM-0010");
     EXPECT_EQ(code_of<NoResultError>([] { (void)coverage_factor(0.95, 5e-324); }), "GC-GUM-0010");
+    // Whatever p and ν are: a finite factor or a refusal.
+    for (double p : {1e-12, 1e-4, 9e-4, 1.1e-3, 0.1, 0.5, 0.9545, 0.999999}) {
+        for (double nu = 5e-324; nu < 1.0; nu = nu < 1e-300 ? nu * 1e10 : nu * 1.3) {
+            try {
+                const double k = coverage_factor(p, nu);
+                EXPECT_TRUE(std::isfinite(k) && k > 0.0) << p << " " << nu << " " << k;
+            } catch (const NoResultError& error) {
+                EXPECT_EQ(error.diagnostics().front().code, "GC-GUM-0010");
+            }
+        }
+    }
 }
 
 TEST(ExpandedUncertainty, MassExampleOfTheGum) {
