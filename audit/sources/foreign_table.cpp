@@ -21,7 +21,9 @@
 #include "audit/sources/correlation_words.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
+#include "audit/sources/sum_rows.h"
 #include "audit/sources/table_heads.h"
+#include "audit/sources/table_sums.h"
 #include "audit/sources/table_units.h"
 #include "text/numbers.h"
 #include "text/small_letters.h"
@@ -344,7 +346,7 @@ private:
         if (name == nullptr || (!is_result && sum_name(sheet_.words(*name)) == SumName::none)) {
             return false;
         }
-        tell_sum(sheet_.place(name->address), sheet_.words(*name));
+        tables_.not_read.push_back(taken_for_a_sum(sheet_.place(name->address), sheet_.words(*name)));
         return true;
     }
     /// \param type_a  where its column says so
@@ -795,60 +797,14 @@ private:
             if (!amount || (statement != Statement::u_c && !divisor)) {
                 continue;
             }
-            const std::optional<Interval> sum = sum_above(*amount);
+            const std::optional<Interval> sum = sums().sum_above(*amount);
             const double k = statement == Statement::u_c ? 1.0 : divisor->number.value;
-            if (sum && k > 0.0 && seen(amount->number, k).meets(*sum)) {
+            if (sum && k > 0.0 && as_rounded(amount->number, k).meets(*sum)) {
                 return true;
             }
         }
         return false;
     }
-    /// A printed number over k, as wide as a laboratory may have rounded it: by a whole unit of its last digit.
-    [[nodiscard]] static Interval seen(const StatedNumber& number, double k) {
-        constexpr double k_of_digits = 1e-3;
-        const double half = 2.0 * printed_half_step(number) + k_of_digits * std::abs(number.value);
-        return {(std::abs(number.value) - half) / k, (std::abs(number.value) + half) / k};
-    }
-    /// The root of the sum of squares of the rows, in the unit of a number.
-    /// \param without_last  not of the last one
-    [[nodiscard]] std::optional<Interval> sum_above(const StatedResult& of, bool without_last = false) const {
-        return sum_of_first(of, budget_.rows.size() - (without_last ? 1U : 0U));
-    }
-    /// \param count  rows from the first one on
-    [[nodiscard]] std::optional<Interval> sum_of_first(const StatedResult& of, std::size_t count) const {
-        std::vector<std::size_t> first(count);
-        std::iota(first.begin(), first.end(), std::size_t{0});
-        return sum_of(of, first);
-    }
-    /// \param which  places of rows
-    [[nodiscard]] std::optional<Interval> sum_of(const StatedResult& of, const std::vector<std::size_t>& which) const {
-        std::string unit = of.unit;
-        if (const auto head = heads_->all_units.find(of.column); unit.empty() && head != heads_->all_units.end()) {
-            unit = head->second;
-        }
-        std::vector<AuditedRow> rows;
-        std::vector<RowUnits> units;
-        for (const std::size_t row : which) {
-            rows.push_back(budget_.rows[row]);
-            units.push_back(units_[row]);
-        }
-        std::vector<Sentence> unused;
-        if (rows.empty() || !settle_units(rows, units, unit, unused)) {
-            return std::nullopt;
-        }
-        double low = 0.0, high = 0.0;
-        for (AuditedRow& row : rows) {
-            settle_words(row);
-            const double c = std::abs(row.used_sensitivity);
-            const double least =
-                std::max(0.0, c - row.sensitivity_half_step) * std::max(0.0, row.used_u - row.u_half_step);
-            const double most = (c + row.sensitivity_half_step) * (row.used_u + row.u_half_step);
-            low += least * least;
-            high += most * most;
-        }
-        return Interval{std::sqrt(low), std::sqrt(high)};
-    }
-
     /// Takes a line that states something. One that states the value may have its uncertainty beside it.
     [[nodiscard]] bool take_line(const SheetView::Row& row) {
         const Heads* heads = heads_ && is_near_ ? &*heads_ : nullptr;
@@ -988,9 +944,7 @@ private:
             budget_.title = title_;
             settle_constants();
             tell_unknown_columns();
-            settle_sums_between();
-            settle_last_lines();
-            settle_last_row();
+            is_open_ = settle_sums(sums(), result_line_.has_value(), tables_.not_read) || is_open_;
             settle_result_line();
             if (is_open_) {
                 tables_.has_unusable = true;
@@ -1056,25 +1010,17 @@ private:
         looks_ = 0;
     }
 
+    /// The rows and statements of the table so far.
+    [[nodiscard]] TableSums sums() { return {budget_.rows, units_, *heads_, statements_}; }
+
     /// A row of which no uncertainty was read is missing, unless the others make up what is stated.
     void settle_lost_row() {
         if (!lost_a_row_ || budget_.rows.empty()) {
             return;
         }
-        const std::optional<StatedResult> of = stated_of_sum();
-        const std::optional<Interval> sum = of ? sum_above(*of) : std::nullopt;
-        is_unusable_ = is_unusable_ || !sum || !gives_statements(*sum).value_or(false);
-    }
-
-    /// Takes a number for a statement that no other line has made.
-    void state(Statement statement, std::optional<StatedResult> result) {
-        if (result) {
-            statements_.numbers.emplace(statement, std::move(*result));
-        }
-    }
-    [[nodiscard]] std::optional<StatedNumber> stated(Statement statement) const {
-        const auto found = statements_.numbers.find(statement);
-        return found == statements_.numbers.end() ? std::nullopt : std::optional(found->second.number);
+        const std::optional<StatedResult> of = sums().stated_of_sum();
+        const std::optional<Interval> sum = of ? sums().sum_above(*of) : std::nullopt;
+        is_unusable_ = is_unusable_ || !sum || !sums().gives_statements(*sum).value_or(false);
     }
 
     /// What stands beside the value of a result under u or the contributions: u_c, or U where k says so.
@@ -1089,35 +1035,35 @@ private:
         };
         std::optional<StatedResult> amount = number(Column::contribution, Statement::u_c);
         amount = amount ? amount : number(Column::u, Statement::u_c);
-        const std::optional<Interval> sum = amount ? sum_above(*amount) : std::nullopt;
+        const std::optional<Interval> sum = amount ? sums().sum_above(*amount) : std::nullopt;
         if (!sum) {
             return;
         }
         const std::optional<StatedResult> divisor = number(Column::divisor, Statement::k);
         const std::optional<StatedResult> last = number(Column::nu, Statement::k);
-        if (seen(amount->number, 1.0).meets(*sum)) {
-            state(Statement::u_c, std::move(amount));
-            state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
+        if (as_rounded(amount->number, 1.0).meets(*sum)) {
+            sums().state(Statement::u_c, std::move(amount));
+            sums().state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
             return;
         }
-        const std::optional<StatedNumber> k = stated(Statement::k);
+        const std::optional<StatedNumber> k = sums().stated(Statement::k);
         for (const std::optional<StatedNumber>& by : {divisor ? std::optional(divisor->number) : std::nullopt, k,
                                                       last ? std::optional(last->number) : std::nullopt}) {
-            if (!by || !(by->value > 1.0) || !seen(amount->number, by->value).meets(*sum)) {
+            if (!by || !(by->value > 1.0) || !as_rounded(amount->number, by->value).meets(*sum)) {
                 continue;
             }
-            state(Statement::U, std::move(amount));
+            sums().state(Statement::U, std::move(amount));
             if (divisor && by->place == divisor->number.place) {
-                state(Statement::k, divisor);
+                sums().state(Statement::k, divisor);
             } else if (last && by->place == last->number.place) {
-                state(Statement::k, last);
+                sums().state(Statement::k, last);
             }
             return;
         }
         constexpr double k_still_u_c = 1.6;  // no coverage factor is as small
         if (amount->number.value < k_still_u_c * sum->high) {
-            state(Statement::u_c, std::move(amount));
-            state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
+            sums().state(Statement::u_c, std::move(amount));
+            sums().state(Statement::nu_eff, number(Column::nu, Statement::nu_eff));
             return;
         }
         is_open_ = true;
@@ -1125,501 +1071,6 @@ private:
             say("{cell}: beside the value of the result stands {text}, which is neither u_c of the rows nor U with a k "
                 "that is stated; the table is not looked at; what is it?",
                 amount->number.place, text::in_quotes(amount->number.text)));
-    }
-
-    /// \param but_normal  that u_c of a sum is normal, the layout of UKAS M3003 says in the line of the result
-    static bool has_columns_of_a_row(const AuditedRow& row, bool but_normal = false) {
-        const bool is_normal = row.shape == Shape::normal || row.shape == Shape::student_t;
-        return row.stated || row.divisor || row.sensitivity || row.type_a ||
-               (!row.shape_text.empty() && !(but_normal && is_normal));
-    }
-    /// Whether rows that add up to this have the u_c or the U that is stated; nothing where neither is.
-    [[nodiscard]] std::optional<bool> gives_statements(const Interval& sum) const {
-        if (const std::optional<StatedNumber> u_c = stated(Statement::u_c)) {
-            return seen(*u_c, 1.0).meets(sum);
-        }
-        const std::optional<StatedNumber> U = stated(Statement::U), of_line = stated(Statement::k);
-        const std::optional<LeadingNumber> of_words =
-            read_leading_number(coverage_in(statements_.coverage).k, "", Percent::unit);
-        const double k = of_line ? of_line->value : of_words ? of_words->number.value : 0.0;
-        if (U && k > 0.0) {
-            return seen(*U, k).meets(sum);
-        }
-        return std::nullopt;
-    }
-
-    /// Whether a number is the u_c, or the U over k, that is stated elsewhere, within the digits of both.
-    [[nodiscard]] bool is_stated_u_c(const StatedResult& of) const {
-        const auto is = [&](Statement statement, double k) {
-            const auto found = statements_.numbers.find(statement);
-            const std::optional<double> factor =
-                found == statements_.numbers.end() ? std::nullopt : factor_between(of.unit, found->second.unit);
-            if (!factor || !(k > 0.0)) {
-                return false;
-            }
-            const StatedNumber& number = found->second.number;
-            const double size = std::abs(number.value) / k;
-            const double half = printed_half_step(number) / k + *factor * printed_half_step(of.number) + 1e-6 * size;
-            return std::abs(size - *factor * std::abs(of.number.value)) <= half;
-        };
-        const std::optional<StatedNumber> k = stated(Statement::k);
-        return is(Statement::u_c, 1.0) || (k && (is(Statement::U, k->value) || is(Statement::reported_U, k->value)));
-    }
-
-    /// The number of a row under the contributions, or under u, as a statement has it.
-    [[nodiscard]] StatedResult amount_of(std::size_t row) const {
-        const AuditedRow& of = budget_.rows[row];
-        const bool by_u = !of.contribution;
-        const Column column = by_u ? Column::u : Column::contribution;
-        return {.number = by_u ? *of.u : *of.contribution,
-                .unit = by_u ? units_[row].u : units_[row].contribution,
-                .column = heads_->columns.at(column)};
-    }
-    /// The k that makes U of a sum of this number: that of its name, or the one that is stated. 0 where none does.
-    [[nodiscard]] double k_to(const StatedResult& amount, const std::string& name, const Interval& sum) const {
-        const std::string_view in_name = coverage_in(name).k;
-        const std::optional<LeadingNumber> named =
-            in_name.empty() ? std::nullopt : read_leading_number(in_name, "", Percent::unit);
-        for (const std::optional<StatedNumber>& k :
-             {named ? std::optional(named->number) : std::nullopt, stated(Statement::k)}) {
-            if (k && k->value > 1.0 && seen(amount.number, k->value).meets(sum)) {
-                return k->value;
-            }
-        }
-        return 0.0;
-    }
-    /// Sums of rows that stand between them are no contributions: "Subtotal type A", "Zwischensumme", "Temperature total". What is
-    /// named so, has an amount alone, and is the root of the sum of squares of rows directly above it is one; of a name that
-    /// says nothing of a sum, and of one row alone, what is stated has to say so.
-    void settle_sums_between() {
-        constexpr std::size_t k_least = 3, k_most_lines = 40, k_most_looks = 200;
-        const std::size_t count = budget_.rows.size();
-        if (count < k_least) {
-            return;
-        }
-        drop_squares();
-        const auto is_amount_alone = [](const AuditedRow& row) {
-            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
-        };
-        std::size_t end = budget_.rows.size(), lines = 0, looks = 0, begin = 0;
-        while (end > 0 && is_amount_alone(budget_.rows[end - 1])) {
-            --end;  // behind it are lines that may be u_c and U
-        }
-        std::vector<std::size_t> sums, named, certain, parts, of_type;
-        std::size_t matches = 0;
-        bool is_any_of_type = false;
-        for (std::size_t i = 1; i < budget_.rows.size() && lines < k_most_lines && looks < k_most_looks; ++i) {
-            const AuditedRow& row = budget_.rows[i];
-            const SumName name = sum_name(row.quantity);
-            if (!is_amount_alone(row) || (name == SumName::none && i >= end)) {
-                continue;
-            }
-            ++lines;
-            if (name == SumName::of_type) {
-                of_type.push_back(i);
-            }
-            const StatedResult amount = amount_of(i);
-            // From the last sum on, and where the name says that it is one, from any row on.
-            const std::size_t last_begin = name == SumName::none ? begin : i - 1;
-            bool is_sum = false, is_certain = name == SumName::part;
-            for (std::size_t from = begin; from <= last_begin && looks < k_most_looks && !is_sum; ++from) {
-                const bool is_last = end > 0 ? i >= end : is_stated_u_c(amount) || !stated_of_sum();
-                const bool is_of_all = from == 0 && sums.empty() && is_last && name != SumName::part;
-                const bool is_one = i - from < 2;
-                if (is_one && (name == SumName::none || name == SumName::of_quantity)) {
-                    continue;  // a number that only looks like another one
-                }
-                std::vector<std::size_t> block(i - from);
-                std::iota(block.begin(), block.end(), from);
-                ++looks;
-                const std::optional<Interval> sum = sum_of(amount, block);
-                is_sum = sum && seen(amount.number, 1.0).meets(*sum);
-                if (is_sum && is_of_all) {
-                    is_sum = false;
-                    break;  // u_c
-                }
-                is_certain = is_certain || (is_sum && !is_one && (name == SumName::whole || name == SumName::of_type));
-                is_any_of_type = is_any_of_type || (is_sum && name == SumName::of_type);
-            }
-            if (is_sum || is_certain) {
-                sums.push_back(i);
-                begin = i + 1;
-            }
-            const auto keep = [i](std::vector<std::size_t>& rows, bool is_one_of_them) {
-                if (is_one_of_them) {
-                    rows.push_back(i);
-                }
-            };
-            keep(named, (is_sum || is_certain) && name != SumName::none);
-            keep(certain, is_certain);
-            keep(parts, is_sum && name == SumName::part);
-            matches += is_sum && name != SumName::none ? 1U : 0U;
-        }
-        // Where "Type A" is a sum, so is "Type B", whatever its number; two that fit are none by chance, though the stated u_c
-        // was made of all.
-        if (is_any_of_type) {
-            std::vector<std::size_t> all;
-            std::set_union(named.begin(), named.end(), of_type.begin(), of_type.end(), std::back_inserter(all));
-            named = std::move(all);
-        }
-        const bool are_several = matches > 1 || (is_any_of_type && of_type.size() > 1);
-        if (are_several && !holds_by(sums, false)) {
-            drop_sums(named);
-        } else if (!sums.empty() && holds_by(sums, false)) {
-            drop_sums(sums);
-        } else if (!certain.empty()) {
-            drop_sums(holds_by(certain, true) ? parts : certain);
-        }
-    }
-    /// Whether what is stated follows only with sums of other rows added once more (`with`), or only without them.
-    [[nodiscard]] bool holds_by(const std::vector<std::size_t>& sums, bool with) const {
-        std::vector<std::size_t> all(budget_.rows.size()), others;
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        std::set_difference(all.begin(), all.end(), sums.begin(), sums.end(), std::back_inserter(others));
-        const StatedResult of = stated_of_sum().value_or(amount_of(sums.front()));
-        const std::optional<Interval> sum_of_all = sum_of(of, all), of_others = sum_of(of, others);
-        const bool holds_with = sum_of_all && gives_statements(*sum_of_all).value_or(false);
-        const bool holds_without = of_others && gives_statements(*of_others).value_or(false);
-        return with ? holds_with && !holds_without : holds_without && !holds_with;
-    }
-    /// The number that rows are held against: u_c, else U.
-    [[nodiscard]] std::optional<StatedResult> stated_of_sum() const {
-        for (const Statement statement : {Statement::u_c, Statement::U}) {
-            if (const auto found = statements_.numbers.find(statement); found != statements_.numbers.end()) {
-                return found->second;
-            }
-        }
-        return std::nullopt;
-    }
-    void drop_sums(const std::vector<std::size_t>& sums) {
-        for (auto sum = sums.rbegin(); sum != sums.rend(); ++sum) {
-            const AuditedRow& row = budget_.rows[*sum];
-            tell_sum(row.place, row.quantity);
-            drop_row(*sum);
-        }
-    }
-    void tell_sum(const std::string& place, const std::string& name) {
-        tables_.not_read.push_back(say("{cell}: {text} is taken for a sum of rows above it, and is not added again",
-                                       place, text::in_quotes(name)));
-    }
-    void drop_row(std::size_t row) {
-        budget_.rows.erase(budget_.rows.begin() + static_cast<std::ptrdiff_t>(row));
-        units_.erase(units_.begin() + static_cast<std::ptrdiff_t>(row));
-    }
-    /// "Sum of squares | 0.0344" is a square, and neither a contribution nor u_c.
-    void drop_squares() {
-        for (std::size_t i = budget_.rows.size(); i > 1; --i) {
-            const AuditedRow& row = budget_.rows[i - 1];
-            if (!has_columns_of_a_row(row, true) && sum_name(row.quantity) == SumName::of_squares) {
-                tables_.not_read.push_back(
-                    say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used",
-                        row.place, text::in_quotes(row.quantity)));
-                drop_row(i - 1);
-            }
-        }
-    }
-    /// A table of names and u alone ends with u_c and U where a line is the root of the sum of squares of all above it, and those
-    /// behind it are what k makes of it; or where the last two have one name but for their first letter, "u(f)" and "U(f)".
-    /// \return whether these lines were taken, or asked about
-    [[nodiscard]] bool settle_plain_last_lines() {
-        constexpr std::size_t k_least = 2, k_most_results = 3;
-        const std::size_t count = budget_.rows.size();
-        const auto is_other = [](const AuditedRow& row) {
-            return contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
-        };
-        if (count >= k_least + 2 && are_u_and_U(budget_.rows[count - 2].quantity, budget_.rows[count - 1].quantity)) {
-            state(Statement::u_c, amount_of(count - 2));
-            state(Statement::U, amount_of(count - 1));
-            budget_.rows.resize(count - 2);
-            units_.resize(count - 2);
-            return true;
-        }
-        for (std::size_t i = count > k_most_results + k_least ? count - k_most_results : k_least; i + 1 < count; ++i) {
-            const StatedResult amount = amount_of(i);
-            const std::optional<Interval> sum = sum_of_first(amount, i);
-            if (!sum || !seen(amount.number, 1.0).meets(*sum) || !is_other(budget_.rows[i])) {
-                continue;
-            }
-            const auto is_U = [&](std::size_t row) {
-                if (k_to(amount_of(row), budget_.rows[row].quantity, *sum) > 0.0) {
-                    return true;
-                }
-                for (const double k : {2.0, 3.0}) {
-                    const StatedNumber &of = amount.number, &by_k = amount_of(row).number;
-                    const double step = k * printed_half_step(of) + printed_half_step(by_k) + 1e-9 * std::abs(of.value);
-                    if (is_other(budget_.rows[row]) &&
-                        std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
-                        return true;
-                    }
-                }
-                return false;
-            };
-            bool are_U = true;
-            for (std::size_t row = i + 1; row < count; ++row) {
-                are_U = are_U && is_U(row);
-            }
-            if (are_U) {
-                take_last_lines(i, *sum);
-            } else {
-                ask_for_row(budget_.rows[i]);
-            }
-            return true;
-        }
-        return false;
-    }
-    void ask_for_row(const AuditedRow& row) {
-        is_open_ = true;
-        tables_.not_read.push_back(
-            say("{cell}: {text} may be the result of the rows above it, or one more contribution; the table is not "
-                "looked at; which one is it?",
-                row.place, text::in_quotes(row.quantity)));
-    }
-    /// Lines at the end of the rows that have an amount alone, where the rows above them have what makes up theirs, are results
-    /// whatever their names: u_c where their number is the root of the sum of squares of the rows above, U where it is k times that.
-    void settle_last_lines() {
-        constexpr std::size_t k_least = 2, k_most = 6;
-        settle_divided_result();
-        const std::size_t count = budget_.rows.size();
-        std::size_t first = count;
-        const auto is_amount_alone = [](const AuditedRow& row) {
-            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
-        };
-        while (first > 0 && is_amount_alone(budget_.rows[first - 1])) {
-            --first;
-        }
-        const bool is_distinct =
-            std::all_of(budget_.rows.begin(), budget_.rows.begin() + static_cast<std::ptrdiff_t>(first),
-                        [](const AuditedRow& row) { return has_columns_of_a_row(row); });
-        if (first == count || count < k_least) {
-            return;
-        }
-        const std::optional<Interval> all = sum_of_first(amount_of(count - 1), count);
-        if (all && gives_statements(*all).value_or(false)) {
-            return;
-        }
-        if (first == 0 && settle_plain_last_lines()) {
-            return;
-        }
-        if (first < k_least || count - first > k_most || !is_distinct) {
-            return;
-        }
-        for (std::size_t i = first; i < count; ++i) {
-            const StatedResult amount = amount_of(i);
-            const std::optional<Interval> sum = sum_of_first(amount, i);
-            if (!sum) {
-                return;
-            }
-            const bool is_u_c = seen(amount.number, 1.0).meets(*sum);
-            const bool is_last = i + 1 == count;
-            if (is_u_c && is_last) {
-                return;  // settle_last_row() knows more of one line
-            }
-            if ((is_u_c || k_to(amount, budget_.rows[i].quantity, *sum) > 0.0) && have_no_influence(i + 1, *sum)) {
-                take_last_lines(i, *sum);
-                return;
-            }
-        }
-        ask_for_last_lines(first);
-    }
-    /// Whether no row from one on is named as an influence and has a number that is not U of a sum.
-    [[nodiscard]] bool have_no_influence(std::size_t from, const Interval& sum) const {
-        for (std::size_t i = from; i < budget_.rows.size(); ++i) {
-            const AuditedRow& row = budget_.rows[i];
-            const bool is_other = contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
-            if (!is_other && !(k_to(amount_of(i), row.quantity, sum) > 0.0)) {
-                return false;
-            }
-        }
-        return true;
-    }
-    void take_last_lines(std::size_t from, const Interval& sum) {
-        const std::vector<AuditedRow> lines(budget_.rows.begin() + static_cast<std::ptrdiff_t>(from),
-                                            budget_.rows.end());
-        std::vector<StatedResult> amounts;
-        for (std::size_t i = from; i < budget_.rows.size(); ++i) {
-            amounts.push_back(amount_of(i));
-        }
-        constexpr double k_least_k = 1.6, k_most_k = 3.5;  // of a U without a k in its line
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            const double k = k_to(amounts[i], lines[i].quantity, sum);
-            const double ratio = amounts[i].number.value / sum.high;
-            const bool is_u_c = seen(amounts[i].number, 1.0).meets(sum);
-            const CoverageText said = coverage_in(lines[i].quantity);
-            const bool is_U = k > 0.0 || (i > 0 && (said.says_any() || (ratio > k_least_k && ratio < k_most_k)));
-            if (is_u_c) {
-                state(Statement::u_c, amounts[i]);
-                if (lines[i].nu) {
-                    state(Statement::nu_eff,
-                          StatedResult{.number = *lines[i].nu, .unit = "", .column = heads_->columns[Column::nu]});
-                }
-            } else if (is_U) {
-                state(Statement::U, amounts[i]);
-                if (said.says_any() && statements_.coverage.empty()) {
-                    statements_.coverage = lines[i].quantity;
-                    statements_.coverage_place = lines[i].place;
-                }
-            } else {
-                tables_.not_read.push_back(
-                    say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used",
-                        lines[i].place, text::in_quotes(lines[i].quantity)));
-            }
-        }
-        budget_.rows.resize(from);
-        units_.resize(from);
-    }
-    /// Lines at the end that are called an uncertainty, and give no result of the rows above them, may be one all the same.
-    void ask_for_last_lines(std::size_t first) {
-        for (std::size_t i = first; i < budget_.rows.size(); ++i) {
-            const AuditedRow& row = budget_.rows[i];
-            const std::string name = text::in_small_letters(row.quantity);
-            constexpr std::string_view k_words[] = {"uncertaint", "unsicherheit", "incertidumbre",
-                                                    "不確定",     "u =",          "u="};
-            const bool is_called_so =
-                std::any_of(std::begin(k_words), std::end(k_words),
-                            [&name](std::string_view word) { return name.find(word) != name.npos; });
-            if (is_called_so && contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other) {
-                ask_for_row(row);
-                return;
-            }
-        }
-    }
-    /// "Total | 0.64 | 2 | 0.32" below rows with coefficients: U, k and u_c in one line, where the last is the sum of the rows.
-    void settle_divided_result() {
-        constexpr std::size_t k_least = 3;
-        if (budget_.rows.size() < k_least) {
-            return;
-        }
-        const AuditedRow last = budget_.rows.back();
-        const bool has_all = last.stated && last.divisor && last.divisor->value > 1.0 && (last.u || last.contribution);
-        const bool is_distinct = !last.sensitivity && last.shape_text.empty() && !last.type_a &&
-                                 std::all_of(budget_.rows.begin(), budget_.rows.end() - 1,
-                                             [](const AuditedRow& row) { return row.sensitivity.has_value(); });
-        if (!has_all || !is_distinct ||
-            contributor_of(name_in_words(last), last.comment, last.source) != Contributor::other) {
-            return;
-        }
-        const StatedResult amount = amount_of(budget_.rows.size() - 1);
-        const std::optional<Interval> sum = sum_above(amount, true);
-        if (!sum || !seen(amount.number, 1.0).meets(*sum)) {
-            return;
-        }
-        const RowUnits units = units_.back();
-        budget_.rows.pop_back();
-        units_.pop_back();
-        state(Statement::u_c, amount);
-        state(Statement::U,
-              StatedResult{.number = *last.stated, .unit = units.stated, .column = heads_->columns.at(Column::stated)});
-        state(Statement::k,
-              StatedResult{.number = *last.divisor, .unit = "", .column = heads_->columns.at(Column::divisor)});
-    }
-
-    /// The last row of a table may be its result: u_c under u or the contributions, without anything that is divided, a distribution
-    /// or a coefficient (the layout of EA-4/02, chapter 4 and its examples).
-    void settle_last_row() {
-        constexpr std::size_t k_least = 3;
-        while (budget_.rows.size() >= k_least && is_lone_number(budget_.rows.back()) && is_no_row()) {
-            drop_last_row();
-        }
-        if (is_open_ || budget_.rows.size() < k_least || has_columns_of_a_row(budget_.rows.back(), true)) {
-            return;
-        }
-        const bool is_called_normal = has_columns_of_a_row(budget_.rows.back());
-        const AuditedRow& last = budget_.rows.back();
-        const bool by_u = !last.contribution;
-        const std::optional<StatedNumber>& amount = by_u ? last.u : last.contribution;
-        if (!amount || (last.u && last.contribution && !seen(*last.u, 1.0).meets(seen(*last.contribution, 1.0)))) {
-            return;
-        }
-        const auto head = heads_->columns.find(by_u ? Column::u : Column::contribution);
-        const StatedResult result{
-            .number = *amount, .unit = by_u ? units_.back().u : units_.back().contribution, .column = head->second};
-        // A row that is named as an influence is one, whatever its number.
-        const bool is_result = last.estimate && last.estimate->value != 0.0 &&
-                               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other &&
-                               is_stated_u_c(result);
-        const std::optional<Interval> above = sum_above(result, true), all = sum_above(result);
-        if (!above || !all) {
-            if (is_result) {
-                take_last_row(result);
-            }
-            return;
-        }
-        const bool is_distinct =
-            std::all_of(budget_.rows.begin(), budget_.rows.end() - 1, [is_called_normal](const AuditedRow& row) {
-                return is_called_normal ? row.stated || row.divisor || row.sensitivity : has_columns_of_a_row(row);
-            });
-        const bool is_sum = seen(*amount, 1.0).meets(*above);
-        const std::optional<bool> with = gives_statements(*all), without = gives_statements(*above);
-        const bool is_stated = with.has_value();
-        if (is_stated && *with) {
-            return;
-        }
-        if (is_result || (is_sum && (is_distinct || (is_stated && *without)))) {
-            take_last_row(result);
-            return;
-        }
-        if (is_distinct && is_stated && *without && !last.estimate &&
-            contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other) {
-            drop_last_row();  // the value in the column of u
-            return;
-        }
-        const bool has_u_c = statements_.numbers.contains(Statement::u_c);
-        const bool looks_like_result =
-            is_distinct && last.estimate && !has_u_c && !result_line_ && !(is_stated && *without);
-        if (is_sum || looks_like_result) {
-            ask_for_row(last);
-        }
-    }
-    /// A row of which nothing is known but one number in the column of what is divided.
-    [[nodiscard]] static bool is_lone_number(const AuditedRow& row) {
-        return row.stated && !row.divisor && !row.u && !row.contribution && !row.sensitivity && !row.nu &&
-               !row.estimate && row.shape_text.empty() && !row.type_a;
-    }
-    /// Whether the last row, a lone number, is none: in a table without a column of estimates (UKAS M3003) the value stands
-    /// there, and the rows above have what makes them rows. One that is named as an influence is a row, unless the rows above it
-    /// give what is stated; one that the statements need is a row whatever its name.
-    [[nodiscard]] bool is_no_row() {
-        const AuditedRow& last = budget_.rows.back();
-        std::size_t lone = 0, distinct = 0;
-        for (const AuditedRow& row : budget_.rows) {
-            lone += is_lone_number(row) ? 1U : 0U;
-            distinct += row.u || row.contribution || row.divisor || !row.shape_text.empty() ? 1U : 0U;
-        }
-        if (distinct < 2 || lone + distinct < budget_.rows.size()) {
-            return false;
-        }
-        const StatedResult number{
-            .number = *last.stated, .unit = units_.back().stated, .column = heads_->columns.at(Column::stated)};
-        const std::optional<Interval> above = sum_above(number, true), all = sum_above(number);
-        if (all && gives_statements(*all).value_or(false)) {
-            return false;
-        }
-        return (above && gives_statements(*above).value_or(false)) ||
-               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other;
-    }
-    void drop_last_row() {
-        const AuditedRow& last = budget_.rows.back();
-        tables_.not_read.push_back(
-            say("{cell}: {text} has a number, and is no row and no statement that is known; it is not used", last.place,
-                text::in_quotes(last.quantity)));
-        budget_.rows.pop_back();
-        units_.pop_back();
-    }
-    void take_last_row(const StatedResult& result) {
-        const AuditedRow last = budget_.rows.back();
-        const RowUnits units = units_.back();
-        budget_.rows.pop_back();
-        units_.pop_back();
-        state(Statement::u_c, result);
-        if (last.estimate) {
-            state(Statement::value,
-                  StatedResult{
-                      .number = *last.estimate, .unit = units.estimate, .column = heads_->columns[Column::estimate]});
-        }
-        if (last.nu) {
-            state(Statement::nu_eff,
-                  StatedResult{.number = *last.nu, .unit = "", .column = heads_->columns[Column::nu]});
-        }
     }
 
     /// Brings statements and rows to the units that an audit takes, and reads what the words of rows say in them.
@@ -1668,11 +1119,6 @@ private:
                     "at; what is the number divided by?",
                     row.place, text::in_quotes(row.shape_text)));
         }
-    }
-    static void settle_words(AuditedRow& row) {
-        row.contributor = contributor_of(name_in_words(row), row.comment, row.source);
-        read_comment(row);
-        complete_row(row);
     }
     /// The unit that all rows state which are added as they are: what is added up has one unit, and the result has it. "1" where all
     /// are of dimension one, whatever their coefficients.

@@ -1,6 +1,5 @@
-// Lines of a table that are no contributions: sums between its rows, its last lines where it has names and u alone, parts of a value
-// beside numbers with a unit, results beside each other. The law: what a budget comes to does not depend on which
-// of them a laboratory writes.
+#include "audit/sources/sum_rows.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +19,10 @@
 
 namespace gumcert::audit {
 namespace {
+
+// Lines of a table that are no contributions: sums between its rows, its last lines where it has names and u alone, parts of a value
+// beside numbers with a unit, results beside each other. The law: what a budget comes to does not depend on which
+// of them a laboratory writes.
 
 AuditReport audit_of_sums(const std::string& table) {
     return audit(subject_of(workbook::read_csv(table, "b.csv", "b"), "b.csv"), all_rules());
