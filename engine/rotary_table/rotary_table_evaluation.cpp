@@ -1207,6 +1207,7 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";
             })) {
+            refuse_wrong_labels(measurement);
             refuse_interrupted_beams(measurement);
         }
         throw;

@@ -49,12 +49,16 @@ constexpr double k_linear_eigenvalue_ratio = 1e-10;
 // centimetres; with the right ones next to nothing of that is left.
 constexpr double k_wrong_labels = 1.0 * gum::k_millimetre;
 constexpr double k_share_with_right_labels = 0.05;
-// A station that fits this much worse than its neighbours is not what error motions of their table leave.
-constexpr double k_worse_than_others = 20.0;
+// A station that fits this much worse than its neighbours is not what error motions of their table leave; and what no
+// error motion of a sound one is.
+constexpr double k_worse_than_others = 10.0;
+constexpr double k_least_suspicious = 0.02 * gum::k_millimetre;
 // Distances beyond the unknowns that a cause takes: fewer agree with any cause.
 constexpr std::ptrdiff_t k_least_redundancy = 6;
 // Position and set-up of one station.
 constexpr std::ptrdiff_t k_unknowns_of_station = 7;
+// Of distances that a cause explains in a part of the visits: gross errors may be among them.
+constexpr double k_share_of_part = 0.85;
 
 /// The lengths of one station, free of names.
 struct StationData {
@@ -209,6 +213,10 @@ public:
     /// One station on its own.
     /// \param closely  down narrow valleys too
     [[nodiscard]] StationFit fit_of(std::size_t station, bool closely) const { return fit_alone(station, closely); }
+    /// One station on its own, from where it was found with nearly the same distances.
+    [[nodiscard]] StationFit fit_near(std::size_t station, const StationFit& from) const {
+        return refined(station, from.position, from.set_up, true);
+    }
     /// Whether a station has distances enough to tell one cause from another.
     [[nodiscard]] bool tells_causes(std::size_t station) const {
         return redundancy(stations_[station]) >= k_least_redundancy;
@@ -220,6 +228,8 @@ public:
     }
 
     [[nodiscard]] const std::vector<StationData>& stations() const { return stations_; }
+    /// Stations as fit_each() has found them.
+    [[nodiscard]] const std::vector<StationFit>& fits() const { return fits_; }
     /// Deviations from the medians of the dead paths, and these medians.
     [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> deviations(std::size_t j) const {
         return deviations(j, set_up_, fits_[j].position);
@@ -944,6 +954,7 @@ struct LabelHypothesis {
     bool other_sense = false;             ///< the table turned the other way
     std::size_t first = 0, second = 0;    ///< reflectors that are interchanged; equal: none
     double lengths = 1.0;                 ///< by which the distances are multiplied
+    bool scale = false;                   ///< that factor was looked for, and is none of a list
     double fixture = 1.0;                 ///< the coordinates of the fixture
     double angles = 1.0;                  ///< the angles, from the home angle on
     std::optional<RotaryAxis> axis = {};  ///< about which the table turned
@@ -1013,25 +1024,66 @@ public:
         }
     }
 
-    /// Whether a station fits its distances worse than error motions let any fit.
+    /// Whether a station fits its distances worse than error motions let any fit. The table is the same for all: what
+    /// one of them leaves beyond ten times the median of all is no motion of it.
     [[nodiscard]] static bool is_suspicious(double misfit, std::vector<double> misfits) {
-        return misfit > k_wrong_labels || (misfit > k_good_misfit && misfit > k_worse_than_others * median(misfits));
+        return misfit > k_good_misfit ||
+               (misfit > k_least_suspicious && misfit > k_worse_than_others * median(misfits));
     }
 
-    /// \param misfits  of the stations, each on its own, [m]
-    void refuse(const std::vector<double>& misfits) const {
+    enum class Asked { suspicious, all };
+    /// \param fits  of the stations, each on its own
+    /// \param asked  all: of a measurement that has no result, for which lengths in another unit may fit a false place
+    void refuse(const std::vector<StationFit>& fits, Asked asked) const {
+        std::vector<double> misfits;
+        for (const StationFit& fit : fits) {
+            misfits.push_back(fit.upright_misfit());
+        }
+        // One reflector that all stations disagree with is asked for first: it costs least.
+        std::vector<std::size_t> open;
+        for (std::size_t j = 0; j < misfits.size(); ++j) {
+            if (is_suspicious(misfits[j], misfits)) {
+                open.push_back(j);
+            }
+        }
+        if (open.size() > 1) {
+            refuse_wrong_coordinates(open, misfits);
+        }
+        open.clear();
         std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
         std::vector<gum::Diagnostic> problems;
         std::optional<LabelHypothesis> known;  // what one station has is likely what all have
         for (std::size_t j = 0; j < misfits.size(); ++j) {
-            if (is_suspicious(misfits[j], misfits)) {
+            const bool suspicious = is_suspicious(misfits[j], misfits);
+            if (suspicious || asked == Asked::all) {
                 causes[j] = cause_of(j, misfits[j], known);
+                if (!causes[j] && suspicious) {
+                    causes[j] = scale_of(j, fits[j]);
+                }
+                // Labels of some visits are right, where they are: an interchange of two concerns few distances of the others.
+                const bool of_some = causes[j] && causes[j]->first != causes[j]->second;
+                if (std::optional<gum::Diagnostic> part = of_some ? cause_of_part(j, fits[j]) : std::nullopt) {
+                    causes[j].reset();
+                    problems.push_back(std::move(*part));
+                    continue;
+                }
                 if (causes[j]) {
                     known = causes[j];
-                } else {
-                    refuse_two_places(j, misfits[j]);
+                    continue;
                 }
             }
+            // Distances that are wrong at some visits leave the station where it is, or take it along.
+            if (std::optional<gum::Diagnostic> part = cause_of_part(j, fits[j])) {
+                problems.push_back(std::move(*part));
+            } else if (suspicious) {
+                open.push_back(j);
+            }
+        }
+        if (problems.empty() && std::ranges::none_of(causes, [](const auto& cause) { return cause.has_value(); })) {
+            refuse_stray_reflector(fits);
+        }
+        for (const std::size_t j : open) {
+            refuse_two_places(j, misfits[j]);
         }
         const bool common =
             causes[0] && std::ranges::all_of(causes, [&](const auto& cause) { return cause == causes[0]; });
@@ -1050,7 +1102,14 @@ private:
     [[nodiscard]] double misfit_with(const LabelHypothesis& hypothesis, std::size_t station,
                                      const std::vector<bool>& active, bool closely) const {
         const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
-        return StartSearch(other, active).fit_of(station, closely).upright_misfit() / std::abs(hypothesis.lengths);
+        const double left =
+            StartSearch(other, active).fit_of(station, closely).upright_misfit() / std::abs(hypothesis.lengths);
+        if (hypothesis.fixture == 1.0) {
+            return left;
+        }
+        // Only the ratio counts, but a place is looked for at distances that stations have: whether it is the fixture that
+        // has its size or the lengths is not known.
+        return std::min(left, misfit_with({.lengths = 1.0 / hypothesis.fixture}, station, active, closely));
     }
 
     /// The hypothesis with the smallest misfit, where that is small enough.
@@ -1085,6 +1144,543 @@ private:
             }
         }
         return best;
+    }
+
+    /// The factor on the distances of a station that makes its misfit vanish.
+    [[nodiscard]] std::optional<LabelHypothesis> scale_of(std::size_t station, const StationFit& fit) const {
+        constexpr double k_most = 1.25;
+        constexpr double k_least = 5e-4;  // below it the tests of groups tell it, and what it is beside its u
+        constexpr int k_steps = 40;       // of a golden section: to 2e-9 of the factor
+        const std::vector<bool> active = of_station(station, std::nullopt);
+        if (!StartSearch(measurement_, active).tells_causes(station)) {
+            return std::nullopt;
+        }
+        const double misfit = fit.upright_misfit();
+        const std::vector<bool> some = some_visits(active);
+        StationFit best = fit;
+        const auto misfit_at = [&](double logarithm) {
+            const LabelHypothesis hypothesis{.lengths = std::exp(logarithm), .scale = true};
+            const RotaryTableMeasurement other = relabelled(measurement_, station, hypothesis);
+            const StationFit found = StartSearch(other, some).fit_near(station, best);
+            if (found.upright_misfit() < best.upright_misfit()) {
+                best = found;
+            }
+            return found.upright_misfit();
+        };
+        // What is left grows with the distance of the factor from the right one, on both sides.
+        const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+        double low = -std::log(k_most);
+        double high = std::log(k_most);
+        double left = high - golden * (high - low);
+        double right = low + golden * (high - low);
+        double of_left = misfit_at(left);
+        double of_right = misfit_at(right);
+        for (int step = 0; step < k_steps; ++step) {
+            if (of_left < of_right) {
+                high = right;
+                right = left;
+                of_right = of_left;
+                left = high - golden * (high - low);
+                of_left = misfit_at(left);
+            } else {
+                low = left;
+                left = right;
+                of_left = of_right;
+                right = low + golden * (high - low);
+                of_right = misfit_at(right);
+            }
+        }
+        const LabelHypothesis found{.lengths = std::exp(0.5 * (low + high)), .scale = true};
+        if (std::abs(found.lengths - 1.0) > k_least &&
+            misfit_with(found, station, active, true) < std::min(k_share_with_right_labels * misfit, k_good_misfit)) {
+            return found;
+        }
+        return std::nullopt;
+    }
+
+    // ---- in a part of the visits ----
+
+    struct StationVisit {
+        std::size_t pass = 0, angle = 0;
+        std::vector<std::size_t> lengths;
+    };
+    [[nodiscard]] std::vector<StationVisit> visits_of(std::size_t station) const {
+        std::vector<StationVisit> visits;
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> places;
+        for (std::size_t i = 0; i < measurement_.lengths.size(); ++i) {
+            const LengthObservation& length = measurement_.lengths[i];
+            if (length.station == station) {
+                const auto [place, is_new] = places.try_emplace({length.pass, length.angle}, visits.size());
+                if (is_new) {
+                    visits.push_back({length.pass, length.angle, {}});
+                }
+                visits[place->second].lengths.push_back(i);
+            }
+        }
+        return visits;
+    }
+
+    /// Place, set-up and dead paths of a station from some of its visits.
+    struct Reference {
+        StationFit fit;
+        std::map<std::size_t, double> dead_paths;
+        double limit = 0.0;        ///< within which a distance agrees, [m]
+        std::size_t agreeing = 0;  ///< distances of all visits
+    };
+    using Deviations = std::map<std::size_t, double>;  ///< by length
+
+    /// |P - q| - l - l0 of the distances of a station whose dead path is known.
+    [[nodiscard]] static Deviations deviations_at(const RotaryTableMeasurement& measurement,
+                                                  const std::vector<bool>& active, std::size_t station,
+                                                  const Reference& reference) {
+        const StartSearch search(measurement, active);
+        const auto [deviation, centre] = search.deviations(station, reference.fit);
+        const StationData& data = search.stations()[station];
+        Deviations result;
+        for (std::size_t k = 0; k < data.observation.size(); ++k) {
+            const auto known = reference.dead_paths.find(data.path_name[data.path[k]]);
+            if (known != reference.dead_paths.end()) {
+                result[data.observation[k]] = deviation[static_cast<Eigen::Index>(k)] +
+                                              centre[static_cast<Eigen::Index>(data.path[k])] - known->second;
+            }
+        }
+        return result;
+    }
+
+    /// The visits from which a station fits, and with whose place most of all its distances agree: all, one pass, or the
+    /// first or last part of them.
+    [[nodiscard]] std::optional<Reference> reference_of(std::size_t station, const std::vector<StationVisit>& visits,
+                                                        const StationFit& whole) const {
+        constexpr double k_times_deviation = 10.0;
+        const std::vector<bool> all = of_station(station, std::nullopt);
+        std::vector<std::vector<bool>> parts{all};
+        for (std::size_t pass = 0; pass < measurement_.passes.size(); ++pass) {
+            std::vector<bool> part = of_station(station, pass);
+            if (std::ranges::find(part, true) != part.end() && part != all) {
+                parts.push_back(std::move(part));
+            }
+        }
+        for (const std::size_t share : {std::size_t{2}, std::size_t{3}}) {
+            for (const bool first : {true, false}) {
+                std::vector<bool> part(measurement_.lengths.size(), false);
+                for (std::size_t v = 0; v < visits.size(); ++v) {
+                    const std::size_t from_end = first ? v : visits.size() - 1 - v;
+                    for (const std::size_t i : visits[v].lengths) {
+                        part[i] = from_end * share < visits.size();
+                    }
+                }
+                parts.push_back(std::move(part));
+            }
+        }
+        std::optional<Reference> best;
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            const StartSearch search(measurement_, parts[p]);
+            if (!search.tells_causes(station)) {
+                continue;
+            }
+            Reference reference;
+            reference.fit = p == 0 ? whole : search.fit_of(station, false);
+            if (!reference.fit.is_settled()) {
+                continue;
+            }
+            const auto [deviation, centre] = search.deviations(station, reference.fit);
+            const StationData& data = search.stations()[station];
+            for (std::size_t d = 0; d < data.path_name.size(); ++d) {
+                if (data.members[d].size() > 2) {
+                    reference.dead_paths[data.path_name[d]] = centre[static_cast<Eigen::Index>(d)];
+                }
+            }
+            std::vector<double> sizes;
+            for (const double one : deviation) {
+                sizes.push_back(std::abs(one));
+            }
+            reference.limit = std::max(k_good_misfit, k_times_deviation * k_mad_to_deviation * median(sizes));
+            const Deviations of_all = deviations_at(measurement_, all, station, reference);
+            for (const auto& [length, one] : of_all) {
+                if (std::abs(one) < reference.limit) {
+                    ++reference.agreeing;
+                }
+            }
+            if (p == 0 && reference.agreeing == of_all.size()) {
+                return reference;  // nothing is wrong
+            }
+            if (!best || reference.agreeing > best->agreeing) {
+                best = std::move(reference);
+            }
+        }
+        return best;
+    }
+
+    /// The measurement with some distances as the hypothesis reads them. What is said of the fixture is said of them.
+    [[nodiscard]] RotaryTableMeasurement relabelled_in_part(const std::vector<std::size_t>& part,
+                                                            const LabelHypothesis& hypothesis) const {
+        RotaryTableMeasurement other = measurement_;
+        std::map<std::size_t, std::size_t> angles;  // as stated, and as read
+        const double home = other.angles[other.home];
+        for (const std::size_t i : part) {
+            LengthObservation& length = other.lengths[i];
+            length.length *= hypothesis.lengths / hypothesis.fixture;
+            if (hypothesis.other_sense || hypothesis.angles != 1.0) {
+                const auto [read, is_new] = angles.try_emplace(length.angle, other.angles.size());
+                if (is_new) {
+                    const double turned = other.angles[length.angle] - home;
+                    other.angles.push_back(home + (hypothesis.other_sense ? -turned : hypothesis.angles * turned));
+                }
+                length.angle = read->second;
+            }
+        }
+        return other;
+    }
+
+    /// Of each reflector of some distances which one it is, where most of them agree with another.
+    [[nodiscard]] std::map<std::size_t, std::size_t> interchanges(std::size_t station, const Reference& reference,
+                                                                  const std::vector<std::size_t>& part) const {
+        const std::vector<bool> active = of_station(station, std::nullopt);
+        std::map<std::size_t, std::size_t> path_of;  // of a reflector, where its own is known
+        std::map<std::size_t, std::pair<double, std::map<std::size_t, std::size_t>>>
+            counts;  // all, and by what they are
+        const Deviations stated = deviations_at(measurement_, active, station, reference);
+        for (const auto& [i, deviation] : stated) {
+            if (std::abs(deviation) < reference.limit) {
+                path_of[measurement_.lengths[i].reflector] = measurement_.lengths[i].dead_path;
+            }
+        }
+        for (const std::size_t i : part) {
+            counts[measurement_.lengths[i].reflector].first += 1.0;
+        }
+        for (std::size_t to = 0; to < measurement_.reflectors.size(); ++to) {
+            std::vector<std::size_t> agreeing;
+            for (const bool with_path : {false, true}) {
+                if (with_path && !path_of.contains(to)) {
+                    continue;
+                }
+                RotaryTableMeasurement other = measurement_;
+                for (const std::size_t i : part) {
+                    other.lengths[i].reflector = to;
+                    // The name of a dead path may go with that of its reflector.
+                    other.lengths[i].dead_path = with_path ? path_of.at(to) : other.lengths[i].dead_path;
+                }
+                const Deviations deviations = deviations_at(other, active, station, reference);
+                for (const std::size_t i : part) {
+                    const auto one = deviations.find(i);
+                    if (one != deviations.end() && std::abs(one->second) < reference.limit &&
+                        std::ranges::find(agreeing, i) == agreeing.end()) {
+                        agreeing.push_back(i);
+                    }
+                }
+            }
+            for (const std::size_t i : agreeing) {
+                ++counts[measurement_.lengths[i].reflector].second[to];
+            }
+        }
+        std::map<std::size_t, std::size_t> result;
+        for (const auto& [from, count] : counts) {
+            for (const auto& [to, agreeing] : count.second) {
+                if (to != from && static_cast<double>(agreeing) > k_share_of_part * count.first) {
+                    result[from] = to;
+                }
+            }
+        }
+        return result;
+    }
+
+    /// What is wrong with the labels of some visits of a station: the others tell its place.
+    [[nodiscard]] std::optional<gum::Diagnostic> cause_of_part(std::size_t station, const StationFit& whole) const {
+        constexpr std::size_t k_fewest_visits = 2;
+        constexpr std::size_t k_fewest_of_visit = 2;
+        constexpr double k_times_limit = 5.0;  // a distance that is off by this much is wrong, and not a little off
+        const std::vector<StationVisit> visits = visits_of(station);
+        const std::optional<Reference> reference = reference_of(station, visits, whole);
+        if (!reference) {
+            return std::nullopt;
+        }
+        const std::vector<bool> active = of_station(station, std::nullopt);
+        const Deviations stated = deviations_at(measurement_, active, station, *reference);
+        std::vector<std::size_t> wrong_visits;
+        std::vector<std::size_t> wrong;  // distances that are off
+        std::vector<std::size_t> all;    // of these visits
+        for (std::size_t v = 0; v < visits.size(); ++v) {
+            std::vector<std::size_t> off;
+            for (const std::size_t i : visits[v].lengths) {
+                const auto one = stated.find(i);
+                if (one != stated.end() && std::abs(one->second) > k_times_limit * reference->limit) {
+                    off.push_back(i);
+                }
+            }
+            if (off.size() >= k_fewest_of_visit) {
+                wrong_visits.push_back(v);
+                wrong.insert(wrong.end(), off.begin(), off.end());
+                all.insert(all.end(), visits[v].lengths.begin(), visits[v].lengths.end());
+            }
+        }
+        if (wrong_visits.size() < k_fewest_visits) {
+            return std::nullopt;
+        }
+        const StationVisit& first = visits[wrong_visits.front()];
+        const StationVisit& last = visits[wrong_visits.back()];
+        const auto told = [&](gum::Diagnostic problem) {
+            problem.where = "lengths, station " + measurement_.stations[station] + ", pass " +
+                            measurement_.passes[first.pass] + ", " + degrees_text(measurement_.angles_deg[first.angle]);
+            problem.what = "at " + std::to_string(wrong_visits.size()) + " of the " + std::to_string(visits.size()) +
+                           " visits of the station, this one the first and pass " + measurement_.passes[last.pass] +
+                           ", " + degrees_text(measurement_.angles_deg[last.angle]) + " the last, " + problem.what;
+            problem.action += ", at these visits";
+            return problem;
+        };
+        if (const std::map<std::size_t, std::size_t> to = interchanges(station, *reference, wrong); !to.empty()) {
+            std::map<std::size_t, std::size_t> back;
+            for (const auto& [from, reflector] : to) {
+                back[reflector] = from;
+            }
+            const bool closed = back.size() == to.size() &&
+                                std::ranges::all_of(back, [&](const auto& one) { return to.contains(one.first); });
+            const auto explained = std::ranges::count_if(
+                wrong, [&](std::size_t i) { return to.contains(measurement_.lengths[i].reflector); });
+            if (closed && static_cast<double>(explained) > k_share_of_part * static_cast<double>(wrong.size())) {
+                return told(interchanged(to));
+            }
+        }
+        std::optional<LabelHypothesis> best;
+        double most = k_share_of_part;
+        for (const LabelHypothesis& hypothesis : hypotheses_) {
+            if (hypothesis.axis || hypothesis.first != hypothesis.second) {
+                continue;
+            }
+            const Deviations read = deviations_at(relabelled_in_part(all, hypothesis), active, station, *reference);
+            const auto agreeing = std::ranges::count_if(all, [&](std::size_t i) {
+                const auto one = read.find(i);
+                return one != read.end() && std::abs(one->second) < reference->limit;
+            });
+            const double share = static_cast<double>(agreeing) / static_cast<double>(all.size());
+            if (share > most) {
+                most = share;
+                best = hypothesis;
+            }
+        }
+        if (!best) {
+            return std::nullopt;
+        }
+        return told(diagnostic(*best, measurement_.stations[station]));
+    }
+
+    /// Of reflectors whose names are exchanged among each other.
+    [[nodiscard]] gum::Diagnostic interchanged(const std::map<std::size_t, std::size_t>& to) const {
+        std::string names;
+        std::string others;
+        std::size_t k = 0;
+        for (const auto& [from, reflector] : to) {
+            ++k;
+            const std::string before = k == 1 ? "" : (k == to.size() ? " and " : ", ");
+            names += before + measurement_.reflectors[from];
+            others += before + measurement_.reflectors[reflector];
+        }
+        return {"GC-ADJUST-0013",
+                "",
+                "the distances agree when the reflectors " + names +
+                    (to.size() == 2 ? " are interchanged" : " are " + others),
+                "a reflector has the same name in the lengths and in the coordinates of the fixture",
+                to.size() == 2 ? "interchange the names in the lengths of this station"
+                               : "correct the names in the lengths of this station",
+                gum::Severity::error};
+    }
+
+    // ---- a coordinate of the fixture ----
+
+    /// The reflector without which the distances of all stations that fit no place fit one: its coordinates are wrong.
+    void refuse_wrong_coordinates(const std::vector<std::size_t>& stations, const std::vector<double>& misfits) const {
+        constexpr std::size_t k_fewest_reflectors = 4;  // three that are left make a frame
+        if (measurement_.reflectors.size() < k_fewest_reflectors) {
+            return;
+        }
+        std::optional<std::size_t> wrong;
+        std::vector<StationFit> fits(measurement_.stations.size());
+        double least = 1.0;
+        for (std::size_t m = 0; m < measurement_.reflectors.size(); ++m) {
+            std::vector<bool> others;
+            for (const LengthObservation& length : measurement_.lengths) {
+                others.push_back(length.reflector != m);
+            }
+            const StartSearch search(measurement_, others);
+            std::vector<StationFit> found(measurement_.stations.size());
+            double largest = 0.0;  // of all stations, as a part of what is allowed
+            for (const std::size_t j : stations) {
+                if (!search.tells_causes(j)) {
+                    continue;
+                }
+                found[j] = search.fit_of(j, false);
+                largest = std::max(largest, found[j].upright_misfit() /
+                                                std::min(k_share_with_right_labels * misfits[j], k_good_misfit));
+                if (largest > least) {
+                    break;
+                }
+            }
+            if (largest > 0.0 && largest < least) {
+                least = largest;
+                wrong = m;
+                fits = std::move(found);
+            }
+        }
+        if (!wrong) {
+            return;
+        }
+        refuse_coordinates(*wrong, place_of_reflector(*wrong, stations, fits));
+    }
+    /// One reflector of many, which most distances agree without: the places of the stations are right, and it strays alone.
+    void refuse_stray_reflector(const std::vector<StationFit>& fits) const {
+        constexpr double k_times_deviation = 20.0;
+        constexpr double k_least = 0.05 * gum::k_millimetre;
+        constexpr double k_least_way = 0.5 * gum::k_millimetre;  // below it the tests of groups tell it, with its u
+        constexpr double k_share_of_stray = 0.3;
+        constexpr double k_share_of_others = 0.1;
+        const std::vector<bool> all(measurement_.lengths.size(), true);
+        const StartSearch search(measurement_, all);
+        std::vector<std::size_t> strays(measurement_.reflectors.size(), 0);  // stations that say so
+        std::size_t asked = 0;
+        for (std::size_t j = 0; j < fits.size(); ++j) {
+            if (!fits[j].is_settled() || !search.tells_causes(j)) {
+                continue;
+            }
+            ++asked;
+            const Eigen::VectorXd deviation = search.deviations(j, fits[j]).first;
+            std::vector<double> sizes;
+            for (const double one : deviation) {
+                sizes.push_back(std::abs(one));
+            }
+            const double limit = std::max(k_least, k_times_deviation * k_mad_to_deviation * median(sizes));
+            std::vector<std::pair<double, double>> off(measurement_.reflectors.size());  // of all
+            for (std::size_t k = 0; k < search.stations()[j].observation.size(); ++k) {
+                auto& [count, of] = off[measurement_.lengths[search.stations()[j].observation[k]].reflector];
+                of += 1.0;
+                count += std::abs(deviation[static_cast<Eigen::Index>(k)]) > limit ? 1.0 : 0.0;
+            }
+            for (std::size_t m = 0; m < off.size(); ++m) {
+                bool alone = off[m].first > k_share_of_stray * off[m].second;
+                for (std::size_t n = 0; n < off.size(); ++n) {
+                    alone = alone && (n == m || off[n].first <= k_share_of_others * off[n].second);
+                }
+                strays[m] += alone ? 1 : 0;
+            }
+        }
+        const auto most = std::ranges::max_element(strays);
+        if (asked < 2 || most == strays.end() || 2 * *most <= asked) {
+            return;
+        }
+        const auto m = static_cast<std::size_t>(most - strays.begin());
+        std::vector<bool> others;
+        for (const LengthObservation& length : measurement_.lengths) {
+            others.push_back(length.reflector != m);
+        }
+        const StartSearch without(measurement_, others);
+        std::vector<std::size_t> stations;
+        std::vector<StationFit> found = fits;
+        for (std::size_t j = 0; j < fits.size(); ++j) {
+            found[j] = without.fit_near(j, fits[j]);
+            if (found[j].is_settled() && without.tells_causes(j)) {
+                stations.push_back(j);
+            }
+        }
+        const std::optional<Eigen::Vector3d> place = place_of_reflector(m, stations, found);
+        if (!place ||
+            (*place - measurement_.fixture.row(static_cast<Eigen::Index>(m)).transpose()).norm() > k_least_way) {
+            refuse_coordinates(m, place);
+        }
+    }
+    [[noreturn]] void refuse_coordinates(std::size_t m, const std::optional<Eigen::Vector3d>& place) const {
+        std::string what = "the distances of the stations agree when this reflector is left out";
+        if (place) {
+            const Eigen::Vector3d way = *place - measurement_.fixture.row(static_cast<Eigen::Index>(m)).transpose();
+            what = "the distances put it near (" + coordinate(place->x()) + ", " + coordinate(place->y()) + ", " +
+                   coordinate(place->z()) + ") mm in the fixture, " + coordinate(way.norm()) +
+                   " mm away from its stated coordinates";
+        }
+        throw gum::NoResultError(gum::Diagnostic{
+            "GC-ADJUST-0013", "fixture, reflector " + measurement_.reflectors[m], what,
+            "a reflector stands in the fixture where its coordinates say",
+            "compare its coordinates with the report of the CMM, digit by digit and with their signs, and see whether "
+            "its name in the lengths is that of another point",
+            gum::Severity::error});
+    }
+    [[nodiscard]] static std::string coordinate(double value) {
+        const double rounded = std::round(value / gum::k_millimetre * 10.0) / 10.0;
+        return text::fixed(rounded == 0.0 ? 0.0 : rounded, 1);
+    }
+
+    /// Where the distances put a reflector in the fixture, from stations whose places the other reflectors tell.
+    [[nodiscard]] std::optional<Eigen::Vector3d> place_of_reflector(std::size_t reflector,
+                                                                    const std::vector<std::size_t>& stations,
+                                                                    const std::vector<StationFit>& fits) const {
+        constexpr int k_most_steps = 30;
+        constexpr double k_step = 1e-5;  // [m], of the derivatives
+        constexpr double k_end = 1e-6;   // [m]
+        const auto row = static_cast<Eigen::Index>(reflector);
+        const std::vector<bool> all(measurement_.lengths.size(), true);
+        RotaryTableMeasurement moved = measurement_;
+        const auto deviations_from = [&](const Eigen::Vector3d& place) {
+            moved.fixture.row(row) = place.transpose();
+            const StartSearch search(moved, all);
+            std::vector<double> values;
+            for (const std::size_t j : stations) {
+                if (!std::isfinite(fits[j].misfit)) {
+                    continue;
+                }
+                const Eigen::VectorXd deviation = search.deviations(j, fits[j]).first;
+                const StationData& data = search.stations()[j];
+                for (std::size_t k = 0; k < data.observation.size(); ++k) {
+                    if (measurement_.lengths[data.observation[k]].reflector == reflector) {
+                        values.push_back(deviation[static_cast<Eigen::Index>(k)]);
+                    }
+                }
+            }
+            return Eigen::VectorXd(Eigen::Map<Eigen::VectorXd>(values.data(), std::ssize(values)));
+        };
+        const auto squares = [&](const Eigen::Vector3d& at) { return deviations_from(at).squaredNorm(); };
+        Eigen::Vector3d place = measurement_.fixture.row(row).transpose();
+        const Eigen::Vector3d stated = place;
+        double least = squares(place);
+        // A sign or two coordinates that are exchanged are farther off than a descent sees.
+        for (int signs = 0; signs < 8; ++signs) {
+            for (int turn = 0; turn < 6; ++turn) {
+                Eigen::Vector3d from(stated[turn % 3], stated[(turn + (turn < 3 ? 1 : 2)) % 3],
+                                     stated[(turn + (turn < 3 ? 2 : 1)) % 3]);
+                for (int c = 0; c < 3; ++c) {
+                    from[c] *= (signs >> c) % 2 == 0 ? 1.0 : -1.0;
+                }
+                if (const double left = squares(from); left < least) {
+                    least = left;
+                    place = from;
+                }
+            }
+        }
+        Eigen::VectorXd deviation = deviations_from(place);
+        double damping = 1e-6;
+        for (int step = 0; step < k_most_steps && deviation.size() > 3; ++step) {
+            Eigen::MatrixXd derivatives(deviation.size(), 3);
+            for (int c = 0; c < 3; ++c) {
+                derivatives.col(c) = (deviations_from(place + k_step * Eigen::Vector3d::Unit(c)) - deviation) / k_step;
+            }
+            Eigen::Matrix3d normal = derivatives.transpose() * derivatives;
+            normal.diagonal() *= 1.0 + damping;
+            const Eigen::Vector3d change = normal.ldlt().solve(-derivatives.transpose() * deviation);
+            const Eigen::VectorXd after = deviations_from(place + change);
+            if (change.allFinite() && after.squaredNorm() < deviation.squaredNorm()) {
+                place += change;
+                deviation = after;
+                damping = std::max(1e-12, 0.1 * damping);
+                if (change.norm() < k_end) {
+                    break;
+                }
+            } else {
+                damping = std::max(1e-6, 10.0 * damping);
+            }
+        }
+        std::vector<double> sizes;
+        for (const double one : deviation) {
+            sizes.push_back(std::abs(one));
+        }
+        if (sizes.size() > 3 && median(sizes) < k_good_misfit) {
+            return place;
+        }
+        return std::nullopt;
     }
 
     /// Of the visits of one station as many as tell its labels, evenly over all of them.
@@ -1187,18 +1783,35 @@ private:
                         coordinate(measurement_.axis) + " along the axis",
                     gum::Severity::error};
         }
+        if (cause.scale) {
+            return {"GC-ADJUST-0013",
+                    where,
+                    "the distances agree when they are multiplied by about " + text::fixed(cause.lengths, 4),
+                    "a distance grows as the reflector moves away from the station, by as much as it moves",
+                    station.empty() ? "see in which unit distances and coordinates of the fixture were written, which "
+                                      "refractive index of the air the distances were made with, and at which "
+                                      "temperature the coordinates hold"
+                                    : "see in which unit the distances were written, and which refractive index of the "
+                                      "air and which wavelength they were made with",
+                    gum::Severity::error};
+        }
         if (cause.lengths != 1.0) {
             return {"GC-ADJUST-0013",
                     where,
                     cause.lengths < 0.0
                         ? std::string("the distances agree when they have the other sign")
-                        : "the distances agree when they are multiplied by " + text::significant(cause.lengths, 2),
+                        : "the distances agree when they are multiplied by " + text::significant(cause.lengths, 3),
                     "a distance grows as the reflector moves away from the station, by as much as it moves",
-                    cause.lengths < 0.0
-                        ? "reverse the sign of the distances"
-                        : "see whether the path of the beam was counted twice or halved, and correct the "
-                          "distances",
+                    cause.lengths < 0.0 ? "reverse the sign of the distances"
+                    : cause.lengths == 2.0 || cause.lengths == 0.5
+                        ? "see whether the path of the beam was counted twice or halved, and correct the "
+                          "distances"
+                        : "see in which unit they were written, and correct the distances",
                     gum::Severity::error};
+        }
+        if (cause.fixture != 1.0 && !station.empty()) {
+            // The other stations agree with the fixture, or have a factor of their own: it is the distances.
+            return diagnostic({.lengths = 1.0 / cause.fixture}, station);
         }
         if (cause.fixture != 1.0) {
             return {"GC-ADJUST-0013",
@@ -1279,8 +1892,9 @@ public:
                 best = found;
             }
         }
-        // A fifth or less of what it was (ADR 0031): an additional dead path alone takes up some of any misfit.
-        if (best.left < k_share_left * before && std::abs(best.size) > k_smallest) {
+        // A fifth or less of what it was (ADR 0031): an additional dead path alone takes up some of any misfit. And next
+        // to nothing: where distances in inch begin a jump of a metre leaves a fifth as well.
+        if (best.left < std::min(k_share_left * before, k_wrong_labels) && std::abs(best.size) > k_smallest) {
             return best;
         }
         return std::nullopt;
@@ -1373,6 +1987,62 @@ private:
     std::vector<bool> active_;
 };
 
+// ---- angles of one station ------------------------------------------------------------------------------------------
+
+/// A station whose angles are those of the others but for an offset: no angle has distances of it and of them.
+void refuse_shifted_angles(const RotaryTableMeasurement& measurement) {
+    constexpr double k_alike = 1e-6 * gum::k_degree;
+    constexpr double k_most_shared = 0.5;
+    constexpr double k_explained = 0.8;
+    const auto turns = [](double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); };
+    for (std::size_t j = 0; j < measurement.stations.size(); ++j) {
+        std::vector<bool> own(measurement.angles.size(), false);
+        std::vector<bool> others = own;
+        for (const LengthObservation& length : measurement.lengths) {
+            (length.station == j ? own : others)[length.angle] = true;
+        }
+        // How many of its angles are those of the others when they are shifted.
+        const auto shared = [&](double shift) {
+            double count = 0.0;
+            double all = 0.0;
+            for (std::size_t a = 0; a < own.size(); ++a) {
+                if (own[a]) {
+                    all += 1.0;
+                    for (std::size_t b = 0; b < own.size(); ++b) {
+                        if (others[b] &&
+                            std::abs(turns(measurement.angles[a] + shift - measurement.angles[b])) < k_alike) {
+                            count += 1.0;
+                            break;
+                        }
+                    }
+                }
+            }
+            return all > 2.0 ? count / all : 1.0;
+        };
+        if (shared(0.0) > k_most_shared) {
+            continue;
+        }
+        const auto first = static_cast<std::size_t>(std::ranges::find(own, true) - own.begin());
+        std::optional<double> best;
+        for (std::size_t b = 0; b < own.size(); ++b) {
+            const double shift = turns(measurement.angles[b] - measurement.angles[first]);
+            if (others[b] && (!best || std::abs(shift) < std::abs(*best)) && shared(shift) > k_explained) {
+                best = shift;
+            }
+        }
+        if (best) {
+            const double degrees = std::round(std::abs(*best) / gum::k_degree * 1e6) / 1e6;
+            throw gum::NoResultError(gum::Diagnostic{
+                "GC-ADJUST-0013", "lengths, station " + measurement.stations[j],
+                "its angles are those of the other stations when they are " + degrees_text(degrees) +
+                    (*best > 0.0 ? " higher" : " lower"),
+                "an angle that several stations measure is stated alike for all of them",
+                "state the angles to which the table was driven, from the same origin and rounded alike",
+                gum::Severity::error});
+        }
+    }
+}
+
 }  // namespace
 
 void refuse_interrupted_beams(const RotaryTableMeasurement& measurement) {
@@ -1412,15 +2082,20 @@ void refuse_no_rigid_table(const RotaryTableMeasurement& measurement) {
     }
 }
 
+void refuse_wrong_labels(const RotaryTableMeasurement& measurement) {
+    refuse_shifted_angles(measurement);
+    StartSearch search(measurement, {});
+    (void)search.fit_each();
+    LabelSearch(measurement).refuse(search.fits(), LabelSearch::Asked::all);
+}
+
 std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement) {
     // What the start values leave is error motions: even of a bad table far below this.
     constexpr double k_smallest = 0.02;  // [m]
     constexpr double k_factor = 15.0;    // times the standard deviation that the median absolute deviation stands for
     StartSearch search(measurement, {});
-    const std::vector<double> misfits = search.fit_each();
-    if (std::ranges::any_of(misfits, [&](double one) { return LabelSearch::is_suspicious(one, misfits); })) {
-        LabelSearch(measurement).refuse(misfits);
-    }
+    (void)search.fit_each();
+    LabelSearch(measurement).refuse(search.fits(), LabelSearch::Asked::suspicious);
     const std::optional<gum::Diagnostic> no_table = search.no_rigid_table();
     try {
         search.finish();

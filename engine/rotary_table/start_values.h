@@ -44,8 +44,9 @@ struct StartValues {
 ///
 /// Distances of a station that no position explains are tried with other labels: the table turning the other way, two
 /// reflectors interchanged, lengths of the other sign or counted twice, a fixture in another unit, angles that are gon or steps
-/// of another size, passes from two places. If one makes the misfit vanish it is reported as wrong
-/// labels, and no gross error is returned.
+/// of another size, a scale of their own, passes from two places; in a part of its visits too, where the others tell its
+/// place; and all stations without one reflector, whose coordinates are wrong. If one makes the misfit vanish it is reported
+/// as wrong labels, and no gross error is returned.
 ///
 /// \throws gum::NoResultError  as find_start_values(); GC-ADJUST-0013 for wrong labels; and GC-ADJUST-0015 in place of
 ///         GC-RANK-0001 where the distances of a station fit no place to a millimetre: what is open then is no property of
@@ -56,6 +57,12 @@ struct StartValues {
 /// a millimetre is no property of the layout.
 /// \throws gum::NoResultError  GC-ADJUST-0015
 void refuse_no_rigid_table(const RotaryTableMeasurement& measurement);
+
+/// To be asked before a measurement is refused for its layout: lengths of a station in another unit may fit a false place,
+/// of which the layout seems to leave a direction open. All labels of find_gross_errors() are tried for every station, and
+/// whether the angles of one are those of the others but for an offset.
+/// \throws gum::NoResultError  GC-ADJUST-0013; nothing is thrown where there is none
+void refuse_wrong_labels(const RotaryTableMeasurement& measurement);
 
 /// Beams that were interrupted by a tenth of a millimetre or more: with the distances of a station from some visit on
 /// on a dead path of their own, next to nothing of its misfit is left. For measurements that have no result without:

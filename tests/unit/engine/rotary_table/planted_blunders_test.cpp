@@ -81,6 +81,125 @@ TEST(PlantedBlunders, InterchangedReflectorsAreNamed) {
     }
 }
 
+/// A campaign whose dead paths are those of the stations (odd seeds) or of each of their reflectors, in both senses.
+RotaryTableMeasurement in_both_senses(std::uint64_t seed) {
+    synthetic::CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.both_senses = true;
+    plan.seed = seed;
+    plan.dead_paths =
+        seed % 2 == 0 ? synthetic::DeadPaths::per_station_and_reflector : synthetic::DeadPaths::per_station;
+    return simulate(plan).measurement;
+}
+
+// A ratio of units or a scale of one station: a false place fits within some ten micrometres, far below a millimetre, but far
+// above what the other stations leave.
+TEST(PlantedBlunders, AFactorOnTheDistancesOfOneStationIsTold) {
+    for (const double factor : {1.0 / 25.4, 25.4, 0.1, 1.1, 1.01, 0.997}) {
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+            RotaryTableMeasurement m = in_both_senses(seed);
+            for (LengthObservation& length : m.lengths) {
+                length.length *= length.station == 1 ? factor : 1.0;
+            }
+            std::string message;
+            try {
+                // A small one that dead paths of each reflector nearly take up is left to the tests of groups.
+                const GroupTest first = first_group(evaluated(m));
+                EXPECT_EQ(first.kind, GroupKind::station_scale) << factor << ", " << seed;
+                EXPECT_TRUE(first.suspicious) << factor << ", " << seed;
+                EXPECT_EQ(first.station, 1U);
+                continue;
+            } catch (const gum::NoResultError& error) {
+                message = error.what();
+            }
+            const std::string told = "lengths, station P2 — the distances agree when they are multiplied by ";
+            ASSERT_EQ(message.find(told), 0U) << factor << ", " << seed << ": " << message;
+            const std::size_t about = message.compare(told.size(), 6, "about ") == 0 ? 6 : 0;
+            EXPECT_NEAR(std::stod(message.substr(told.size() + about)) * factor, 1.0, 3e-3) << message;
+        }
+    }
+}
+
+// In one pass, or from some visit on: the others tell the place of the station.
+TEST(PlantedBlunders, ReflectorsInterchangedAtSomeVisitsAreTold) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        RotaryTableMeasurement m = in_both_senses(seed);
+        std::vector<std::size_t> of_station;
+        for (std::size_t i = 0; i < m.lengths.size(); ++i) {
+            if (m.lengths[i].station == 2) {
+                of_station.push_back(i);
+            }
+        }
+        const std::size_t from = of_station.size() * (2 + seed % 3) / 5;  // from two, three or four fifths on
+        for (std::size_t k = from - from % m.reflectors.size(); k < of_station.size(); ++k) {
+            LengthObservation& length = m.lengths[of_station[k]];
+            length.reflector = length.reflector == 1 ? 3 : length.reflector == 3 ? 1 : length.reflector;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("lengths, station P3, pass "), 0U) << message;
+        EXPECT_NE(message.find("of the 24 visits of the station, this one the first"), std::string::npos) << message;
+        EXPECT_NE(message.find("the distances agree when the reflectors R2 and R4 are interchanged"), std::string::npos)
+            << message;
+    }
+}
+
+TEST(PlantedBlunders, OtherLabelsOfOnePassAreTold) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        RotaryTableMeasurement inch = in_both_senses(seed);
+        RotaryTableMeasurement sense = inch;
+        const std::size_t pass = inch.lengths.back().pass;
+        for (std::size_t i = 0; i < inch.lengths.size(); ++i) {
+            if (inch.lengths[i].pass == pass) {
+                inch.lengths[i].length /= 25.4;
+                sense.lengths[i].angle = (sense.angles.size() - sense.lengths[i].angle) % sense.angles.size();
+            }
+        }
+        EXPECT_NE(refusal(inch).find("the last, the distances agree when they are multiplied by 25.4"),
+                  std::string::npos)
+            << refusal(inch);
+        EXPECT_NE(refusal(sense).find("turns the other way than the angles say"), std::string::npos) << refusal(sense);
+    }
+}
+
+// A digit or a sign of one coordinate: a false layout was blamed, or distances were left out.
+TEST(PlantedBlunders, AWrongCoordinateOfAReflectorIsTold) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        RotaryTableMeasurement m = in_both_senses(seed);
+        const auto row = static_cast<Eigen::Index>(seed % m.reflectors.size());
+        const auto column = static_cast<Eigen::Index>(seed % 3);
+        const double right = m.fixture(row, column);
+        m.fixture(row, column) = seed % 2 == 0 ? right + 0.01 : -right;
+        const double way = std::abs(m.fixture(row, column) - right);
+        if (way < 0.002) {
+            continue;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("fixture, reflector " + m.reflectors[static_cast<std::size_t>(row)]), 0U) << message;
+        const std::string before = " mm in the fixture, ";
+        const std::size_t at = message.find(before);
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + before.size())), way * 1e3, 0.3) << message;
+    }
+}
+
+TEST(PlantedBlunders, AnglesOfAStationWithAnOffsetAreTold) {
+    for (const double offset : {0.001, -0.1, 7.0}) {
+        RotaryTableMeasurement m = in_both_senses(1);
+        const std::size_t angles = m.angles.size();
+        for (std::size_t a = 0; a < angles; ++a) {
+            m.angles.push_back(m.angles[a] + offset * 3600.0 * synthetic::k_arcsec);
+            m.angles_deg.push_back(m.angles_deg[a] + offset);
+        }
+        for (LengthObservation& length : m.lengths) {
+            length.angle += length.station == 3 ? angles : 0;
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("lengths, station P4 — its angles are those of the other stations when they are "), 0U)
+            << message;
+        EXPECT_NE(message.find(offset < 0.0 ? " higher" : " lower"), std::string::npos) << message;
+    }
+}
+
 TEST(PlantedBlunders, ATableThatTurnsTheOtherWayIsTold) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const std::string message = refusal(plant(Blunder::wrong_sense, seed).measurement);
