@@ -119,6 +119,12 @@ std::string what_of(const GroupTest& test, const RotaryTableMeasurement& measure
                    " away from where it was in the fixture before";
         case GroupKind::fixture_scale:
             return scale_of(test, measurement);
+        case GroupKind::station_scale:
+            return "all distances of this station are " + text::significant(std::abs(test.estimate) * 1e6, 3) +
+                   " ppm too " + (test.estimate > 0.0 ? "long" : "short") + " beside those of the others";
+        case GroupKind::fixture_place:
+            return "from this visit on the fixture stood " + size_of(test.estimate) +
+                   " away from where it was on the table before (root mean square of its reflectors)";
     }
     return "";
 }
@@ -135,6 +141,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
             break;
         case GroupKind::angle_index:
         case GroupKind::station:
+        case GroupKind::station_scale:
             selectors = "\"station\": \"" + measurement.stations[test.station] + "\"";
             break;
         case GroupKind::pair_length:
@@ -153,6 +160,7 @@ std::string exclusion_of(const GroupTest& test, const RotaryTableMeasurement& me
         case GroupKind::drift:
         case GroupKind::succession:
         case GroupKind::fixture_scale:
+        case GroupKind::fixture_place:
             return "";
     }
     return " The job leaves these distances out with \"exclude\": [{ " + selectors + ", \"reason\": \"why\" }].";
@@ -242,6 +250,11 @@ std::string action_of(const GroupTest& test, const RotaryTableMeasurement& measu
             return "Look at the temperature of the fixture, at its expansion coefficient and at the reference "
                    "temperature of its coordinates; then at the scale of the distances, as of the refractive index of "
                    "the air, which does the same.";
+        case GroupKind::station_scale:
+            return "Look at the unit of these distances, at the refractive index of the air that they were made with, "
+                   "and at the temperature of the fixture while they were measured.";
+        case GroupKind::fixture_place:
+            return "Look at the clamping of the fixture: it was moved on the table there; fasten it and measure again.";
     }
     return "";
 }

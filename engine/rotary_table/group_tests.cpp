@@ -30,10 +30,12 @@ constexpr double k_controlled = 1e-9;        // share of the weight of a group b
 constexpr std::size_t k_most_suspects = 40;  // groups that are taken away one after the other
 constexpr int k_most_steps = 18;             // by which the angles of a station are looked at to be off
 constexpr double k_most_amplitude = 3.5;     // of the effect of angles that are off: J/(J - 2) of three stations is 3
-constexpr std::size_t k_fewest_for_scatter = 8;  // visits: fewer say nothing of a scatter
-constexpr std::size_t k_drift_hypotheses = 3;    // all stations alike, each its own, one station
-constexpr std::size_t k_most_angle_bounds = 36;  // between which a reflector is looked at to stand elsewhere
-constexpr std::size_t k_fewest_of_place = 4;     // distances: three always agree with some place of a reflector
+constexpr std::size_t k_fewest_for_scatter = 8;    // visits: fewer say nothing of a scatter
+constexpr std::size_t k_drift_hypotheses = 3;      // all stations alike, each its own, one station
+constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector is looked at to stand elsewhere
+constexpr std::size_t k_most_fixture_places = 40;  // at which the fixture is looked at to have been moved
+constexpr double k_seen_of_fixture = 1e-4;         // of what its motion does to the distances: less is not seen
+constexpr std::size_t k_fewest_of_place = 4;       // distances: three always agree with some place of a reflector
 
 /// Value of chi-square that is exceeded with a probability.
 double critical_chi_square(const GroupTestOptions& options, double probability, int degrees_of_freedom) {
@@ -390,6 +392,24 @@ struct VisitTest {
     double pose_error = 0.0;  ///< rms of what the pose does to the distances
 };
 
+/// What a relative change of all distances of a station does to them.
+Visits::Effect effect_of_scale(const JointAdjustment& adjustment, const Visits& visits, std::size_t station) {
+    const StartValues now = adjustment.present_values();
+    Visits::Effect effect(visits.size());
+    for (std::size_t g = 0; g < visits.size(); ++g) {
+        const Visit& visit = adjustment.visits()[g];
+        if (visit.station != station || visits.is_out(g)) {
+            continue;
+        }
+        effect[g].resize(static_cast<Index>(visit.observations.size()), 1);
+        for (std::size_t i = 0; i < visit.observations.size(); ++i) {
+            const LengthObservation& length = adjustment.measurement().lengths[visit.observations[i]];
+            effect[g](static_cast<Index>(i), 0) = length.length + now.dead_paths[static_cast<Index>(length.dead_path)];
+        }
+    }
+    return effect;
+}
+
 class GroupSearch {
 public:
     GroupSearch(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance,
@@ -409,8 +429,9 @@ public:
         std::vector<std::optional<Candidate>> last;
         for (std::size_t round = 0; round < std::min(k_most_suspects, visits_.size() / 4); ++round) {
             misfit_of_fixture_ = largest_fixture_misfit();
-            last = {best_visit(), best_change(), best_place(),           best_pair(),
-                    best_drift(), best_index(),  best_place_at_angles(), best_place_from_visit()};
+            last = {best_visit(), best_change(),       best_place(),           best_pair(),
+                    best_drift(), best_index(),        best_place_at_angles(), best_place_from_visit(),
+                    best_scale(), best_fixture_place()};
             const std::optional<Candidate> worst = least_probable(last);
             if (!worst || !worst->test.suspicious) {
                 break;
@@ -1050,6 +1071,128 @@ private:
         return best;
     }
 
+    /// One factor on all distances of a station, beyond what its scale is known to: a refractive index, a wavelength, a unit;
+    /// the temperature of the fixture while it was measured from there does the same. Pairs of the station with each of its
+    /// reflectors, or a reflector, would take it up one by one.
+    [[nodiscard]] std::optional<Candidate> best_scale() {
+        const std::size_t stations = adjustment_.measurement().stations.size();
+        std::optional<Candidate> best;
+        for (std::size_t j = 0; j < stations; ++j) {
+            const Visits::Effect effect = effect_of_scale(adjustment_, visits_, j);
+            const Visits::Projection projection = visits_.projection(effect, 1);
+            const double spread = projection.spread(0, 0);
+            // A scale that is free takes it up wholly.
+            if (!(spread > k_controlled * projection.weight)) {
+                continue;
+            }
+            const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
+            if (chi_square < misfit_of_fixture_) {
+                continue;
+            }
+            GroupTest test = judged(GroupKind::station_scale, chi_square / (used_scale_ * used_scale_), 1, stations);
+            test.station = j;
+            test.estimate = projection.weighted[0] / spread;
+            test.minimal_detectable = detectable(test, spread);
+            take(best, {test, [this, effect] { visits_.take_away(effect, 1); }});
+        }
+        return best;
+    }
+
+    /// The whole fixture, moved on the table: a clamp that gave way, a hand at the set-up between two stations. The table,
+    /// whose angles several stations see, would take it up as its repeatability, and no visit deviates from many others.
+    /// Six columns from a visit on; those that stations measured before or after only take up count nothing.
+    [[nodiscard]] std::optional<Candidate> best_fixture_place() {
+        std::vector<std::size_t> order;
+        for (std::size_t g = 0; g < visits_.size(); ++g) {
+            if (!visits_.is_out(g)) {
+                order.push_back(g);
+            }
+        }
+        std::ranges::stable_sort(order, {}, [this](std::size_t g) { return time_of(g); });
+        const std::vector<Visit>& visits = adjustment_.visits();
+        // Where hands are at the set-up: where a station or a pass begins. Where it was between, the next one sees it too.
+        std::vector<std::size_t> starts;
+        for (std::size_t k = 1; k < order.size(); ++k) {
+            const Visit& before = visits[order[k - 1]];
+            const Visit& visit = visits[order[k]];
+            if ((before.station != visit.station || before.pass != visit.pass) &&
+                starts.size() < k_most_fixture_places) {
+                starts.push_back(k);
+            }
+        }
+        std::optional<GroupTest> best;
+        std::size_t from = 0;
+        const auto consider = [&](std::size_t k) {
+            const std::optional<GroupTest> test = fixture_place_test(order, k);
+            if (test && (!best || is_less_probable(*test, *best))) {
+                best = test;
+                from = k;
+                return true;
+            }
+            return false;
+        };
+        for (const std::size_t start : starts) {
+            consider(start);
+        }
+        if (!best) {
+            return std::nullopt;
+        }
+        for (std::size_t step = std::max<std::size_t>(1, order.size() / std::max<std::size_t>(starts.size(), 1) / 2);
+             best->suspicious && step > 0; step /= 2) {
+            const std::size_t middle = from;
+            for (const bool later : {false, true}) {
+                if (later ? middle + step < order.size() : middle > step) {
+                    consider(later ? middle + step : middle - step);
+                }
+            }
+        }
+        place(*best, order[from]);
+        return Candidate{*best, [this, effect = fixture_place_effect(order, from)] { visits_.take_away(effect, 6); }};
+    }
+    [[nodiscard]] Visits::Effect fixture_place_effect(const std::vector<std::size_t>& order, std::size_t from) const {
+        const double lever = reflectors_about_their_centre().rowwise().norm().mean();
+        Visits::Effect effect(visits_.size());
+        for (std::size_t k = from; k < order.size(); ++k) {
+            const std::size_t g = order[k];
+            const Eigen::Matrix3d table_from_fixture =
+                nominal_rotation(adjustment_.measurement(), visits()[g].angle) * adjustment_.set_up().rotation;
+            effect[g].resize(poses_[g].rows(), 6);
+            effect[g].leftCols(3) = poses_[g].leftCols<3>() * table_from_fixture;
+            // A turn of 1/lever moves the reflectors by about 1: metres and radians count alike in the rank.
+            effect[g].rightCols(3) = poses_[g].rightCols<3>() * table_from_fixture / lever;
+        }
+        return effect;
+    }
+    [[nodiscard]] std::optional<GroupTest> fixture_place_test(const std::vector<std::size_t>& order,
+                                                              std::size_t from) const {
+        const Visits::Projection projection = visits_.projection(fixture_place_effect(order, from), 6);
+        const Inverted inverted = pseudo_inverse(projection.spread, k_seen_of_fixture * projection.weight);
+        if (inverted.rank == 0) {
+            return std::nullopt;
+        }
+        const double scale = std::max(used_scale_, pose_scale_);
+        const VectorXd error = inverted.inverse * projection.weighted;
+        GroupTest test = judged(GroupKind::fixture_place, projection.weighted.dot(error) / (scale * scale),
+                                inverted.rank, order.size());
+        const Eigen::MatrixX3d points = reflectors_about_their_centre();
+        const Eigen::Vector3d centre = adjustment_.measurement().fixture.colwise().mean().transpose();
+        const double lever = points.rowwise().norm().mean();
+        double squares = 0.0;
+        for (Index m = 0; m < points.rows(); ++m) {
+            const Eigen::Vector3d turn = error.tail<3>() / lever;
+            squares += (error.head<3>() + turn.cross(points.row(m).transpose() + centre)).squaredNorm();
+        }
+        test.estimate = std::sqrt(squares / static_cast<double>(points.rows()));
+        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) * scale *
+                                  std::sqrt(inverted.inverse.trace() / inverted.rank);
+        return test;
+    }
+    [[nodiscard]] const std::vector<Visit>& visits() const { return adjustment_.visits(); }
+    [[nodiscard]] Eigen::MatrixX3d reflectors_about_their_centre() const {
+        const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
+        return points.rowwise() - points.colwise().mean();
+    }
+
     /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
     struct Drifts {
         std::vector<Visits::Column> each;  ///< of every sequence
@@ -1345,7 +1488,7 @@ private:
         return effect;
     }
     /// Coordinates of the fixture: what a relative change of its size does to them.
-    [[nodiscard]] MatrixXd effect_of_scale() const {
+    [[nodiscard]] MatrixXd effect_of_fixture_scale() const {
         const Eigen::MatrixX3d& points = adjustment_.measurement().fixture;
         return points.transpose().reshaped(points.size(), 1);
     }
@@ -1369,7 +1512,7 @@ private:
 
     /// The scale of the fixture is controlled where the distances know theirs.
     [[nodiscard]] std::optional<GroupTest> scale_test(const FixtureMisfit& misfit) const {
-        const VectorXd effect = effect_of_scale();
+        const VectorXd effect = effect_of_fixture_scale();
         const double spread = effect.dot(misfit.spread * effect);
         if (!(spread > misfit.least * effect.squaredNorm())) {
             return std::nullopt;
@@ -1425,7 +1568,7 @@ private:
             const bool is_scale = scale && scale->suspicious && (!worst || is_less_probable(*scale, *worst));
             if (is_scale) {
                 result_.tests.push_back(*scale);
-                misfit.take_away(effect_of_scale());
+                misfit.take_away(effect_of_fixture_scale());
                 is_scaled = true;
                 continue;
             }
@@ -1467,7 +1610,7 @@ double share_of_level(GroupKind kind) {
     // They add up to 0.9. The tenth that is left is that of the check of the fixture (ADR 0031).
     switch (kind) {
         case GroupKind::drift:
-            return 0.375;
+            return 0.365;
         case GroupKind::visit_length:
             return 0.30;
         case GroupKind::dead_path_change:
@@ -1486,9 +1629,19 @@ double share_of_level(GroupKind kind) {
         case GroupKind::reflector_from_visit:
         case GroupKind::angle_index:
         case GroupKind::fixture_scale:
+        case GroupKind::station_scale:
+        case GroupKind::fixture_place:
             return 0.005;
     }
     return 0.0;
+}
+
+double scale_error_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
+                              const BorderedCovariance& covariance, std::size_t station) {
+    const Visits visits(adjustment, normal, covariance);
+    const Visits::Projection projection = visits.projection(effect_of_scale(adjustment, visits, station), 1);
+    const double spread = projection.spread(0, 0);
+    return spread > k_controlled * projection.weight ? projection.weighted[0] / spread : 0.0;
 }
 
 GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,

@@ -27,6 +27,8 @@ enum class GroupKind {
     reflector_at_angles,   ///< a reflector that stands elsewhere in a part of the turn
     reflector_from_visit,  ///< a reflector that stands elsewhere from some visit on
     fixture_scale,         ///< the whole fixture larger or smaller than its coordinates at its temperature say
+    station_scale,         ///< all distances of a station longer or shorter by one factor than its scale is known
+    fixture_place,         ///< the whole fixture elsewhere on the table from some visit on
 };
 
 /// Share of the level of all tests of groups that a kind has. The rest, a tenth, is for the check of the stated
@@ -52,7 +54,8 @@ struct GroupTest {
     double critical_value = 0.0;  ///< of chi-square: the family of its kind exceeds it with its share of alpha
     /// Visit and change: error of the distances; pose: rms of what it does to the distances; drift: error at the last
     /// visit less that at the first, rms where every station has its own; reflector, constant or not, and place of
-    /// a station: displacement, [m]; fixture scale: relative, [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
+    /// a station: displacement, [m]; of the fixture: rms of that of its reflectors, [m]; scale of fixture or station: relative,
+    /// [1]; angle index: steps. Succession: autocorrelation coefficient of lag 1. Station: ratio of the
     /// standard deviations of its visits and of the others.
     double estimate = 0.0;
     double minimal_detectable = 0.0;  ///< found with a probability of 80 %, in the unit of `estimate`; 0: not stated
@@ -99,7 +102,7 @@ struct GroupTestOptions {
 /// freedom as C has columns (W. Baarda, A testing procedure for use in geodetic networks, 1968; P. Teunissen, Testing
 /// theory, 2000).
 ///
-/// The least probable visit, change, place, pair, drift or step of the angles is taken away before the others are tested
+/// The least probable visit, change, place, pair, scale, drift or step of the angles is taken away before the others are tested
 /// again. A reflector that stands elsewhere in a part of the turn is looked for between 36 bounds at most. Test
 /// values are divided by the robust scale of all visits where it differs from 1 by more than two of its standard
 /// deviations, at the limit towards 1. The scatter of stations and the succession of visits, which name no cause, are
@@ -113,5 +116,10 @@ struct GroupTestOptions {
 /// \param normal, covariance  of the adjustment, at the weights of its result
 [[nodiscard]] GroupTests test_groups(const JointAdjustment& adjustment, const NormalEquations& normal,
                                      const BorderedCovariance& covariance, const GroupTestOptions& options);
+
+/// By how much, relatively, all distances of a station are too long beside those of the others: GroupTest::estimate of
+/// GroupKind::station_scale.
+[[nodiscard]] double scale_error_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
+                                            const BorderedCovariance& covariance, std::size_t station);
 
 }  // namespace gumcert::engine

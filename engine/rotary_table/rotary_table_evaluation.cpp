@@ -461,13 +461,68 @@ StochasticModel variances_without(const GroupTest& group, const JointAdjustment&
     return stochastic;
 }
 
+/// Groups of a measurement of which a station has a scale error: how large it is, and what else is suspicious, from the
+/// distances without it. An error of many ppm moves the temperature of the fixture at the station so far from what is stated
+/// that the linearised tests are not those of the measurement.
+GroupTests without_scale_error(GroupTests groups, const JointAdjustment& adjustment, const StochasticModel& stochastic,
+                               const EvaluationOptions& options, const GroupTestOptions& group_options) {
+    constexpr int k_most_corrections = 8;
+    constexpr double k_settled = 1e-3;  // of the error: it is told with three digits
+    if (groups.tests.empty() || !groups.tests.front().suspicious ||
+        groups.tests.front().kind != GroupKind::station_scale) {
+        return groups;
+    }
+    GroupTest told = groups.tests.front();
+    try {
+        RotaryTableMeasurement corrected = adjustment.measurement();
+        std::optional<JointAdjustment> without;
+        double error = told.estimate;
+        double change = error;
+        double before = 0.0;  // the error that was corrected then, and what was left
+        double left_before = error;
+        std::optional<NormalEquations> normal;
+        for (int k = 0; k < k_most_corrections && std::abs(change) > k_settled * std::abs(error); ++k) {
+            for (std::size_t i = 0; i < corrected.lengths.size(); ++i) {
+                LengthObservation& length = corrected.lengths[i];
+                if (length.station == told.station) {
+                    length.length = adjustment.measurement().lengths[i].length / (1.0 + error);
+                }
+            }
+            without.emplace(corrected, adjustment.active(), adjustment.set_up(), adjustment.present_values(),
+                            stochastic);
+            without->adjustment().set_workers(options.workers);
+            // Not from where the error has led the temperatures.
+            require_convergence(without->adjustment().solve(options.solver));
+            without->set_weights(stochastic);
+            require_convergence(without->adjustment().refine(options.solver));
+            normal.emplace(without->adjustment().linearise());
+            const double left = scale_error_of_station(*without, *normal, normal->bordered_covariance(), told.station);
+            // A secant: what a large error is told as is up to twice as large.
+            change = left_before != left ? left * (error - before) / (left_before - left) : left;
+            before = std::exchange(error, error + change);
+            left_before = left;
+        }
+        told.estimate = error;
+        GroupTests others = test_groups(*without, *normal, normal->bordered_covariance(), group_options);
+        std::erase_if(others.tests, [&](const GroupTest& test) {
+            return test.kind == GroupKind::station_scale && (!test.suspicious || test.station == told.station);
+        });
+        others.tests.insert(others.tests.begin(), told);
+        groups.tests = std::move(others.tests);
+    } catch (const gum::NoResultError&) {
+        return groups;  // a check, which the result does not need
+    }
+    return groups;
+}
+
 /// Tests of the groups of an adjustment. Its variances were estimated with the group in, which makes them large and all
 /// test values small: where a group is nearly suspicious, all are tested once more at the variances without it.
 GroupTests groups_of(const JointAdjustment& adjustment, const NormalEquations& normal,
                      const BorderedCovariance& covariance, const EstimatedComponents& estimated,
                      const StochasticModel& stochastic, const EvaluationOptions& options,
                      const GroupTestOptions& group_options) {
-    GroupTests groups = test_groups(adjustment, normal, covariance, group_options);
+    GroupTests groups = without_scale_error(test_groups(adjustment, normal, covariance, group_options), adjustment,
+                                            stochastic, options, group_options);
     const GroupTest* const near = nearly_suspicious(groups, group_options);
     const bool told = std::ranges::any_of(groups.tests, &GroupTest::suspicious);
     if (told || near == nullptr || !(estimated.length || estimated.table)) {
@@ -1201,8 +1256,8 @@ RotaryTableSolution evaluate_jointly(const RotaryTableMeasurement& measurement, 
     try {
         return adjust_with_reversal(measurement, options, progress);
     } catch (const gum::NoResultError& error) {
-        // An interrupted beam looks like a station whose place is open, like one that fits no table, like an adjustment
-        // that goes astray, or like a table that nobody has.
+        // Wrong labels and an interrupted beam look like a station whose place is open, like one that fits no table, like
+        // an adjustment that goes astray, or like a table that nobody has.
         if (std::ranges::any_of(error.diagnostics(), [](const gum::Diagnostic& problem) {
                 return problem.code == "GC-ADJUST-0005" || problem.code == "GC-ADJUST-0015" ||
                        problem.code == "GC-RANK-0001" || problem.code == "GC-VARIANCE-0008";

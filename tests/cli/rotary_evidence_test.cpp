@@ -40,7 +40,8 @@ TEST_F(RotaryEvidence, OfTheExample) {
     }
     EXPECT_EQ(kinds, (std::set<std::string>{"visit_length", "visit_pose", "dead_path_change", "station_place",
                                             "pair_length", "drift", "angle_index", "succession", "station", "reflector",
-                                            "reflector_at_angles", "reflector_from_visit", "fixture_scale"}));
+                                            "reflector_at_angles", "reflector_from_visit", "fixture_scale",
+                                            "station_scale", "fixture_place"}));
 
     // 6 stations, 36 angles, both senses; the largest deviation against its limit is the test of the visits.
     ASSERT_EQ(rotary.at("visits").size(), 432U);

@@ -45,6 +45,7 @@ std::pair<const char*, double> unit_of_kind(GroupKind kind) {
         case GroupKind::station:
             return {"1", 1.0};
         case GroupKind::fixture_scale:
+        case GroupKind::station_scale:
             return {"ppm", 1e-6};
         default:
             return {"um", gum::k_micrometre};
@@ -396,6 +397,10 @@ const char* group_kind_name(GroupKind kind) {
             return "reflector_from_visit";
         case GroupKind::fixture_scale:
             return "fixture_scale";
+        case GroupKind::station_scale:
+            return "station_scale";
+        case GroupKind::fixture_place:
+            return "fixture_place";
     }
     return "";
 }

@@ -54,7 +54,7 @@ TEST(GroupNotes, SayWhichGroupByHowMuchAndWhatToDo) {
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
           GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
-          GroupKind::fixture_scale}) {
+          GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place}) {
         const auto notes = group_notes({.tests = {suspicious(kind)}, .visits = {}}, two_stations());
         ASSERT_EQ(notes.size(), 1U);
         EXPECT_EQ(notes[0].code, k_suspicious_group);

@@ -202,7 +202,7 @@ TEST(GroupTests, StateTheScatterOfDriftsAndDivideTheLevel) {
          {GroupKind::visit_length, GroupKind::visit_pose, GroupKind::dead_path_change, GroupKind::station_place,
           GroupKind::pair_length, GroupKind::drift, GroupKind::angle_index, GroupKind::succession, GroupKind::station,
           GroupKind::reflector, GroupKind::reflector_at_angles, GroupKind::reflector_from_visit,
-          GroupKind::fixture_scale}) {
+          GroupKind::fixture_scale, GroupKind::station_scale, GroupKind::fixture_place}) {
         shares += share_of_level(kind);
     }
     EXPECT_NEAR(shares, 0.9, 1e-12);

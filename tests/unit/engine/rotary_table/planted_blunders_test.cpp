@@ -534,6 +534,52 @@ TEST(PlantedBlunders, AReflectorThatIsMovedForGoodIsNamed) {
     }
 }
 
+/// A clamp that gives way between two stations: the table would be told to scatter by what the fixture was moved.
+TEST(PlantedBlunders, AFixtureThatIsMovedOnTheTableIsNamed) {
+    for (const double size : {2e-6, 20e-6, 300e-6}) {
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            const synthetic::Campaign sound = synthetic::sound_campaign(seed, 12);
+            RotaryTableMeasurement m = sound.measurement;
+            synthetic::Noise draw(seed);
+            const Eigen::Vector3d way =
+                size * Eigen::Vector3d(0.2 * draw.normal(), draw.normal(), draw.normal()).normalized();
+            for (LengthObservation& length : m.lengths) {
+                if (length.station > 2) {
+                    synthetic::planting::move_reflector(m, length, sound, way);
+                }
+            }
+            const RotaryTableSolution solution = evaluated(m);
+            const GroupTest& first = first_group(solution);
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(1e6 * size) + " µm");
+            EXPECT_TRUE(first.suspicious);
+            EXPECT_EQ(first.kind, GroupKind::fixture_place);
+            EXPECT_EQ(first.station, 3U);
+            // What moves along the axis the stations after it take up.
+            EXPECT_NEAR(first.estimate / size, 1.0, 0.4);
+        }
+    }
+}
+
+/// One factor on the distances of a station, as of a wrong refractive index: neither its pairs nor the fixture are accused.
+TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
+    for (const double size : {20e-6, -100e-6, 270e-6}) {
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            const synthetic::Campaign sound = synthetic::sound_campaign(seed, 12);
+            RotaryTableMeasurement m = sound.measurement;
+            for (LengthObservation& length : m.lengths) {
+                length.length += length.station == 4 ? size * length.length : 0.0;
+            }
+            const RotaryTableSolution solution = evaluated(m);
+            const GroupTest& first = first_group(solution);
+            SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(1e6 * size) + " ppm");
+            EXPECT_TRUE(first.suspicious);
+            EXPECT_EQ(first.kind, GroupKind::station_scale);
+            EXPECT_EQ(first.station, 4U);
+            EXPECT_NEAR(first.estimate / size, 1.0, 0.3);
+        }
+    }
+}
+
 /// Single blunders, one in fifty, are left out: no visit, station or pair is accused in their place.
 TEST(PlantedBlunders, SingleOutliersAccuseNoGroup) {
     int accused = 0;
