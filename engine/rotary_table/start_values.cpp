@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -228,6 +229,40 @@ public:
     }
 
     [[nodiscard]] const std::vector<StationData>& stations() const { return stations_; }
+    /// Places of a station by plain least squares of all its distances, from all sides and from where it was found: what
+    /// weights have left out is in.
+    [[nodiscard]] std::vector<StationFit> plain_fits(std::size_t station, const StationFit& found) const {
+        std::vector<StationFit> result;
+        const Positions at = positions(station, Eigen::Vector4d::Zero(), false);
+        std::vector<Eigen::Vector3d> starts = all_sides(closed_solution(stations_[station], at).centre);
+        starts.push_back(found.position);
+        for (const Eigen::Vector3d& from : starts) {
+            std::vector<StationFit> fits(stations_.size());
+            fits[station].position = from;
+            Eigen::Vector4d set_up = Eigen::Vector4d::Zero();
+            descend({station}, set_up, fits, true, k_coarse_step, Pull::of_all);
+            fits[station].set_up = set_up;
+            result.push_back(fits[station]);
+        }
+        return result;
+    }
+    /// One station on its own, the best from all sides and from where it was found.
+    [[nodiscard]] StationFit fit_from_all_sides(std::size_t station, const StationFit& found) const {
+        StationFit best = found;
+        const Positions at = positions(station, Eigen::Vector4d::Zero(), false);
+        std::vector<Eigen::Vector3d> starts = all_sides(closed_solution(stations_[station], at).centre);
+        std::ranges::copy(
+            best_of(stations_[station], at, sphere_grid(closed_solution(stations_[station], at).centre), 8),
+            std::back_inserter(starts));
+        starts.push_back(found.position);
+        for (const Eigen::Vector3d& from : starts) {
+            for (const Pull pull : {Pull::of_all, Pull::of_those_that_agree}) {
+                const StationFit fit = refined(station, from, Eigen::Vector4d::Zero(), true, pull);
+                best = fit.upright_misfit() < best.upright_misfit() ? fit : best;
+            }
+        }
+        return best;
+    }
     /// Stations as fit_each() has found them.
     [[nodiscard]] const std::vector<StationFit>& fits() const { return fits_; }
     /// Deviations from the medians of the dead paths, and these medians.
@@ -1034,10 +1069,17 @@ public:
     enum class Asked { suspicious, all };
     /// \param fits  of the stations, each on its own
     /// \param asked  all: of a measurement that has no result, for which lengths in another unit may fit a false place
-    void refuse(const std::vector<StationFit>& fits, Asked asked) const {
+    void refuse(std::vector<StationFit> fits, Asked asked) const {
         std::vector<double> misfits;
         for (const StationFit& fit : fits) {
             misfits.push_back(fit.upright_misfit());
+        }
+        for (std::size_t j = 0; j < misfits.size(); ++j) {
+            if (fits[j].is_settled() && is_suspicious(misfits[j], misfits)) {
+                // The search ended at what error motions may leave: with neighbours that leave far less it goes on.
+                fits[j] = StartSearch(measurement_, of_station(j, std::nullopt)).fit_from_all_sides(j, fits[j]);
+                misfits[j] = fits[j].upright_misfit();
+            }
         }
         // One reflector that all stations disagree with is asked for first: it costs least.
         std::vector<std::size_t> open;
@@ -1046,7 +1088,7 @@ public:
                 open.push_back(j);
             }
         }
-        if (open.size() > 1) {
+        if (open.size() > 1 && 2 * open.size() > misfits.size()) {
             refuse_wrong_coordinates(open, misfits);
         }
         open.clear();
@@ -1541,24 +1583,39 @@ private:
                 continue;
             }
             ++asked;
-            const Eigen::VectorXd deviation = search.deviations(j, fits[j]).first;
-            std::vector<double> sizes;
-            for (const double one : deviation) {
-                sizes.push_back(std::abs(one));
-            }
-            const double limit = std::max(k_least, k_times_deviation * k_mad_to_deviation * median(sizes));
-            std::vector<std::pair<double, double>> off(measurement_.reflectors.size());  // of all
-            for (std::size_t k = 0; k < search.stations()[j].observation.size(); ++k) {
-                auto& [count, of] = off[measurement_.lengths[search.stations()[j].observation[k]].reflector];
-                of += 1.0;
-                count += std::abs(deviation[static_cast<Eigen::Index>(k)]) > limit ? 1.0 : 0.0;
-            }
-            for (std::size_t m = 0; m < off.size(); ++m) {
-                bool alone = off[m].first > k_share_of_stray * off[m].second;
-                for (std::size_t n = 0; n < off.size(); ++n) {
-                    alone = alone && (n == m || off[n].first <= k_share_of_others * off[n].second);
+            // Shares of the distances of each reflector that are off.
+            const auto off_at = [&](const StationFit& fit) {
+                const Eigen::VectorXd deviation = search.deviations(j, fit).first;
+                std::vector<double> sizes;
+                for (const double one : deviation) {
+                    sizes.push_back(std::abs(one));
                 }
-                strays[m] += alone ? 1 : 0;
+                const double limit = std::max(k_least, k_times_deviation * k_mad_to_deviation * median(sizes));
+                std::vector<double> off(measurement_.reflectors.size(), 0.0);
+                std::vector<double> of = off;
+                for (std::size_t k = 0; k < search.stations()[j].observation.size(); ++k) {
+                    const std::size_t m = measurement_.lengths[search.stations()[j].observation[k]].reflector;
+                    of[m] += 1.0;
+                    off[m] += std::abs(deviation[static_cast<Eigen::Index>(k)]) > limit ? 1.0 : 0.0;
+                }
+                for (std::size_t m = 0; m < off.size(); ++m) {
+                    off[m] /= std::max(of[m], 1.0);
+                }
+                return off;
+            };
+            const std::vector<double> off = off_at(fits[j]);
+            for (std::size_t m = 0; m < off.size(); ++m) {
+                bool alone = off[m] > k_share_of_stray;
+                for (std::size_t n = 0; n < off.size(); ++n) {
+                    alone = alone && (n == m || off[n] <= k_share_of_others);
+                }
+                // A weak layout may have left the right place for one at which most distances agree by chance.
+                const auto agrees_at = [&](const StationFit& fit) {
+                    return fit.is_settled() && off_at(fit)[m] <= k_share_of_others;
+                };
+                if (alone && std::ranges::none_of(search.plain_fits(j, fits[j]), agrees_at)) {
+                    ++strays[m];
+                }
             }
         }
         const auto most = std::ranges::max_element(strays);
