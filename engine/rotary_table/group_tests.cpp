@@ -1183,8 +1183,11 @@ private:
             squares += (error.head<3>() + turn.cross(points.row(m).transpose() + centre)).squaredNorm();
         }
         test.estimate = std::sqrt(squares / static_cast<double>(points.rows()));
-        test.minimal_detectable = (std::sqrt(test.critical_value) + k_deviate_of_power) * scale *
-                                  std::sqrt(inverted.inverse.trace() / inverted.rank);
+        // Of a motion in the same direction: what the stations take up is hardly seen, and would make a mean of all useless.
+        if (test.chi_square > 0.0) {
+            test.minimal_detectable =
+                (std::sqrt(test.critical_value) + k_deviate_of_power) * test.estimate / std::sqrt(test.chi_square);
+        }
         return test;
     }
     [[nodiscard]] const std::vector<Visit>& visits() const { return adjustment_.visits(); }

@@ -554,6 +554,7 @@ TEST(PlantedBlunders, AFixtureThatIsMovedOnTheTableIsNamed) {
             EXPECT_TRUE(first.suspicious);
             EXPECT_EQ(first.kind, GroupKind::fixture_place);
             EXPECT_EQ(first.station, 3U);
+            EXPECT_LT(first.minimal_detectable, std::max(first.estimate, 3e-6));
             // What moves along the axis the stations after it take up.
             EXPECT_NEAR(first.estimate / size, 1.0, 0.4);
         }
@@ -575,7 +576,7 @@ TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
             EXPECT_TRUE(first.suspicious);
             EXPECT_EQ(first.kind, GroupKind::station_scale);
             EXPECT_EQ(first.station, 4U);
-            EXPECT_NEAR(first.estimate / size, 1.0, 0.3);
+            EXPECT_NEAR(first.estimate / size, 1.0, 0.1);
         }
     }
 }
