@@ -41,8 +41,8 @@ public:
                 if (q.table > 0 && q.row && q.role == "result" && !q.unit.empty() && has_type(q, k_types[type]) &&
                     std::from_chars(q.value.data(), end, value).ptr == end) {
                     values_[{q.table, *q.row}].push_back({&q, type, {value, q.unit}});
-                    if (!seen_[{q.table, type}].insert(value).second) {
-                        repeated_.insert({q.table, type});
+                    if (!seen_[{q.table, q.column}].insert(value).second) {
+                        repeated_.insert({q.table, q.column});
                     }
                 }
             }
@@ -57,15 +57,18 @@ public:
         if (row == values_.end()) {
             return std::nullopt;
         }
-        const auto first = [&](bool set) {
-            return std::find_if(row->second.begin(), row->second.end(), [&](const Entry& entry) {
-                return entry.quantity != &q && (entry.type == k_set) == set;
-            });
+        const auto column_of = [](const Entry& entry) {
+            return std::pair(entry.quantity->table, entry.quantity->column);
         };
-        const auto stated = first(false), set = first(true), end = row->second.end();
-        const bool is_known_by_it = stated == end || (repeated_.contains({q.table, stated->type}) &&
-                                                      seen_.at({q.table, stated->type}).size() == 1);
-        if (set != end && is_known_by_it && !repeated_.contains({q.table, k_set})) {
+        const auto begin = row->second.begin(), end = row->second.end();
+        const auto stated =
+            std::find_if(begin, end, [&](const Entry& entry) { return entry.quantity != &q && entry.type != k_set; });
+        const auto set = std::find_if(begin, end, [&](const Entry& entry) {
+            return entry.quantity != &q && entry.type == k_set && !repeated_.contains(column_of(entry));
+        });
+        const bool is_known_by_it =
+            stated == end || (repeated_.contains(column_of(*stated)) && seen_.at(column_of(*stated)).size() == 1);
+        if (set != end && is_known_by_it) {
             return set->value;
         }
         return stated == end ? std::nullopt : std::optional(stated->value);
@@ -89,8 +92,8 @@ private:
     };
 
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Entry>> values_;  // of a table and a row
-    std::map<std::pair<std::size_t, std::size_t>, std::set<double>> seen_;      // of a table and a type
-    std::set<std::pair<std::size_t, std::size_t>> repeated_;                    // a type that two rows have alike
+    std::map<std::pair<std::size_t, std::string>, std::set<double>> seen_;      // of a table and a column
+    std::set<std::pair<std::size_t, std::string>> repeated_;                    // a column that has a value twice
 };
 
 /// A result that becomes a line.

@@ -202,11 +202,12 @@ private:
                 at.push_back(text::in_quotes(points.points[p]));
             }
         }
+        // Blanks, and capitals but for M and m, which are two prefixes: "1 MΩ" is no slip for "1 mΩ".
         const auto letters = [](const std::string& word) {
             std::string some;
             for (const char c : word) {
                 if (c != ' ') {
-                    some += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+                    some += static_cast<char>(c >= 'A' && c <= 'Z' && c != 'M' ? c - 'A' + 'a' : c);
                 }
             }
             return some;

@@ -39,23 +39,28 @@ std::optional<double> number_of(std::string printed) {
 }
 
 /// Numbers of the points of a table with a layout that its results are drawn against, the first that differ from point to
-/// point: of a sensitivity at 100 m/s² and ten frequencies these. None: without any.
+/// point: of a sensitivity at 100 m/s² and ten frequencies these, and not what the reference scatters about its nominal value.
+/// None: without any.
 const certificate::PointColumn* abscissa_of(const CertifiedTable& table) {
     if (!table.layout) {
         return nullptr;
     }
     const certificate::PointColumn* constant = nullptr;
-    for (const char* const role : {"nominal", "reference", "setting", "indication"}) {
+    std::vector<const char*> roles{"nominal", "reference", "setting", "indication"};
+    for (std::size_t i = 0; i < roles.size(); ++i) {
         for (const certificate::PointColumn& column : table.layout->columns) {
             const bool complete =
                 std::all_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); });
-            if (column.role != role || !complete) {
+            if (column.role != roles[i] || !complete) {
                 continue;
             }
             const bool differs = std::any_of(column.values.begin(), column.values.end(),
                                              [&](const auto& v) { return v != column.values.front(); });
             if (differs) {
                 return &column;
+            }
+            if (i == 0 && constant == nullptr) {
+                std::swap(roles[1], roles[2]);  // "reference" behind "setting"
             }
             constant = constant == nullptr ? &column : constant;  // all results upon one another
         }

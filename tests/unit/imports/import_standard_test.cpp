@@ -133,9 +133,9 @@ TEST(ImportStandard, RowsOfATableAreLinesOfOneQuantity) {
 
 // Ten frequencies at one acceleration: the nominal value says nothing of a row, the frequency does.
 TEST(ImportStandard, WhatWasSetTellsRowsOfOneNominalValueApart) {
-    const auto lines = [](const std::string& stated, const std::string& set) {
+    const auto lines = [](const std::string& stated, const std::string& set, const std::string& before = "") {
         return nlohmann::json::parse(
-            import_list((stated.empty() ? "" : list_of("basic_referenceValue", stated, "\\metre", "")) +
+            import_list((stated.empty() ? "" : list_of("basic_referenceValue", stated, "\\metre", "")) + before +
                         list_of("gumcert_setting gumcert_f", set, "\\hertz", "") +
                         list_of("basic_measuredValue", "1.1 1.2 1.3", "\\volt", "0.01 0.02 0.03"))
                 .job)["calibrations"][0]["results"];
@@ -147,6 +147,8 @@ TEST(ImportStandard, WhatWasSetTellsRowsOfOneNominalValueApart) {
         EXPECT_EQ(by_frequency[1]["nominal_unit"], "Hz");
         EXPECT_EQ(by_frequency[0]["quantity"], by_frequency[2]["quantity"]);
     }
+    const std::string warm = list_of("gumcert_setting gumcert_T", "296.15 296.15 296.15", "\\kelvin", "");
+    EXPECT_EQ(lines("100 100 100", "10 40 160", warm)[1]["nominal"], 40) << "a setting that never changes says nothing";
     EXPECT_EQ(lines("1 2 3", "10 40 160")[1]["nominal"], 2) << "the reference tells them apart";
     EXPECT_EQ(lines("1 1 3", "10 40 160")[1]["nominal"], 1) << "a table of two quantities";
     EXPECT_EQ(lines("100 100 100", "10 40 40")[1]["nominal"], 100) << "nothing tells them apart";

@@ -397,7 +397,7 @@ TEST(BudgetTables, TellAnAccuracyThatNoPointTakes) {
     const auto entry = [](const std::string& range) {
         return R"j({"percent_of_reading": 1)j" + (range.empty() ? "" : R"j(, "range": ")j" + range + "\"") + "}";
     };
-    for (const std::string slip : {"100mV", "100 MV", "100  mV"}) {
+    for (const std::string slip : {"100mV", "100 mv", "100  mV"}) {
         expect_refusal(accuracy(entry(slip) + "," + entry("")), k_limits_not_meant,
                        "the range \"" + slip + "\", and points have \"100 mV\"");
     }
@@ -414,6 +414,7 @@ TEST(BudgetTables, TellAnAccuracyThatNoPointTakes) {
         return codes.contains(std::string(k_warn_range_of_no_point.code));
     };
     EXPECT_TRUE(told(accuracy(entry("1 V") + "," + entry(""))));
+    EXPECT_TRUE(told(accuracy(entry("100 MV") + "," + entry("")))) << "another prefix: told, not refused";
     EXPECT_TRUE(told(accuracy(entry("10 V") + "," + entry("1 V") + "," + entry(""))));
     EXPECT_FALSE(told(accuracy(entry("10 V") + "," + entry(""))));
     EXPECT_FALSE(told(accuracy(entry(""))));
