@@ -81,6 +81,11 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
+/// "0E+1" of a record, beside U = 4.8E+2: printed as "0", and by earlier versions as "0 × 10¹".
+bool is_zero_with_power(const NumberAsPrinted& number) {
+    return number.exponent != 0 && number.digits.find_first_not_of('0') == std::string::npos;
+}
+
 std::size_t verdicts_of_a_row(const certificate::TableLayout& layout) {
     return static_cast<std::size_t>(
         std::count_if(layout.shown.begin(), layout.shown.end(), [](const auto& c) { return c.show == "verdict"; }));
@@ -142,6 +147,9 @@ PrintedDocument::PrintedDocument(const std::vector<std::string>& pages) {
 PrintedDocument::Cell PrintedDocument::cell_of(const std::string& printed, const std::string& unit) {
     std::optional<NumberAsPrinted> number = only_number_as_printed(printed);
     std::string digits = number ? number->digits : all_digits(printed);
+    if (number && is_zero_with_power(*number)) {
+        digits = "0";  // what both ways to print it begin with
+    }
     return {.digits = std::move(digits), .number = std::move(number), .unit = unit};
 }
 
@@ -315,8 +323,15 @@ bool PrintedDocument::is_followed_by(std::size_t digit, const Row& row, const Do
 }
 
 bool PrintedDocument::is_at(std::size_t digit, const Cell& cell) const {
-    return digits_.compare(digit, cell.digits.size(), cell.digits) == 0 &&
-           (!cell.number || is_printed_at(read_, read_place_of_digit(digit), *cell.number));
+    if (digits_.compare(digit, cell.digits.size(), cell.digits) != 0) {
+        return false;
+    }
+    if (!cell.number) {
+        return true;
+    }
+    const std::size_t begin = read_place_of_digit(digit);
+    return is_printed_at(read_, begin, *cell.number) ||
+           (is_zero_with_power(*cell.number) && is_printed_at(read_, begin, {.digits = "0"}));
 }
 
 bool PrintedDocument::has(const Row& row, const std::vector<Cell>& numbers, const DocumentWords& words,

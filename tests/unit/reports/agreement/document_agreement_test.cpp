@@ -357,6 +357,27 @@ TEST(DocumentsAndRecords, AgreeAsPages) {
     }
 }
 
+// A value of 0 beside U = 4.8 × 10²: its power says nothing, and pages print it or leave it out.
+TEST(DocumentsAndRecords, AgreeInAZeroWithAndWithoutItsPower) {
+    EvaluationRecord record = example_certificates().front().second;
+    const DocumentWords words = document_words(read_every_wording(k_agreement_templates));
+    for (const std::string zero : {"0E+1", "0.0E+2"}) {
+        for_each_value(record, [&](CertifiedValue& value) {
+            value.printed_value = zero;
+            value.printed_U = "4.8E+2";
+        });
+        const std::string power = zero == "0E+1" ? "0 \u00D7 10\u00B9" : "0.0 \u00D7 10\u00B2";
+        for (const std::string& printed : {std::string("0"), power}) {
+            const std::string page = "EX-1 l " + printed + " 4.8 \u00D7 10\u00B2 nm pass of 2";
+            EXPECT_EQ(PrintedDocument({page}).disagreement_with(*record.certificate, words), "") << page;
+        }
+        for (const char* const other : {"0.1", "1", "10", "0 \u00D7 10\u2076"}) {
+            const std::string page = std::string("EX-1 l ") + other + " 4.8 \u00D7 10\u00B2 nm pass of 2";
+            EXPECT_NE(PrintedDocument({page}).disagreement_with(*record.certificate, words), "") << page;
+        }
+    }
+}
+
 TEST(DocumentsAndRecords, SayTheirNumberAsAWordOfItsOwn) {
     EXPECT_TRUE(says_number("<p>Certificate EX-1.</p>", "EX-1"));
     EXPECT_TRUE(says_number("<style>EX-2</style><p>a &amp; b EX-1</p>", "EX-1"));
