@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)reports::hidden_part_of_html(bytes, "p { margin: 0 }");
     const reports::PrintedDocument document({text, bytes});
     (void)document.says("EX-2026-0001");
-    (void)app::printed_numbers(bytes);
+    (void)reports::numbers_as_printed(bytes);
     std::string written;
     for (const char c : bytes) {
         written += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&#62;" : std::string(1, c);
