@@ -47,6 +47,9 @@ std::optional<double> quantile_near_zero(double p, double degrees_of_freedom) {
         }
         const double inside = boost::math::ibeta(0.5, 0.5 * degrees_of_freedom, square / (1.0 + square), Policy());
         const double change = (p - inside) / (2.0 * boost::math::pdf(distribution, t));
+        if (!std::isfinite(change)) {
+            break;  // a density that is no number so far out
+        }
         t += change;
         if (std::abs(change) <= 4.0 * std::numeric_limits<double>::epsilon() * t) {
             return t;
