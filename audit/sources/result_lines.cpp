@@ -112,7 +112,10 @@ public:
             if (known.empty() && known_unit(held)) {
                 known = held;
             }
-            if (word.empty() && is_beside && may_be_unit(held)) {
+            // "u_c | 0.187 | U | 0.37": what names the next number is no unit of the one before it.
+            const bool is_name = i + 1 < row_.size() && row_[i + 1] != number &&
+                                 sheet_.number_with_unit(*row_[i + 1]) && named_statement(held);
+            if (word.empty() && is_beside && !is_name && may_be_unit(held)) {
                 word = held;
             }
         }
@@ -616,14 +619,24 @@ bool take_value_with_U(const SheetView& sheet, const SheetView::Row& row, const 
     return true;
 }
 
+/// What was taken of a line.
+struct TakenStatement {
+    Statement statement = Statement::value;
+    const Cell* number = nullptr;  ///< behind which further ones may stand
+};
+std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
+                                         Statements& statements, std::vector<Sentence>& not_read);
+
 /// Takes what stands behind the number of a statement in its line: "u_c = | 0.186 | k = | 2 | U = | 0.37".
 void take_further(const SheetView& sheet, const SheetView::Row& row, const Cell& number, Statements& statements,
                   std::vector<Sentence>& not_read) {
+    constexpr std::size_t k_most_cells = 64;  // of one statement, with its unit and what is said of coverage
+    std::uint32_t behind = number.address.column;
     for (std::size_t i = 0; i < row.size(); ++i) {
-        const std::string held = sheet.words(*row[i]);
-        if (row[i]->address.column <= number.address.column || sheet.value(*row[i]).kind != CellKind::text) {
+        if (row[i]->address.column <= behind || sheet.value(*row[i]).kind != CellKind::text) {
             continue;
         }
+        const std::string held = sheet.words(*row[i]);
         const std::optional<NamedStatement> named = named_statement(held);
         const bool is_name = named && is_of_coverage(named->statement) && !(known_unit(held) && held != "k");
         const bool has_number =
@@ -632,17 +645,21 @@ void take_further(const SheetView& sheet, const SheetView::Row& row, const Cell&
         const bool is_assigned = is_name && named->statement != Statement::k && !named->assigned.empty() &&
                                  sheet.number_in_text(named->assigned, *row[i]);
         if (has_number || is_assigned) {
-            (void)take_statement(sheet, {row.begin() + static_cast<std::ptrdiff_t>(i), row.end()}, nullptr, statements,
-                                 not_read);
-            return;  // and what stands behind that one
+            const auto begin = row.begin() + static_cast<std::ptrdiff_t>(i);
+            const auto cells = static_cast<std::ptrdiff_t>(std::min(row.size() - i, k_most_cells));
+            const std::optional<TakenStatement> taken =
+                take_first(sheet, {begin, begin + cells}, nullptr, statements, not_read);
+            if (!taken || taken->number == nullptr) {
+                return;
+            }
+            behind = taken->number->address.column;
         }
     }
 }
 
-}  // namespace
-
-std::optional<Statement> take_statement(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
-                                        Statements& statements, std::vector<Sentence>& not_read) {
+/// Takes the first thing that a line states.
+std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
+                                         Statements& statements, std::vector<Sentence>& not_read) {
     const std::optional<NamedLine> line = name_of_line(sheet, row, heads);
     if (!line) {
         return std::nullopt;
@@ -650,10 +667,10 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
     const Statement statement = line->named.statement;
     if (is_in_words(statement)) {
         take_words(sheet, row, *line, statements);
-        return statement;
+        return TakenStatement{.statement = statement};
     }
     if (take_value_with_U(sheet, row, *line, statements, not_read)) {
-        return statement;
+        return TakenStatement{.statement = statement};
     }
     const NumbersUnderHeads numbers =
         heads != nullptr && is_of_coverage(statement) ? numbers_under(sheet, *heads, row) : NumbersUnderHeads{};
@@ -745,10 +762,22 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
         statements.coverage = held;
         statements.coverage_place = sheet.place(row[line->cell]->address);
     }
-    if (by_head == nullptr && at != nullptr && is_of_coverage(statement)) {
-        take_further(sheet, row, *at, statements, not_read);
+    return TakenStatement{.statement = statement,
+                          .number = by_head == nullptr && is_of_coverage(statement) ? at : nullptr};
+}
+
+}  // namespace
+
+std::optional<Statement> take_statement(const SheetView& sheet, const SheetView::Row& row, const Heads* heads,
+                                        Statements& statements, std::vector<Sentence>& not_read) {
+    const std::optional<TakenStatement> taken = take_first(sheet, row, heads, statements, not_read);
+    if (!taken) {
+        return std::nullopt;
     }
-    return statement;
+    if (taken->number != nullptr) {
+        take_further(sheet, row, *taken->number, statements, not_read);
+    }
+    return taken->statement;
 }
 
 bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, const std::vector<SheetView::Row>& below,

@@ -203,6 +203,33 @@ TEST(ResultLines, KnowOneAsAUnitOnEitherSide) {
     }
 }
 
+/// A budget of 0.10, 0.15 and 0.05 mV, to which results are put.
+const std::string k_voltage =
+    "Quantity,u / mV,c,Contribution / mV\nReference,0.10,1,0.10\nResolution,0.15,1,0.15\nRepeatability,0.05,1,0.05\n";
+
+TEST(ResultLines, StandBehindEachOtherInALineOfAnyLength) {
+    // A sheet may have 16384 columns: what is stated again is no more than that.
+    std::string line = "U,0.37";
+    for (int i = 0; i < 8190; ++i) {
+        line += ",U,0.37";
+    }
+    const ForeignTables longest = tables_with(k_voltage + "\n\n" + line + "\n");
+    ASSERT_EQ(longest.budgets.size(), 1U);
+    ASSERT_TRUE(longest.budgets[0].claims.U);
+    EXPECT_EQ(longest.budgets[0].claims.U->value, 0.37);
+    for (const char* const few : {"u_c,0.187,mV,k,2,U,0.37,mV", "u_c,0.187,U,0.37,k,2", "u_c,0.187,k,2,U,0.37"}) {
+        const ForeignTables tables = tables_with(k_voltage + "\n\n" + few + "\n");
+        ASSERT_EQ(tables.budgets.size(), 1U) << few;
+        const Claims& claims = tables.budgets[0].claims;
+        ASSERT_TRUE(claims.u_c && claims.k && claims.U) << few;
+        EXPECT_EQ(claims.u_c->value, 0.187) << few;
+        EXPECT_EQ(claims.k->value, 2.0) << few;
+        EXPECT_EQ(claims.U->value, 0.37) << few;
+        EXPECT_EQ(tables.budgets[0].unit, "mV") << few;
+        EXPECT_EQ(told(tables.not_read), "") << few;
+    }
+}
+
 // The law: whatever the layout, the claims that are read are those that were written, and a sound budget has no critical
 // finding. Layouts of EA-4/02, M3003 and GUM Workbench, in English and German, columns in any order, as CSV and as a sheet.
 
