@@ -561,16 +561,27 @@ void replace_U_of_one(const NamedLine& line, Statement statement, Statements& st
     }
 }
 
+/// The unit of a result, or that of the head above it; "" where neither states one.
+std::string unit_under(const Heads* heads, const StatedResult& result) {
+    if (!result.unit.empty() || heads == nullptr) {
+        return result.unit;
+    }
+    const auto of_head = heads->all_units.find(result.column);
+    return of_head == heads->all_units.end() ? "" : of_head->second;
+}
+
 /// Names a u_c or U that is stated again with another number.
-void tell_second(Statement statement, const StatedResult& second, const std::string& name, const Statements& statements,
-                 std::vector<Sentence>& not_read) {
+/// \param heads  of the table whose lines go on to this one; nullptr elsewhere
+void tell_second(Statement statement, const StatedResult& second, const std::string& name, const Heads* heads,
+                 const Statements& statements, std::vector<Sentence>& not_read) {
     const auto first = statements.numbers.find(statement);
     const bool is_told = statement == Statement::u_c || statement == Statement::U || statement == Statement::reported_U;
     if (!is_told || first == statements.numbers.end()) {
         return;
     }
-    const std::optional<double> factor = factor_between(second.unit, first->second.unit);
-    if (!factor) {
+    const std::string unit = unit_under(heads, second), of_first = unit_under(heads, first->second);
+    const std::optional<double> factor = factor_between(unit, of_first);
+    if (!factor || is_unit_of_part(unit) != is_unit_of_part(of_first)) {
         return;  // a relative one beside it
     }
     const StatedNumber &one = first->second.number, &other = second.number;
@@ -604,7 +615,7 @@ bool take_value_with_U(const SheetView& sheet, const SheetView::Row& row, const 
     }
     const std::uint32_t column = row[at]->address.column;
     const StatedResult U{.number = std::move(both->U.number), .unit = std::move(both->U.unit), .column = column};
-    tell_second(Statement::U, U, held, statements, not_read);
+    tell_second(Statement::U, U, held, nullptr, statements, not_read);
     statements.numbers.emplace(
         Statement::value,
         StatedResult{.number = std::move(both->value.number), .unit = std::move(both->value.unit), .column = column});
@@ -732,10 +743,7 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
             statements.numbers.emplace(Statement::capability, *result);
         }
         const auto held = statements.numbers.find(statement);
-        const auto of_head = heads == nullptr ? std::map<std::uint32_t, std::string>::const_iterator()
-                                              : heads->all_units.find(result->column);
-        const bool is_of_head = heads != nullptr && of_head != heads->all_units.end() && result->unit.empty();
-        if (line->named.is_relative && !is_unit_of_part(is_of_head ? of_head->second : result->unit)) {
+        if (line->named.is_relative && !is_unit_of_part(unit_under(heads, *result))) {
             return std::nullopt;  // a part, in a unit that nobody states
         }
         if (may_be_part(statement) && held != statements.numbers.end() &&
@@ -743,7 +751,7 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
             statements.numbers.erase(held);  // "U | 0.004 | %" before "U | 0.4 | mV"
         }
         replace_U_of_one(*line, statement, statements);
-        tell_second(statement, *result, name, statements, not_read);
+        tell_second(statement, *result, name, heads, statements, not_read);
         statements.numbers.emplace(statement, std::move(*result));
     }
     const bool is_number = statement == Statement::k || statement == Statement::nu_eff || statement == Statement::U ||
@@ -837,7 +845,7 @@ bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, con
              {units.at(column), unit_cell == nullptr ? std::string() : sheet.words(*unit_cell)}) {
             result->unit = result->unit.empty() && is_of_result(statement) ? unit : result->unit;
         }
-        tell_second(statement, *result, sheet.words(*cell), statements, not_read);
+        tell_second(statement, *result, sheet.words(*cell), nullptr, statements, not_read);
         statements.numbers.emplace(statement, std::move(*result));
     }
     if (statements.coverage.empty() && !coverage.empty()) {

@@ -230,6 +230,22 @@ TEST(ResultLines, StandBehindEachOtherInALineOfAnyLength) {
     }
 }
 
+TEST(ResultLines, MayBeRelativeBesideOnesUnderAHead) {
+    const std::string table =
+        "Quantity,Value,u / mV,c,Contribution / mV\nReference,10,0.30,1,0.30\nResolution,0,0.20,1,0.20\n"
+        "Drift,0,0.10,1,0.10\nCombined standard uncertainty,,,,0.374\nExpanded uncertainty (k = 2),,,,0.75\n";
+    const ForeignTables relative = tables_with(table + "Relative expanded uncertainty (k = 2),0.0075,%\n");
+    ASSERT_EQ(relative.budgets.size(), 1U);
+    ASSERT_TRUE(relative.budgets[0].claims.U);
+    EXPECT_EQ(relative.budgets[0].claims.U->value, 0.75);
+    EXPECT_EQ(told(relative.not_read), "");
+    const ForeignTables same = tables_with(table + "Expanded uncertainty (k = 2),750,µV\n");
+    EXPECT_EQ(told(same.not_read), "");
+    for (const char* const line : {"Expanded uncertainty (k = 2),0.85,mV\n", "Expanded uncertainty (k = 2),850,µV\n"}) {
+        EXPECT_NE(told(tables_with(table + line).not_read).find("has another number than"), std::string::npos) << line;
+    }
+}
+
 // The law: whatever the layout, the claims that are read are those that were written, and a sound budget has no critical
 // finding. Layouts of EA-4/02, M3003 and GUM Workbench, in English and German, columns in any order, as CSV and as a sheet.
 
