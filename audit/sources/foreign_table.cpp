@@ -265,9 +265,10 @@ private:
         }
         if (heads_ && is_near_ && !budget_.rows.empty() && is_words_alone(row)) {
             const std::vector<SheetView::Row> below = lines_below(number);
-            if (take_results_below(sheet_, row, below, statements_, tables_.not_read)) {
+            const std::size_t taken = take_results_below(sheet_, row, below, statements_, tables_.not_read);
+            if (taken > 0) {
                 in_rows_ = is_near_ = false;
-                skip_until_ = number + static_cast<std::uint32_t>(below.size());
+                skip_until_ = number + static_cast<std::uint32_t>(taken);
                 return;
             }
         }

@@ -788,8 +788,38 @@ std::optional<Statement> take_statement(const SheetView& sheet, const SheetView:
     return taken->statement;
 }
 
-bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, const std::vector<SheetView::Row>& below,
-                        Statements& statements, std::vector<Sentence>& not_read) {
+namespace {
+
+/// What the head of a column of results states: "U", "U (mV)", "U / mV".
+std::optional<NamedStatement> named_head(const std::string& head) {
+    std::optional<NamedStatement> named = named_statement(head);
+    if (const std::size_t slash = head.find('/');
+        !named && slash != std::string::npos && known_unit(unit_in_head(head))) {
+        named = named_statement(head.substr(0, slash));
+    }
+    return named;
+}
+
+/// How many lines below heads of results, from the first one, have numbers under two of these heads at least. A line named like a
+/// statement, but for the value, is that statement, and none of a point.
+std::size_t points_below(const SheetView& sheet, const std::vector<SheetView::Row>& below,
+                         const std::map<std::uint32_t, Statement>& columns) {
+    const auto is_point = [&](const SheetView::Row& row) {
+        const auto numbers = std::count_if(columns.begin(), columns.end(), [&](const auto& column) {
+            const Cell* cell = cell_in(row, column.first);
+            return cell != nullptr && sheet.number_with_unit(*cell).has_value();
+        });
+        const std::optional<NamedLine> line = name_of_line(sheet, row, nullptr);
+        return numbers > 1 && (!line || line->named.statement == Statement::value);
+    };
+    return static_cast<std::size_t>(std::find_if_not(below.begin(), below.end(), is_point) - below.begin());
+}
+
+}  // namespace
+
+std::size_t take_results_below(const SheetView& sheet, const SheetView::Row& heads,
+                               const std::vector<SheetView::Row>& below, Statements& statements,
+                               std::vector<Sentence>& not_read) {
     std::map<std::uint32_t, Statement> columns;
     std::map<std::uint32_t, std::string> units;
     std::optional<std::uint32_t> of_units;
@@ -801,9 +831,9 @@ bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, con
             continue;
         }
         if (sheet.value(*cell).kind != CellKind::text || sheet.number_with_unit(*cell)) {
-            return false;
+            return 0;
         }
-        const std::optional<NamedStatement> named = named_statement(held);
+        const std::optional<NamedStatement> named = named_head(held);
         if (column_of(held) == Column::unit) {
             of_units = cell->address.column;
         }
@@ -817,22 +847,19 @@ bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, con
     }
     const bool has_uncertainty = different.contains(Statement::u_c) || different.contains(Statement::U);
     if (different.size() < 2 || different.size() != columns.size() || !has_uncertainty) {
-        return false;
+        return 0;
     }
-    std::vector<const SheetView::Row*> with_numbers;
-    for (const SheetView::Row& row : below) {
-        const bool has_number = std::any_of(columns.begin(), columns.end(), [&](const auto& column) {
-            const Cell* cell = cell_in(row, column.first);
-            return cell != nullptr && sheet.number_with_unit(*cell);
-        });
-        if (has_number) {
-            with_numbers.push_back(&row);
-        }
+    const std::size_t points = points_below(sheet, below, columns);
+    if (points > 1) {
+        not_read.push_back(
+            say("{cell}: results of several points stand below each other, and none of them is used; which one is "
+                "the table above of?",
+                sheet.place(heads.front()->address)));
     }
-    if (with_numbers.size() != 1) {
-        return !with_numbers.empty();  // of several points nobody knows which one the table is of
+    if (points != 1) {
+        return points;
     }
-    const SheetView::Row& row = *with_numbers.front();
+    const SheetView::Row& row = below.front();
     const Cell* unit_cell = of_units ? cell_in(row, *of_units) : nullptr;
     for (const auto& [column, statement] : columns) {
         const Cell* cell = cell_in(row, column);
@@ -852,7 +879,7 @@ bool take_results_below(const SheetView& sheet, const SheetView::Row& heads, con
         statements.coverage = coverage;
         statements.coverage_place = sheet.place(row.front()->address);
     }
-    return true;
+    return points;
 }
 
 void state_coverage(AuditedBudget& budget) {

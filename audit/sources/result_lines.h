@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -60,10 +61,10 @@ using NumbersUnderHeads = std::map<Column, const workbook::Cell*>;
 
 /// Takes results that stand beside each other below a line of their names, "u_c | k | U".
 /// \param below  the lines that follow without an empty one
-/// \return whether the lines are such results; those of several points are, and nothing is taken of them
-[[nodiscard]] bool take_results_below(const SheetView& sheet, const SheetView::Row& heads,
-                                      const std::vector<SheetView::Row>& below, Statements& statements,
-                                      std::vector<Sentence>& not_read);
+/// \return how many of the lines are such results, from the first one; of several points nothing is taken, and that is said
+[[nodiscard]] std::size_t take_results_below(const SheetView& sheet, const SheetView::Row& heads,
+                                             const std::vector<SheetView::Row>& below, Statements& statements,
+                                             std::vector<Sentence>& not_read);
 
 /// A number of a cell as a statement has it; nothing where it has none, or one whose decimal sign nobody can know.
 [[nodiscard]] std::optional<StatedResult> result_in(const SheetView& sheet, const workbook::Cell& cell,

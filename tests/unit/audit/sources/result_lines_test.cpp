@@ -230,6 +230,49 @@ TEST(ResultLines, StandBehindEachOtherInALineOfAnyLength) {
     }
 }
 
+TEST(ResultLines, BesideEachOtherEndWhereALineStatesSomethingElse) {
+    for (const char* const heads : {",u_c,k,U", ",u_c / mV,k,U / mV", ",u_c (mV),k,U (mV)", ",u_c [mV],k,U [mV]"}) {
+        for (const char* const between : {"", "\n"}) {
+            const ForeignTables tables =
+                tables_with(k_voltage + "\n" + heads + "\nResult,0.19,2,0.37\n" + between +
+                            "Lower limit,,,,-1,mV\nUpper limit,,,,1,mV\nError,,,,1.9,mV\nVerdict,pass\n");
+            SCOPED_TRACE(std::string(heads) + between);
+            ASSERT_EQ(tables.budgets.size(), 1U);
+            const AuditedBudget& budget = tables.budgets[0];
+            EXPECT_EQ(budget.rows.size(), 3U);
+            ASSERT_TRUE(budget.claims.u_c && budget.claims.k && budget.claims.U && budget.claims.value);
+            EXPECT_EQ(budget.claims.u_c->value, 0.19);
+            EXPECT_EQ(budget.claims.k->value, 2.0);
+            EXPECT_EQ(budget.claims.U->value, 0.37);
+            EXPECT_EQ(budget.claims.value->value, 1.9);
+            EXPECT_EQ(budget.limits.lower, -1.0);
+            EXPECT_EQ(budget.limits.upper, 1.0);
+            EXPECT_EQ(budget.claims.verdict, "pass");
+            EXPECT_EQ(told(tables.not_read), "");
+        }
+    }
+    const ForeignTables nameless = tables_with(k_voltage + "\nu_c,k,U\n0.19,2,0.37\nTolerance,1.0,mV\nError,0.8,mV\n");
+    ASSERT_EQ(nameless.budgets.size(), 1U);
+    ASSERT_TRUE(nameless.budgets[0].claims.U && nameless.budgets[0].claims.value);
+    EXPECT_EQ(nameless.budgets[0].claims.U->value, 0.37);
+    EXPECT_EQ(nameless.budgets[0].claims.value->value, 0.8);
+    EXPECT_EQ(nameless.budgets[0].limits.upper, 1.0);
+}
+
+TEST(ResultLines, OfSeveralPointsAreToldAndNotUsed) {
+    const ForeignTables tables =
+        tables_with(k_voltage +
+                    "Combined standard uncertainty,,,0.187\nExpanded uncertainty (k = 2),,,0.37\n\n"
+                    "Point,Value,U,k\n1 V,1.0001,0.37,2\n10 V,10.0003,0.45,2\nLower limit,-1,mV\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const AuditedBudget& budget = tables.budgets[0];
+    ASSERT_TRUE(budget.claims.U);
+    EXPECT_EQ(budget.claims.U->value, 0.37);
+    EXPECT_FALSE(budget.claims.value);
+    EXPECT_EQ(budget.limits.lower, -1.0);
+    EXPECT_NE(told(tables.not_read).find("results of several points"), std::string::npos) << told(tables.not_read);
+}
+
 TEST(ResultLines, MayBeRelativeBesideOnesUnderAHead) {
     const std::string table =
         "Quantity,Value,u / mV,c,Contribution / mV\nReference,10,0.30,1,0.30\nResolution,0,0.20,1,0.20\n"
