@@ -87,6 +87,10 @@ public:
         if (!read.type_a && (read.shape_text == "A" || read.shape_text == "B")) {
             read.type_a = read.shape_text == "A";
         }
+        const bool is_a = is_marked(heads_.marks_a), is_b = is_marked(heads_.marks_b);
+        if (!read.type_a && is_a != is_b) {
+            read.type_a = is_a;
+        }
         if (const std::optional<double> k = k_of_distribution(read.shape_text);
             k && read.stated && !read.divisor && !read.u && !read.contribution) {
             read.divisor = exact_number(*k, read.place);  // "normal (k = 2)" in a table without divisors
@@ -113,6 +117,10 @@ private:
     [[nodiscard]] std::string words(Column column) const {
         const Cell* cell = at(column);
         return cell == nullptr ? "" : sheet_.words(*cell);
+    }
+    [[nodiscard]] bool is_marked(const std::optional<std::uint32_t>& column) const {
+        const Cell* cell = column ? cell_in(row_, *column) : nullptr;
+        return cell != nullptr && !says_nothing(sheet_.words(*cell));
     }
     /// \param unit  that the cell, its head, or a column of units of its own states; else as it was
     [[nodiscard]] std::optional<StatedNumber> number(Column column, std::string& unit) {

@@ -120,7 +120,41 @@ void take_k_for_divisor(const SheetView& sheet, Heads& heads) {
     }
 }
 
-/// Columns of one kind for both types, "u (Type A)" beside "u (Type B)": each row has its number in one of them.
+/// "x", "✓", "yes" in a column of a type.
+bool is_mark(const std::string& text) {
+    constexpr std::ptrdiff_t k_longest = 3;
+    const auto letters = std::count_if(text.begin(), text.end(),
+                                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+    return !says_nothing(text) && letters <= k_longest && text.find_first_of("0123456789") == std::string::npos;
+}
+
+/// Whether columns of both types have marks in the rows below their heads, and no numbers.
+bool have_marks(const SheetView& sheet, const SheetView::Row& heads, std::uint32_t a, std::uint32_t b) {
+    constexpr std::size_t k_most = 2'000;  // rows of a table
+    std::uint32_t last = 0;
+    for (const Cell* head : heads) {
+        last = std::max(last, head->address.row);
+    }
+    std::size_t marks = 0, numbers = 0, looked = 0;
+    for (auto at = sheet.rows().upper_bound(last); at != sheet.rows().end() && looked < k_most; ++at, ++looked) {
+        if (at->first > last + 2) {
+            break;  // two empty lines
+        }
+        last = at->first;
+        for (const std::uint32_t column : {a, b}) {
+            const Cell* cell = cell_in(at->second, column);
+            const std::string held = cell == nullptr ? "" : sheet.words(*cell);
+            if (typed_head(held)) {
+                return marks > numbers;  // those of the next table
+            }
+            numbers += cell != nullptr && sheet.number_with_unit(*cell) ? 1U : 0U;
+            marks += is_mark(held) ? 1U : 0U;
+        }
+    }
+    return marks > numbers;
+}
+
+/// Columns of one kind for both types, "u (Type A)" beside "u (Type B)": each row has its number in one of them, or a mark.
 void take_types_beside(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
     std::map<Column, std::vector<std::pair<TypedHead, const Cell*>>> typed;
     for (const Cell* cell : row) {
@@ -144,6 +178,17 @@ void take_types_beside(const SheetView& sheet, const SheetView::Row& row, Heads&
         if (const auto type = heads.columns.find(Column::type);
             type != heads.columns.end() && is_one_of_them(type->second)) {
             heads.columns.erase(type);
+        }
+        if (have_marks(sheet, row, cells[0].second->address.column, cells[1].second->address.column)) {
+            if (headed != heads.columns.end()) {
+                heads.columns.erase(headed);
+            }
+            for (const auto& [head, cell] : cells) {
+                (head.is_a ? heads.marks_a : heads.marks_b) = cell->address.column;
+                std::erase(heads.second, cell);
+                std::erase(heads.unknown, cell);
+            }
+            continue;
         }
         for (const auto& [head, cell] : cells) {
             (head.is_a ? heads.columns : heads.type_b)[column] = cell->address.column;

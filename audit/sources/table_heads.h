@@ -18,6 +18,7 @@ struct Heads {
     std::map<Column, std::uint32_t> unit_columns;    ///< of columns that have one of their own, to their right
     std::map<Column, std::uint32_t> type_b;          ///< where those of type A have a column of their own beside it
     std::map<std::uint32_t, std::string> all_units;  ///< that heads state, by column of the sheet
+    std::optional<std::uint32_t> marks_a, marks_b;   ///< columns of marks, which say of what type a row is
     std::optional<std::uint32_t> description;    ///< column of words beside a column of symbols, or the other way round
     std::vector<const workbook::Cell*> second;   ///< heads of columns of numbers whose meaning another one has
     std::vector<const workbook::Cell*> unknown;  ///< heads within the table or beside it whose meaning nobody knows

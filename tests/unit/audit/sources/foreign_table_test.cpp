@@ -382,5 +382,22 @@ TEST(BudgetsIn, NamesAColumnThatIsNotRead) {
         << tables.not_read[0].english();
 }
 
+TEST(BudgetsIn, ReadsMarksOfTypes) {
+    const ForeignTables tables = tables_of(
+        "Quantity,Type A,Type B,Contribution / mV\nReadings (ν = 9),x,,0.05\nReference,,x,0.10\n"
+        "Drift of the reference,,x,0.05\nResolution,,x,0.20\n"
+        "Combined standard uncertainty,,,0.235\nExpanded uncertainty (k = 2),,,0.47\n");
+    ASSERT_EQ(tables.budgets.size(), 1U);
+    const AuditedBudget& budget = tables.budgets[0];
+    ASSERT_EQ(budget.rows.size(), 4U);
+    EXPECT_EQ(budget.rows[0].type_a, true);
+    for (std::size_t i = 1; i < budget.rows.size(); ++i) {
+        EXPECT_EQ(budget.rows[i].type_a, false) << i;
+    }
+    ASSERT_TRUE(budget.claims.u_c);
+    EXPECT_EQ(budget.claims.u_c->value, 0.235);
+    EXPECT_TRUE(tables.not_read.empty()) << tables.not_read[0].english();
+}
+
 }  // namespace
 }  // namespace gumcert::audit

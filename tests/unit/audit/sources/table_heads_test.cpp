@@ -43,5 +43,22 @@ TEST(TableHeads, PartTablesBesideEachOther) {
     EXPECT_EQ(parts_of(sheet).size(), 2U);
 }
 
+TEST(TableHeads, OfBothTypesHaveNumbersOrMarks) {
+    const std::string heads = "Quantity,Type A,Type B,Contribution / mV\n";
+    const std::optional<Heads> marks = heads_in(heads + "Readings,x,,0.05\nReference,,✓,0.10\nU,,,0.22\n");
+    ASSERT_TRUE(marks);
+    EXPECT_EQ(marks->columns.size(), 2U);
+    EXPECT_TRUE(marks->type_b.empty());
+    EXPECT_TRUE(marks->marks_a && marks->marks_b);
+    EXPECT_TRUE(marks->unknown.empty());
+    for (const char* const rows : {"Readings,0.05,,\nReference,,0.10,\n", "Readings,0.05,n/a,\nReference,n/a,0.10,\n",
+                                   "Readings,0.05,-,\nReference,-,0.10,\n"}) {
+        const std::optional<Heads> numbers = heads_in(heads + rows);
+        ASSERT_TRUE(numbers) << rows;
+        EXPECT_EQ(numbers->type_b.size(), 1U) << rows;
+        EXPECT_FALSE(numbers->marks_a) << rows;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit
