@@ -124,7 +124,6 @@ constexpr std::array k_column_words = {
     Word{U"uk", Column::u},  // U/k
     Word{U"ui", Column::u},
     Word{U"uxi", Column::u},
-    Word{U"wi", Column::u},  // relative, of ISO 376
     Word{U"ux", Column::u},
     Word{U"standarduncertainty", Column::u},
     Word{U"standarduncertaintyu", Column::u},
@@ -452,6 +451,10 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
@@ -579,7 +582,7 @@ std::string_view without_unit(std::string_view head) {
 }
 
 std::optional<Column> meaning_of_head(std::string_view text) {
-    if (text == "u" || text == "w") {  // w is a relative u (ISO 376)
+    if (text == "u") {
         return Column::u;
     }
     if (text == "U" || text == "±" || text == "+/-") {
@@ -637,6 +640,11 @@ std::string point_in_head(std::string_view head) {
     return point_of(head).text;
 }
 
+bool is_relative_symbol(std::string_view head) {
+    const std::string_view symbol = trimmed(without_brackets(without_unit(trimmed(head))));
+    return is_one_of(symbol, {"w", "w_i", "wi", "w(xi)", "w(x_i)"});
+}
+
 std::optional<Column> relative_column_of(std::string_view head) {
     head = trimmed(head);
     const std::optional<gum::Unit> unit = known_unit(unit_in_head(std::string(head)));
@@ -649,7 +657,7 @@ std::optional<Column> relative_column_of(std::string_view head) {
             return column_of(head.substr(word.size()));
         }
     }
-    return std::nullopt;
+    return is_relative_symbol(head) ? std::optional(Column::u) : std::nullopt;
 }
 
 std::optional<Column> column_of(std::string_view head) {
@@ -717,10 +725,6 @@ std::optional<Column> column_of(std::string_view head) {
 }
 
 namespace {
-
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 /// What is said of coverage as one of U: k above those of u_c, or a probability above 68 %.
 bool is_of_expanded(const CoverageText& coverage) {

@@ -34,6 +34,8 @@ inline constexpr int k_columns = 13;
 /// The column of relative uncertainties that a head names, with the unit of a part: "Relative standard uncertainty (%)", "rel.
 /// Standardunsicherheit in ppm". Without such a unit, a part of a value would be taken for the value's own unit.
 [[nodiscard]] std::optional<Column> relative_column_of(std::string_view head);
+/// Whether a head is the symbol of a relative u of ISO 376, "w", "w_i / %". Weights have it as well.
+[[nodiscard]] bool is_relative_symbol(std::string_view head);
 
 /// A column of the uncertainties of one type: "u (Type A)", "Standard uncertainty (B) %", "Type A (%)".
 struct TypedHead {

@@ -57,6 +57,22 @@ void keep_unknown_of_table(Heads& heads, const SheetView::Row& row) {
     });
 }
 
+/// The unit of the first number below a head, in its cell or in the column of units; "" where it has none.
+std::string unit_below(const SheetView& sheet, const SheetView::Row& row, const Heads& heads, const Cell& head) {
+    constexpr std::size_t k_most = 3;  // lines without a number
+    auto at = sheet.rows().upper_bound(row.back()->address.row);
+    for (std::size_t looked = 0; at != sheet.rows().end() && looked < k_most; ++at, ++looked) {
+        const Cell* cell = cell_in(at->second, head.address.column);
+        const std::optional<NumberWithUnit> number = cell == nullptr ? std::nullopt : sheet.number_with_unit(*cell);
+        if (number) {
+            const auto units = heads.columns.find(Column::unit);
+            const Cell* of_row = units == heads.columns.end() ? nullptr : cell_in(at->second, units->second);
+            return number->unit.empty() && of_row != nullptr ? sheet.words(*of_row) : number->unit;
+        }
+    }
+    return "";
+}
+
 /// What is taken for a head where no other one is: relative uncertainties in place of u, and the first column of the table as
 /// its quantities, where u or contributions and what they come from are headed beside it.
 void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
@@ -67,14 +83,21 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
         heads.all_units[cell->address.column] = unit;
         std::erase(heads.unknown, cell);
     };
-    if (!has(Column::u) && !has(Column::contribution)) {
-        const std::vector<const Cell*> unknown = heads.unknown;
-        for (const Cell* cell : unknown) {
-            const std::string held = sheet.words(*cell);
-            const std::optional<Column> column = relative_column_of(held);
-            if (column && (*column == Column::u || *column == Column::contribution) && !has(*column)) {
-                take(*column, cell, unit_in_head(held));
-            }
+    // A relative u beside contributions in percent; weights stand beside those in the unit of the result.
+    const bool may_be_relative = !has(Column::contribution) || is_unit_of_part(heads.units.at(Column::contribution));
+    const bool has_contribution = has(Column::contribution);
+    const std::vector<const Cell*> unknown =
+        has(Column::u) ? std::vector<const Cell*>() : std::vector<const Cell*>(heads.unknown);
+    for (const Cell* cell : unknown) {
+        const std::string held = sheet.words(*cell);
+        const std::optional<Column> column = relative_column_of(held);
+        const bool is_symbol = is_relative_symbol(held);
+        if (column && (*column == Column::u || *column == Column::contribution) && !has(*column) &&
+            (is_symbol ? may_be_relative : !has_contribution)) {
+            take(*column, cell, unit_in_head(held));
+        } else if (is_symbol && !has(Column::u) && !has_contribution &&
+                   is_unit_of_part(unit_below(sheet, row, heads, *cell))) {
+            take(Column::u, cell, "");
         }
     }
     const bool is_budget = (has(Column::u) || has(Column::contribution)) &&

@@ -108,5 +108,15 @@ TEST(CertificateIn, IsNamedByItsNumber) {
     }
 }
 
+TEST(RelativeColumnOf, KnowsTheSymbolsOfIso376) {
+    for (const char* const head : {"w / %", "w (%)", "w_i [ppm]", "w(x_i) / %", "Relative standard uncertainty (%)"}) {
+        EXPECT_EQ(relative_column_of(head), Column::u) << head;
+        EXPECT_EQ(column_of(head), std::nullopt) << head;
+    }
+    for (const char* const head : {"w", "w / mm", "W / %", "weight / %"}) {
+        EXPECT_EQ(relative_column_of(head), std::nullopt) << head;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -399,5 +399,18 @@ TEST(BudgetsIn, ReadsMarksOfTypes) {
     EXPECT_TRUE(tables.not_read.empty()) << tables.not_read[0].english();
 }
 
+TEST(BudgetsIn, ReadsUBesideWeights) {
+    for (const char* const symbol : {"w", "w_i"}) {
+        const ForeignTables tables = tables_of("Quantity,Half-width / µm," + std::string(symbol) +
+                                               ",u / µm\nStandard,0.6,0.5,0.30\nResolution,0.2,0.58,0.12\n"
+                                               "Repeatability,0.1,1,0.10\nu_c,,,0.34\nU (k = 2),,,0.68\n");
+        ASSERT_EQ(tables.budgets.size(), 1U) << symbol;
+        ASSERT_EQ(tables.budgets[0].rows.size(), 3U) << symbol;
+        EXPECT_DOUBLE_EQ(tables.budgets[0].rows[0].used_u, 0.3) << symbol;
+        ASSERT_TRUE(tables.budgets[0].claims.u_c) << symbol;
+        EXPECT_EQ(tables.budgets[0].claims.u_c->value, 0.34) << symbol;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit

@@ -60,5 +60,23 @@ TEST(TableHeads, OfBothTypesHaveNumbersOrMarks) {
     }
 }
 
+TEST(TableHeads, TakeARelativeSymbolWhereNoOtherUIs) {
+    const std::optional<Heads> weights = heads_in("Quantity,Half-width / µm,w,u / µm\nStandard,0.6,0.5,0.30\n");
+    ASSERT_TRUE(weights);
+    EXPECT_EQ(weights->columns.at(Column::u), weights->columns.at(Column::stated) + 2);
+    EXPECT_EQ(weights->unknown.size(), 1U);
+    const std::optional<Heads> beside = heads_in("Quantity,w_i / %,c,Contribution / µm\nStandard,50,1,0.30\n");
+    ASSERT_TRUE(beside);
+    EXPECT_FALSE(beside->columns.contains(Column::u));
+    for (const char* const table :
+         {"Quantity,w / %,c\nForce,0.02,1\n", "Quantity,w_i (%),c\nForce,0.02,1\n", "Quantity,w,c\nForce,0.02 %,1\n",
+          "Quantity,w,unit,c\nForce,0.02,%,1\n", "Quantity,w / %,c,Contribution / %\nForce,0.02,1,0.02\n"}) {
+        const std::optional<Heads> relative = heads_in(table);
+        ASSERT_TRUE(relative) << table;
+        EXPECT_EQ(relative->columns.at(Column::u), 2U) << table;
+    }
+    EXPECT_FALSE(heads_in("Quantity,w,c\nForce,0.5,1\n")) << "nobody knows of what it is a part";
+}
+
 }  // namespace
 }  // namespace gumcert::audit
