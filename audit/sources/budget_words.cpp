@@ -998,11 +998,13 @@ SumName sum_name(std::string_view name) {
         }
     }
     bool has_sum = false, has_type = false, has_letter = false, has_others = false, has_squares = false,
-         has_root = false, has_variance = false, is_of_type = false;
+         has_root = false, has_variance = false, has_square = false, is_of_type = false;
+    std::string_view last;
     for (std::size_t at = 0; at < lower.size();) {
         const std::size_t end = std::min(lower.find_first_of(" :,;()/-", at), lower.size());
         const std::string_view word = std::string_view(lower).substr(at, end - at);
         at = end + 1;
+        last = word.empty() ? last : word;
         if (is_one_of(word, {"sum", "summation", "summe", "suma", "total", "gesamt", "insgesamt", "combined",
                              "kombiniert", "rss", "intermediate", "合計", "合计"})) {
             has_sum = true;
@@ -1018,9 +1020,10 @@ SumName sum_name(std::string_view name) {
             has_squares = has_sum = true;
         } else if (is_one_of(word, {"root", "wurzel", "raíz"})) {
             has_root = true;
-        } else if (is_one_of(word, {"variance", "variances", "varianz", "varianzen", "u²", "u_c²", "uc²", "u_c^2",
-                                    "uc^2", "u^2"})) {
+        } else if (is_one_of(word, {"variance", "variances", "varianz", "varianzen"})) {
             has_variance = true;
+        } else if (is_one_of(word, {"u²", "u_c²", "uc²", "u_c^2", "uc^2", "u^2"})) {
+            has_square = true;
         } else if (!word.empty() && !is_one_of(word, {"uncertainty",
                                                       "uncertainties",
                                                       "unsicherheit",
@@ -1050,7 +1053,9 @@ SumName sum_name(std::string_view name) {
             has_others = true;
         }
     }
-    if (!has_others && !has_root && ((has_sum && has_squares) || has_variance)) {
+    // "Variance of the standard" may be a contribution.
+    const bool is_of_one = !has_sum && is_one_of(last, {"standard", "contribution", "component"});
+    if (!has_others && !has_root && ((has_sum && has_squares) || has_square || (has_variance && !is_of_one))) {
         return SumName::of_squares;
     }
     if (has_others) {

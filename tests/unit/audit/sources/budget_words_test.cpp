@@ -118,5 +118,15 @@ TEST(RelativeColumnOf, KnowsTheSymbolsOfIso376) {
     }
 }
 
+TEST(SumNameOf, TellsSumsOfSquaresFromTheVarianceOfOneThing) {
+    for (const char* const name : {"Sum of squares", "u_c²", "u²", "Variance", "Combined variance", "Sum of variances",
+                                   "Variance of the result", "Sum of the variances of the components"}) {
+        EXPECT_EQ(sum_name(name), SumName::of_squares) << name;
+    }
+    for (const char* const name : {"Variance of the standard", "Variance of the balance", "Varianz des Normals"}) {
+        EXPECT_EQ(sum_name(name), SumName::none) << name;
+    }
+}
+
 }  // namespace
 }  // namespace gumcert::audit
