@@ -50,9 +50,8 @@ TEST_F(TableSumsTest, AreRootsOfSumsOfSquares) {
         EXPECT_EQ(others.has_value(), i > 0);
         EXPECT_NEAR(others ? others->high : 0.0, before, 1e-9);
     }
-    StatedResult in_volt = result_of(1.0, 0.0);
-    in_volt.unit = "V";
-    EXPECT_FALSE(sums().sum_above(in_volt)) << "rows in mg have no sum in V";
+    rows_.front().unit = "V";
+    EXPECT_FALSE(sums().sum_above(result_of(1.0, 0.0))) << "a row in V has no use of its u in mg";
 }
 
 TEST_F(TableSumsTest, AreHeldAgainstWhatIsStated) {
