@@ -1637,7 +1637,8 @@ private:
             }
         }
         const std::optional<Eigen::Vector3d> place = place_of_reflector(m, stations, found);
-        if (!place ||
+        // Without one place it is no coordinate but a reflector that moves: the tests of groups name it, with a result.
+        if (place &&
             (*place - measurement_.fixture.row(static_cast<Eigen::Index>(m)).transpose()).norm() > k_least_way) {
             refuse_coordinates(m, place);
         }
@@ -1654,7 +1655,7 @@ private:
             "GC-ADJUST-0013", "fixture, reflector " + measurement_.reflectors[m], what,
             "a reflector stands in the fixture where its coordinates say",
             "compare its coordinates with the report of the CMM, digit by digit and with their signs, and see whether "
-            "its name in the lengths is that of another point",
+            "its name in the lengths is that of another point and whether it was moved",
             gum::Severity::error});
     }
     [[nodiscard]] static std::string coordinate(double value) {

@@ -179,6 +179,7 @@ TEST(PlantedBlunders, AWrongCoordinateOfAReflectorIsTold) {
         const std::size_t at = message.find(before);
         ASSERT_NE(at, std::string::npos) << message;
         EXPECT_NEAR(std::stod(message.substr(at + before.size())), way * 1e3, 0.3) << message;
+        EXPECT_NE(message.find("and whether it was moved"), std::string::npos) << message;
     }
 }
 
@@ -516,6 +517,22 @@ TEST(PlantedBlunders, AReflectorThatStandsElsewhereInAPartOfTheTurnIsNamed) {
         EXPECT_EQ(first.angle, planted.angle) << seed << ", " << planted.size;
         EXPECT_EQ(first.last_angle, planted.last_angle) << seed << ", " << planted.size;
     }
+}
+
+/// By millimetres, and told with a result: its coordinates are right where it stands for the rest of the turn.
+TEST(PlantedBlunders, AReflectorThatGivesWayByMillimetresIsNoWrongCoordinate) {
+    const synthetic::Campaign sound = synthetic::sound_campaign(1, 12, false, true);
+    RotaryTableMeasurement m = sound.measurement;
+    for (LengthObservation& length : m.lengths) {
+        if (length.reflector == 2 && length.angle >= 3 && length.angle <= 9) {
+            synthetic::planting::move_reflector(m, length, sound, Eigen::Vector3d(1e-3, -2e-3, 1.5e-3));
+        }
+    }
+    std::optional<RotaryTableSolution> solution;
+    ASSERT_NO_THROW(solution = evaluated(m));
+    EXPECT_TRUE(warns(*solution));
+    EXPECT_TRUE(first_group(*solution).suspicious);
+    EXPECT_EQ(first_group(*solution).reflector, 2U);
 }
 
 /// Nor are pairs, dead paths or the fixture accused of a reflector that was touched once.
