@@ -1562,7 +1562,8 @@ private:
                 fits = std::move(found);
             }
         }
-        if (!wrong) {
+        // Three points and their mirror image have the same distances: of four the other sense leaves one that fits nowhere.
+        if (!wrong || cause_of(stations.front(), misfits[stations.front()], std::nullopt)) {
             return;
         }
         refuse_coordinates(*wrong, place_of_reflector(*wrong, stations, fits));

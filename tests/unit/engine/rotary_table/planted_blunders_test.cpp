@@ -208,6 +208,22 @@ TEST(PlantedBlunders, ATableThatTurnsTheOtherWayIsTold) {
     }
 }
 
+// Three of four reflectors fit their mirror image: the sense was told as wrong coordinates of the fourth.
+TEST(PlantedBlunders, ATableWithFourReflectorsThatTurnsTheOtherWayIsTold) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        synthetic::CampaignPlan plan;
+        plan.angles_deg = synthetic::full_turn(12);
+        plan.reflectors.resize(4);
+        plan.seed = seed;
+        RotaryTableMeasurement m = simulate(plan).measurement;
+        for (LengthObservation& length : m.lengths) {
+            length.angle = (m.angles.size() - length.angle) % m.angles.size();
+        }
+        const std::string message = refusal(m);
+        EXPECT_EQ(message.find("lengths — the distances agree with a table that turns the other way"), 0U) << message;
+    }
+}
+
 TEST(PlantedBlunders, StationsThatAreInterchangedInAPassAreTold) {
     synthetic::CampaignPlan plan;
     plan.angles_deg = synthetic::full_turn(24);
