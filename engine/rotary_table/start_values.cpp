@@ -1061,9 +1061,9 @@ public:
 
     /// Whether a station fits its distances worse than error motions let any fit. The table is the same for all: what
     /// one of them leaves beyond ten times the median of all is no motion of it.
-    [[nodiscard]] static bool is_suspicious(double misfit, std::vector<double> misfits) {
-        return misfit > k_good_misfit ||
-               (misfit > k_least_suspicious && misfit > k_worse_than_others * median(misfits));
+    /// \param limit  [m], of any table
+    [[nodiscard]] static bool is_suspicious(double misfit, std::vector<double> misfits, double limit = k_good_misfit) {
+        return misfit > limit || (misfit > k_least_suspicious && misfit > k_worse_than_others * median(misfits));
     }
 
     enum class Asked { suspicious, all };
@@ -1095,8 +1095,10 @@ public:
         std::vector<std::optional<LabelHypothesis>> causes(misfits.size());
         std::vector<gum::Diagnostic> problems;
         std::optional<LabelHypothesis> known;  // what one station has is likely what all have
+        // All labels take a while: a rough table, whose stations are all alike, has a result and does not wait for them.
+        const double limit = asked == Asked::all ? k_good_misfit : k_wrong_labels;
         for (std::size_t j = 0; j < misfits.size(); ++j) {
-            const bool suspicious = is_suspicious(misfits[j], misfits);
+            const bool suspicious = is_suspicious(misfits[j], misfits, limit);
             if (suspicious || asked == Asked::all) {
                 causes[j] = cause_of(j, misfits[j], known);
                 if (!causes[j] && suspicious) {
