@@ -1115,10 +1115,23 @@ private:
         for (std::size_t k = 1; k < order.size(); ++k) {
             const Visit& before = visits[order[k - 1]];
             const Visit& visit = visits[order[k]];
-            if ((before.station != visit.station || before.pass != visit.pass) &&
-                starts.size() < k_most_fixture_places) {
+            if (before.station != visit.station || before.pass != visit.pass) {
                 starts.push_back(k);
             }
+        }
+        if (starts.empty()) {
+            return std::nullopt;
+        }
+        if (starts.size() > k_most_fixture_places) {
+            std::vector<std::size_t> spread;  // evenly over all of them
+            for (std::size_t k = 0; k < k_most_fixture_places; ++k) {
+                spread.push_back(starts[k * (starts.size() - 1) / (k_most_fixture_places - 1)]);
+            }
+            starts = std::move(spread);
+        }
+        std::size_t widest = std::max(starts.front(), order.size() - starts.back());
+        for (std::size_t k = 1; k < starts.size(); ++k) {
+            widest = std::max(widest, starts[k] - starts[k - 1]);
         }
         std::optional<GroupTest> best;
         std::size_t from = 0;
@@ -1137,8 +1150,7 @@ private:
         if (!best) {
             return std::nullopt;
         }
-        for (std::size_t step = std::max<std::size_t>(1, order.size() / std::max<std::size_t>(starts.size(), 1) / 2);
-             best->suspicious && step > 0; step /= 2) {
+        for (std::size_t step = widest; best->suspicious && step > 0; step /= 2) {
             const std::size_t middle = from;
             for (const bool later : {false, true}) {
                 if (later ? middle + step < order.size() : middle > step) {

@@ -594,6 +594,27 @@ TEST(PlantedBlunders, AFixtureThatIsMovedOnTheTableIsNamed) {
     }
 }
 
+/// Beyond the first forty passes too: they are looked at evenly.
+TEST(PlantedBlunders, AFixtureThatIsMovedLateInManyPassesIsNamed) {
+    synthetic::CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(8);
+    plan.runs = 9;
+    const synthetic::Campaign sound = simulate(plan);
+    RotaryTableMeasurement m = sound.measurement;
+    m.estimate_length_noise = true;
+    for (LengthObservation& length : m.lengths) {
+        if (length.station == 5) {
+            synthetic::planting::move_reflector(m, length, sound, Eigen::Vector3d(0.0, 6e-6, 8e-6));
+        }
+    }
+    const RotaryTableSolution solution = evaluated(m);
+    const GroupTest& first = first_group(solution);
+    EXPECT_TRUE(first.suspicious);
+    EXPECT_EQ(first.kind, GroupKind::fixture_place);
+    EXPECT_EQ(first.station, 5U);
+    EXPECT_EQ(first.angle, 0U);
+}
+
 /// One factor on the distances of a station, as of a wrong refractive index: neither its pairs nor the fixture are accused.
 TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
     for (const double size : {20e-6, -100e-6, 270e-6}) {
