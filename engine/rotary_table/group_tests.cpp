@@ -1163,6 +1163,15 @@ private:
     }
     [[nodiscard]] Visits::Effect fixture_place_effect(const std::vector<std::size_t>& order, std::size_t from) const {
         const double lever = reflectors_about_their_centre().rowwise().norm().mean();
+        // Poses turn about the origin of the table. The fixture turns about its middle: where the CMM has the origin of its
+        // coordinates says nothing of what is seen of a motion, nor of its size.
+        const RigidMotion& set_up = adjustment_.set_up();
+        const Eigen::Vector3d centre = set_up.rotation.transpose() * set_up.translation +
+                                       adjustment_.measurement().fixture.colwise().mean().transpose();
+        Eigen::Matrix3d across_centre;  // times a turn: centre × turn
+        for (int c = 0; c < 3; ++c) {
+            across_centre.col(c) = centre.cross(Eigen::Vector3d::Unit(c));
+        }
         Visits::Effect effect(visits_.size());
         for (std::size_t k = from; k < order.size(); ++k) {
             const std::size_t g = order[k];
@@ -1171,7 +1180,8 @@ private:
             effect[g].resize(poses_[g].rows(), 6);
             effect[g].leftCols(3) = poses_[g].leftCols<3>() * table_from_fixture;
             // A turn of 1/lever moves the reflectors by about 1: metres and radians count alike in the rank.
-            effect[g].rightCols(3) = poses_[g].rightCols<3>() * table_from_fixture / lever;
+            effect[g].rightCols(3) =
+                (poses_[g].rightCols<3>() * table_from_fixture + effect[g].leftCols(3) * across_centre) / lever;
         }
         return effect;
     }
@@ -1187,12 +1197,11 @@ private:
         GroupTest test = judged(GroupKind::fixture_place, projection.weighted.dot(error) / (scale * scale),
                                 inverted.rank, order.size());
         const Eigen::MatrixX3d points = reflectors_about_their_centre();
-        const Eigen::Vector3d centre = adjustment_.measurement().fixture.colwise().mean().transpose();
         const double lever = points.rowwise().norm().mean();
         double squares = 0.0;
         for (Index m = 0; m < points.rows(); ++m) {
             const Eigen::Vector3d turn = error.tail<3>() / lever;
-            squares += (error.head<3>() + turn.cross(points.row(m).transpose() + centre)).squaredNorm();
+            squares += (error.head<3>() + turn.cross(points.row(m).transpose())).squaredNorm();
         }
         test.estimate = std::sqrt(squares / static_cast<double>(points.rows()));
         // Of a motion in the same direction: what the stations take up is hardly seen, and would make a mean of all useless.

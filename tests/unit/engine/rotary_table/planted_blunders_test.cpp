@@ -615,6 +615,28 @@ TEST(PlantedBlunders, AFixtureThatIsMovedLateInManyPassesIsNamed) {
     EXPECT_EQ(first.angle, 0U);
 }
 
+/// A fixture that is turned about its middle has moved by as much wherever the CMM has the origin of its coordinates.
+TEST(PlantedBlunders, TheSizeOfAMovedFixtureIsThatOfAnyOriginOfItsCoordinates) {
+    const synthetic::Campaign sound = synthetic::sound_campaign(1, 12);
+    RotaryTableMeasurement m = sound.measurement;
+    const Eigen::Vector3d centre = m.fixture.colwise().mean().transpose();
+    const Eigen::Vector3d turn(0.5e-4, 1e-4, 1e-4);
+    for (LengthObservation& length : m.lengths) {
+        if (length.station > 2) {
+            const Eigen::Vector3d point = m.fixture.row(static_cast<Eigen::Index>(length.reflector)).transpose();
+            synthetic::planting::move_reflector(m, length, sound, turn.cross(point - centre));
+        }
+    }
+    const double size = first_group(evaluated(m)).estimate;
+    for (const Eigen::Vector3d& origin : {Eigen::Vector3d(0.0, 0.3, 0.0), Eigen::Vector3d(-0.5, 0.0, 0.2)}) {
+        RotaryTableMeasurement other = m;
+        other.fixture.rowwise() += origin.transpose();
+        const RotaryTableSolution solution = evaluated(other);
+        EXPECT_EQ(first_group(solution).kind, GroupKind::fixture_place);
+        EXPECT_NEAR(first_group(solution).estimate / size, 1.0, 0.05) << origin.transpose();
+    }
+}
+
 /// One factor on the distances of a station, as of a wrong refractive index: neither its pairs nor the fixture are accused.
 TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
     for (const double size : {20e-6, -100e-6, 270e-6}) {
