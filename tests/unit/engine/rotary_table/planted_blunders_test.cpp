@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "engine/rotary_table/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
@@ -95,34 +96,33 @@ RotaryTableMeasurement in_both_senses(std::uint64_t seed) {
 // A ratio of units or a scale of one station: a false place fits within some ten micrometres, far below a millimetre, but far
 // above what the other stations leave.
 TEST(PlantedBlunders, AFactorOnTheDistancesOfOneStationIsTold) {
-    for (const double factor : {1.0 / 25.4, 25.4, 0.1, 1.1, 1.01, 0.997}) {
-        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-            RotaryTableMeasurement m = in_both_senses(seed);
-            for (LengthObservation& length : m.lengths) {
-                length.length *= length.station == 1 ? factor : 1.0;
-            }
-            std::string message;
-            try {
-                // A small one that dead paths of each reflector nearly take up is left to the tests of groups.
-                const GroupTest first = first_group(evaluated(m));
-                EXPECT_EQ(first.kind, GroupKind::station_scale) << factor << ", " << seed;
-                EXPECT_TRUE(first.suspicious) << factor << ", " << seed;
-                EXPECT_EQ(first.station, 1U);
-                continue;
-            } catch (const gum::NoResultError& error) {
-                message = error.what();
-            }
-            const std::string told = "lengths, station P2 — the distances agree when they are multiplied by ";
-            ASSERT_EQ(message.find(told), 0U) << factor << ", " << seed << ": " << message;
-            const std::size_t about = message.compare(told.size(), 6, "about ") == 0 ? 6 : 0;
-            EXPECT_NEAR(std::stod(message.substr(told.size() + about)) * factor, 1.0, 3e-3) << message;
+    for (const auto& [factor, seed] : {std::pair{1.0 / 25.4, 1U}, std::pair{25.4, 2U}, std::pair{0.1, 1U},
+                                       std::pair{1.1, 2U}, std::pair{1.01, 1U}, std::pair{0.997, 2U}}) {
+        RotaryTableMeasurement m = in_both_senses(seed);
+        for (LengthObservation& length : m.lengths) {
+            length.length *= length.station == 1 ? factor : 1.0;
         }
+        std::string message;
+        try {
+            // A small one that dead paths of each reflector nearly take up is left to the tests of groups.
+            const GroupTest first = first_group(evaluated(m));
+            EXPECT_EQ(first.kind, GroupKind::station_scale) << factor << ", " << seed;
+            EXPECT_TRUE(first.suspicious) << factor << ", " << seed;
+            EXPECT_EQ(first.station, 1U);
+            continue;
+        } catch (const gum::NoResultError& error) {
+            message = error.what();
+        }
+        const std::string told = "lengths, station P2 — the distances agree when they are multiplied by ";
+        ASSERT_EQ(message.find(told), 0U) << factor << ", " << seed << ": " << message;
+        const std::size_t about = message.compare(told.size(), 6, "about ") == 0 ? 6 : 0;
+        EXPECT_NEAR(std::stod(message.substr(told.size() + about)) * factor, 1.0, 3e-3) << message;
     }
 }
 
 // In one pass, or from some visit on: the others tell the place of the station.
 TEST(PlantedBlunders, ReflectorsInterchangedAtSomeVisitsAreTold) {
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         RotaryTableMeasurement m = in_both_senses(seed);
         std::vector<std::size_t> of_station;
         for (std::size_t i = 0; i < m.lengths.size(); ++i) {
@@ -163,7 +163,7 @@ TEST(PlantedBlunders, OtherLabelsOfOnePassAreTold) {
 
 // A digit or a sign of one coordinate: a false layout was blamed, or distances were left out.
 TEST(PlantedBlunders, AWrongCoordinateOfAReflectorIsTold) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         RotaryTableMeasurement m = in_both_senses(seed);
         const auto row = static_cast<Eigen::Index>(seed % m.reflectors.size());
         const auto column = static_cast<Eigen::Index>(seed % 3);
@@ -570,7 +570,7 @@ TEST(PlantedBlunders, AReflectorThatIsMovedForGoodIsNamed) {
 /// A clamp that gives way between two stations: the table would be told to scatter by what the fixture was moved.
 TEST(PlantedBlunders, AFixtureThatIsMovedOnTheTableIsNamed) {
     for (const double size : {2e-6, 20e-6, 300e-6}) {
-        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
             const synthetic::Campaign sound = synthetic::sound_campaign(seed, 12);
             RotaryTableMeasurement m = sound.measurement;
             synthetic::Noise draw(seed);
@@ -640,7 +640,7 @@ TEST(PlantedBlunders, TheSizeOfAMovedFixtureIsThatOfAnyOriginOfItsCoordinates) {
 /// One factor on the distances of a station, as of a wrong refractive index: neither its pairs nor the fixture are accused.
 TEST(PlantedBlunders, AScaleOfOneStationIsNamed) {
     for (const double size : {20e-6, -100e-6, 270e-6}) {
-        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
             const synthetic::Campaign sound = synthetic::sound_campaign(seed, 12);
             RotaryTableMeasurement m = sound.measurement;
             for (LengthObservation& length : m.lengths) {
