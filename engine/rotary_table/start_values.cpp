@@ -54,6 +54,8 @@ constexpr double k_share_with_right_labels = 0.05;
 // error motion of a sound one is.
 constexpr double k_worse_than_others = 10.0;
 constexpr double k_least_suspicious = 0.02 * gum::k_millimetre;
+// And what no wrong label leaves less of: where a station fits better, a layout that determines nothing fits other labels, too.
+constexpr double k_least_of_labels = 0.005 * gum::k_millimetre;
 // Distances beyond the unknowns that a cause takes: fewer agree with any cause.
 constexpr std::ptrdiff_t k_least_redundancy = 6;
 // Position and set-up of one station.
@@ -1099,7 +1101,7 @@ public:
         const double limit = asked == Asked::all ? k_good_misfit : k_wrong_labels;
         for (std::size_t j = 0; j < misfits.size(); ++j) {
             const bool suspicious = is_suspicious(misfits[j], misfits, limit);
-            if (suspicious || asked == Asked::all) {
+            if (suspicious || (asked == Asked::all && misfits[j] > k_least_of_labels)) {
                 causes[j] = cause_of(j, misfits[j], known);
                 if (!causes[j] && suspicious) {
                     causes[j] = scale_of(j, fits[j]);
