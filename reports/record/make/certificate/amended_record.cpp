@@ -427,10 +427,10 @@ public:
     }
 
     [[nodiscard]] bool has(const std::string& where) const { return places_.contains(where); }
-    /// Whether a place of no point has the same texts here and there, however many tables show it: a table that came or went
-    /// says nothing else of its result.
+    /// Whether a place of no point has the same texts here and there, and in more tables or fewer: a table that came or went
+    /// says nothing else of its result. In as many, texts that were exchanged are other ones.
     [[nodiscard]] bool says_the_same(const TableText& of, const TableTexts& there) const {
-        return point_of_place(of.where).empty() && distinct(of) == there.distinct(of);
+        return point_of_place(of.where).empty() && count(of) != there.count(of) && distinct(of) == there.distinct(of);
     }
     [[nodiscard]] std::optional<std::string> text(const TableText& of, std::size_t nth) const {
         const auto found = texts_.find({of.kind, of.where});
@@ -441,6 +441,10 @@ private:
     std::map<std::pair<std::string, std::string>, std::vector<std::string>> texts_;
     std::set<std::string> places_;
 
+    [[nodiscard]] std::size_t count(const TableText& of) const {
+        const auto found = texts_.find({of.kind, of.where});
+        return found == texts_.end() ? 0 : found->second.size();
+    }
     [[nodiscard]] std::set<std::string> distinct(const TableText& of) const {
         const auto found = texts_.find({of.kind, of.where});
         return found == texts_.end() ? std::set<std::string>()

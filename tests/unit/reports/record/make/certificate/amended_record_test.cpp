@@ -164,6 +164,27 @@ TEST(AmendedRecord, TellsOnceWhatIsSaidOfAResultInTheTablesOfItsGroups) {
     }
 }
 
+// Two titles were exchanged: both tables say another thing now, though no title came or went.
+TEST(AmendedRecord, TellsTitlesThatWereExchanged) {
+    certificate::Certificate earlier = certificate_with_layout();
+    certificate::CertifiedTable second = earlier.tables.front();
+    for (std::string& point : second.argument->printed) {
+        point += "b";
+    }
+    earlier.tables.push_back(second);
+    earlier.tables[0].layout->title = "DC";
+    earlier.tables[1].layout->title = "AC";
+    certificate::Certificate later = earlier;
+    EXPECT_EQ(said(changes_between(earlier, later)), "");
+    std::swap(later.tables[0].layout->title, later.tables[1].layout->title);
+    EXPECT_EQ(said(changes_between(earlier, later)), "title E: DC -> AC\ntitle E: AC -> DC\n");
+    later = earlier;
+    earlier.tables[0].layout->shown.pop_back();
+    later.tables[1].layout->shown.pop_back();
+    EXPECT_EQ(said(changes_between(earlier, later)),
+              "columns E: mark, E -> mark, E, limit(E)\ncolumns E: mark, E, limit(E) -> mark, E\n");
+}
+
 TEST(AmendedRecord, GivesBothEndsOfAUTheirUnit) {
     certificate::Certificate earlier = certificate_with_layout();
     certificate::StandardUsed standard;
