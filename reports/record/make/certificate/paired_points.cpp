@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <type_traits>
+#include <utility>
 
 #include "certificate/point_names.h"
 
@@ -37,7 +39,7 @@ public:
     /// Pairs up those for which this is the same, in their order.
     template <class Key>
     void pair_same(const Key& key_of_before, const Key& key_of_later) {
-        using Value = decltype(key_of_before(*before_.front()));
+        using Value = std::decay_t<decltype(key_of_before(std::declval<const ShownPoint&>()))>;
         std::multimap<Value, const ShownPoint*> left;
         for (const ShownPoint* point : later_) {
             left.emplace(key_of_later(*point), point);
@@ -56,9 +58,13 @@ public:
         std::erase_if(later_, is_paired);
     }
 
-    /// Pairs up those that have half of their texts in common, the most alike first.
+    /// Pairs up those that have half of their texts in common, the most alike first; of too many those of equal number.
     void pair_alike() {
         constexpr std::size_t k_most_compared = 64;  // each with each
+        if (before_.size() > k_most_compared || later_.size() > k_most_compared) {
+            const auto number = [](const ShownPoint& point) { return point.number; };
+            pair_same(number, number);
+        }
         while (!before_.empty() && !later_.empty() && before_.size() <= k_most_compared &&
                later_.size() <= k_most_compared) {
             std::size_t most = 0;

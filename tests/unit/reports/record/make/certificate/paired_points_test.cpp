@@ -82,6 +82,24 @@ TEST(PointsOfBoth, AreOnesWhoseSettingWasCorrected) {
     EXPECT_EQ(points.earlier_as_later("2"), "3") << "what was found is the same";
 }
 
+// A word of all rows was corrected: however many they are, none of them has gone.
+TEST(PointsOfBoth, OfManyRowsAreThoseOfTheirNumbers) {
+    for (const std::size_t count : {std::size_t{3}, std::size_t{70}}) {
+        std::vector<std::string> before, after, found;
+        for (std::size_t i = 0; i < count; ++i) {
+            before.push_back(std::to_string(i) + "0");
+            after.push_back(std::to_string(i) + "5");
+            found.push_back("found " + std::to_string(i));
+        }
+        const Certificate earlier = certificate_of(before);
+        const Certificate later = certificate_of(after);
+        const PointsOfBoth points(earlier, shown(earlier, found), later, shown(later, found));
+        for (std::size_t i = 1; i <= count; ++i) {
+            EXPECT_EQ(points.earlier_as_later(std::to_string(i)), std::to_string(i));
+        }
+    }
+}
+
 TEST(PointsOfBoth, WithPrintedNumbersAreTheirNumbers) {
     const Certificate earlier = certificate_of({"10", "20"});
     const auto stays = [&](const Certificate& later) {
