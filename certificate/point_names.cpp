@@ -73,7 +73,10 @@ PointIdentities identities_of(const std::vector<CertifiedTable>& tables) {
                 }
             }
             for (const CertifiedColumn& column : table.columns) {
-                point.results += column.result + '\n';
+                point.results.insert(column.result);
+            }
+            if (table.columns.empty()) {
+                point.results.emplace();
             }
             // The group and what follows it: a group of one point is a range, and no point.
             point.name = first_parts(point, layout.group.empty() ? 1 : 2);
@@ -82,12 +85,14 @@ PointIdentities identities_of(const std::vector<CertifiedTable>& tables) {
     return points;
 }
 
-/// Names as short as they can be while no two points of the same results have one; with the number where they have.
+/// Names as short as they can be while no two points of one result have one; with the number where they have.
 void tell_apart(PointIdentities& points) {
     const auto count_names = [&] {
         std::map<std::pair<std::string, std::string>, std::size_t> counts;
         for (const auto& [number, point] : points) {
-            ++counts[{point.results, point.name}];
+            for (const std::string& result : point.results) {
+                ++counts[{result, point.name}];
+            }
         }
         return counts;
     };
@@ -98,7 +103,10 @@ void tell_apart(PointIdentities& points) {
     for (std::size_t length = 1; length <= most + 1; ++length) {
         const auto counts = count_names();
         for (auto& [number, point] : points) {
-            if (counts.at({point.results, point.name}) == 1 && !point.name.empty()) {
+            const bool is_one = std::all_of(point.results.begin(), point.results.end(), [&](const std::string& result) {
+                return counts.at({result, point.name}) == 1;
+            });
+            if (is_one && !point.name.empty()) {
                 continue;
             }
             std::string longer = first_parts(point, length);

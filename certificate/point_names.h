@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,11 @@
 
 namespace gumcert::certificate {
 
-/// What a point is, beside what was found at it.
+/// What a point is.
 struct PointIdentity {
     std::vector<std::string> parts;  ///< as they are printed: the group, then cells; a no-break space before a unit
-    std::string results;             ///< which the tables have at it
-    /// As few parts as tell it apart from other points with these results, and its number where none do:
+    std::set<std::string> results;   ///< which the tables have at it
+    /// As few parts as tell it apart from other points with any of these results, and its number where none do:
     /// "100 mV, 50 Hz, 10.0 mV". Without square brackets.
     std::string name;
 };

@@ -51,6 +51,19 @@ TEST(PointNames, EndWithTheNumberWhereNothingElseDiffers) {
     EXPECT_EQ(points.at("3").name, "3") << "what was found says not which point it is";
 }
 
+// A value is called by a result and its point: "E[5 V]" of two tables is two values, whatever else one of them has.
+TEST(PointNames, TellPointsApartThatHaveOneResultInCommon) {
+    std::vector<CertifiedTable> tables = {table_of("", 1, {{"setting", {"5"}}}), table_of("", 2, {{"setting", {"5"}}})};
+    CertifiedColumn other;
+    other.result = "F";
+    tables[1].columns.push_back(other);
+    EXPECT_EQ(identities_of_points(tables).at("1").name, "5\u00A0V, 1");
+    EXPECT_EQ(identities_of_points(tables).at("2").name, "5\u00A0V, 2");
+    tables[1].columns = {other};
+    EXPECT_EQ(identities_of_points(tables).at("1").name, "5\u00A0V") << "no result is in both";
+    EXPECT_EQ(identities_of_points(tables).at("2").name, "5\u00A0V");
+}
+
 TEST(PointNames, AreThoseOfTablesThatShowNoNumbersOfPoints) {
     CertifiedTable table = table_of("", 1, {{"setting", {"5", "[6]"}}});
     EXPECT_TRUE(has_unnamed_points(table));

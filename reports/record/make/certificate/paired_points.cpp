@@ -134,7 +134,7 @@ PointsOfBoth::PointsOfBoth(const Certificate& earlier, const std::vector<ShownPo
             const PointIdentity& one = points.at(point.number);
             std::vector<std::string> key = one.parts;
             if (!key.empty()) {
-                key.push_back(one.results);
+                key.insert(key.end(), one.results.begin(), one.results.end());
             }
             return key;
         };
@@ -143,7 +143,12 @@ PointsOfBoth::PointsOfBoth(const Certificate& earlier, const std::vector<ShownPo
     const auto name_in = [](const PointIdentities& points) -> Key {
         return [&points](const ShownPoint& point) {
             const PointIdentity& one = points.at(point.number);
-            return one.parts.empty() ? std::vector<std::string>() : std::vector<std::string>{one.results, one.name};
+            std::vector<std::string> key;
+            if (!one.parts.empty()) {
+                key.assign(one.results.begin(), one.results.end());
+                key.push_back(one.name);
+            }
+            return key;
         };
     };
     paired.pair_same<Key>(name_in(before), name_in(now));
