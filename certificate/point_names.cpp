@@ -35,8 +35,10 @@ bool is_found(const PointColumn& column) {
     return std::find(k_found.begin(), k_found.end(), column.role) != k_found.end();
 }
 
+enum class Found { left_out, last };
+
 /// Columns that say what a point is, those first that nobody measures.
-std::vector<const PointColumn*> identifying_columns(const TableLayout& layout) {
+std::vector<const PointColumn*> identifying_columns(const TableLayout& layout, Found found) {
     std::vector<const PointColumn*> columns;
     for (const PointColumn& column : layout.columns) {
         if (!is_found(column)) {
@@ -46,17 +48,23 @@ std::vector<const PointColumn*> identifying_columns(const TableLayout& layout) {
     std::stable_partition(columns.begin(), columns.end(), [](const PointColumn* column) {
         return !column->role.empty() && column->role != "reference";
     });
+    for (const PointColumn& column : layout.columns) {
+        if (found == Found::last && is_found(column)) {
+            columns.push_back(&column);
+        }
+    }
     return columns;
 }
 
-PointIdentities identities_of(const std::vector<CertifiedTable>& tables) {
+PointIdentities identities_of(const std::vector<CertifiedTable>& tables, bool (*has)(const CertifiedTable&),
+                              Found found) {
     PointIdentities points;
     for (const CertifiedTable& table : tables) {
-        if (!has_unnamed_points(table)) {
+        if (!has(table)) {
             continue;
         }
         const TableLayout& layout = *table.layout;
-        const std::vector<const PointColumn*> columns = identifying_columns(layout);
+        const std::vector<const PointColumn*> columns = identifying_columns(layout, found);
         for (std::size_t row = 0; row < table.argument->printed.size(); ++row) {
             PointIdentity& point = points[table.argument->printed[row]];
             const auto add = [&](const std::string& part) {
@@ -120,15 +128,25 @@ void tell_apart(PointIdentities& points) {
 
 }  // namespace
 
-bool has_unnamed_points(const CertifiedTable& table) {
+bool hides_points(const CertifiedTable& table) {
     const auto shows_points = [](const ShownColumn& c) { return c.show == "point"; };
     return table.layout && table.argument && table.argument->name == "point" &&
-           std::none_of(table.layout->shown.begin(), table.layout->shown.end(), shows_points) &&
+           std::none_of(table.layout->shown.begin(), table.layout->shown.end(), shows_points);
+}
+
+bool has_unnamed_points(const CertifiedTable& table) {
+    return hides_points(table) &&
            std::all_of(table.argument->printed.begin(), table.argument->printed.end(), is_running_number);
 }
 
 PointIdentities identities_of_points(const std::vector<CertifiedTable>& tables) {
-    PointIdentities points = identities_of(tables);
+    PointIdentities points = identities_of(tables, has_unnamed_points, Found::left_out);
+    tell_apart(points);
+    return points;
+}
+
+PointIdentities identities_of_rows(const std::vector<CertifiedTable>& tables) {
+    PointIdentities points = identities_of(tables, hides_points, Found::last);
     tell_apart(points);
     return points;
 }

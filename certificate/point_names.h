@@ -21,7 +21,13 @@ struct PointIdentity {
 /// Whether points of a table are counted, and the table does not print the numbers.
 [[nodiscard]] bool has_unnamed_points(const CertifiedTable& table);
 
-/// The points of such tables by their numbers.
+/// The points of such tables by their numbers, without what was found at them: that may be another one in an amendment.
 [[nodiscard]] std::map<std::string, PointIdentity> identities_of_points(const std::vector<CertifiedTable>& tables);
+
+/// Whether a table prints no names of its points.
+[[nodiscard]] bool hides_points(const CertifiedTable& table);
+
+/// The points of such tables by their names, for sentences: with what was found at them as last parts.
+[[nodiscard]] std::map<std::string, PointIdentity> identities_of_rows(const std::vector<CertifiedTable>& tables);
 
 }  // namespace gumcert::certificate

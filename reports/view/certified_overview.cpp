@@ -33,14 +33,14 @@ bool is_printed(const CertifiedValue& v) {
 using PointIdentities = std::map<std::string, certificate::PointIdentity>;
 
 /// Rows of one column that a sentence is about.
-/// \param points  those whose numbers nobody sees: they are called by what their rows show
+/// \param points  those whose names nobody sees: they are called by what their rows show
 void name_rows(std::vector<Text>& names, const CertifiedTable& table, const CertifiedColumn& column,
                const CertifiedOverview::Holds& named, const PointIdentities& points, const Wording& words) {
     const Text result = name_of_result(table.id, column.result, words);
-    const bool is_unnamed = certificate::has_unnamed_points(table);
+    const bool is_hidden = certificate::hides_points(table);
     const auto holds = [&](std::size_t row) { return is_printed(column.values[row]) && named(column.values[row]); };
     const auto name = [&](std::size_t row) {
-        const Text point = is_unnamed       ? point_in_words(points.at(table.argument->printed.at(row)).name, words)
+        const Text point = is_hidden        ? point_in_words(points.at(table.argument->printed.at(row)).name, words)
                            : table.argument ? name_of_row(*table.argument, row, words)
                                             : Text();
         return table.argument ? result + "[" + point + "]" : result;
@@ -203,7 +203,7 @@ std::vector<Text> names_of_values(const certificate::Certificate& certificate, c
             }
         }
     }
-    const PointIdentities points = certificate::identities_of_points(certificate.tables);
+    const PointIdentities points = certificate::identities_of_rows(certificate.tables);
     std::vector<Text> names;
     for (const CertifiedTable& table : certificate.tables) {
         for (const CertifiedColumn& column : table.columns) {

@@ -64,6 +64,23 @@ TEST(PointNames, TellPointsApartThatHaveOneResultInCommon) {
     EXPECT_EQ(identities_of_points(tables).at("2").name, "5\u00A0V");
 }
 
+// Sentences call a row by what it shows, whatever its point is called and whoever measured that.
+TEST(PointNames, OfRowsAreAllThatTheyShow) {
+    CertifiedTable table = table_of("", 1, {{"indication", {"7", "8", "8"}}});
+    table.argument->printed[0] = "low";
+    EXPECT_TRUE(hides_points(table));
+    const auto rows = identities_of_rows({table});
+    EXPECT_EQ(rows.at("low").name, "7\u00A0V");
+    EXPECT_EQ(rows.at("2").name, "8\u00A0V, 2");
+    EXPECT_EQ(rows.at("3").name, "8\u00A0V, 3");
+    EXPECT_EQ(identities_of_rows({table_of("", 1, {{"indication", {"7", "8"}}, {"setting", {"5", "5"}}})}).at("1").name,
+              "5\u00A0V, 7\u00A0V")
+        << "what was found comes last";
+    table.layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+    EXPECT_FALSE(hides_points(table));
+    EXPECT_TRUE(identities_of_rows({table}).empty());
+}
+
 TEST(PointNames, AreThoseOfTablesThatShowNoNumbersOfPoints) {
     CertifiedTable table = table_of("", 1, {{"setting", {"5", "[6]"}}});
     EXPECT_TRUE(has_unnamed_points(table));

@@ -78,5 +78,16 @@ TEST(NamesOfValues, AreThoseThatTheTablesPrint) {
     EXPECT_THAT(names_in("en", certificate), ElementsAre("E")) << "all of them";
 }
 
+TEST(NamesOfValues, AreNotTheNamesOfPointsThatNoTablePrints) {
+    Certificate certificate;
+    certificate.tables = {table_of("", 1, {"1", "2", "3"})};
+    CertifiedTable& table = certificate.tables.front();
+    table.argument->printed = {"low", "mid", "high"};
+    table.columns[0].values[2].raised = true;
+    EXPECT_THAT(names_in("en", certificate), ElementsAre("E[3\u00A0V]"));
+    table.layout->shown.push_back({.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+    EXPECT_THAT(names_in("en", certificate), ElementsAre("E[high]"));
+}
+
 }  // namespace
 }  // namespace gumcert::reports
