@@ -1,5 +1,6 @@
 #include "reports/view/certificate_statement_sections.h"
 
+#include "certificate/result_names.h"
 #include "gum/quantity/unit.h"
 #include "reports/deviations.h"
 #include "reports/plots/certified_plots.h"
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -131,14 +133,41 @@ void outside_section(CertificateBuilder& builder, const Wording& words, const Ce
     }
 }
 
-void external_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
-    if (data.external_results.empty()) {
+/// The values that another laboratory provided: by what the tables print, where the data name points of them.
+Text results_of_provider(const certificate::ExternalResults& external, const Certificate& certificate,
+                         const Wording& words) {
+    const bool names_points = std::any_of(external.results.begin(), external.results.end(),
+                                          [](const std::string& name) { return name.ends_with(']'); });
+    if (!names_points) {
+        return Text(joined(external.results));
+    }
+    std::set<const CertifiedValue*> provided;
+    for (const certificate::CertifiedTable& table : certificate.tables) {
+        for (const certificate::CertifiedColumn& column : table.columns) {
+            for (std::size_t row = 0; row < column.values.size(); ++row) {
+                const bool at_points = table.argument && row < table.argument->printed.size();
+                const std::string name = column.result + (at_points ? "[" + table.argument->printed[row] + "]" : "");
+                if (certificate::is_named(external.results, column.result) ||
+                    certificate::is_named(external.results, name)) {
+                    provided.insert(&column.values[row]);
+                }
+            }
+        }
+    }
+    const std::vector<Text> names = names_of_values(
+        certificate, [&](const CertifiedValue& v) { return provided.contains(&v); }, words);
+    return names.empty() ? Text(joined(external.results)) : enumerated(names, words);
+}
+
+void external_section(CertificateBuilder& builder, const Wording& words, const Certificate& certificate) {
+    if (certificate.data.external_results.empty()) {
         return;
     }
     builder.section("external");
-    for (const certificate::ExternalResults& e : data.external_results) {
-        builder.paragraph(words.filled("statement", "external",
-                                       {{"provider", words.localised(e.provider)}, {"results", joined(e.results)}}));
+    for (const certificate::ExternalResults& e : certificate.data.external_results) {
+        builder.paragraph(words.filled(
+            "statement", "external",
+            {{"provider", words.localised(e.provider)}, {"results", results_of_provider(e, certificate, words)}}));
     }
 }
 
@@ -460,7 +489,7 @@ void closing_sections(CertificateBuilder& builder, const Wording& words, const E
     remarks_section(builder, words, certificate.data);
     opinions_section(builder, words, certificate);
     outside_section(builder, words, certificate, overview);
-    external_section(builder, words, certificate.data);
+    external_section(builder, words, certificate);
     amendment_section(builder, words, certificate);
 }
 

@@ -132,6 +132,41 @@ TEST(CertificateStatement, HasTheSectionsInOrder) {
                           "Changes=serial number corrected"));
 }
 
+// By what the table prints, as all sentences do: "E[2]" is the point of a job.
+TEST(CertificateStatement, NamesWhatAnotherLaboratoryProvidedByTheRows) {
+    EvaluationRecord record = test::certified_rotary_record();
+    certificate::CertifiedTable table;
+    table.id = "results";
+    table.argument.emplace().name = "point";
+    table.argument->printed = {"1", "2"};
+    table.argument->values.resize(2);
+    certificate::PointColumn setting;
+    setting.name = setting.role = "setting";
+    setting.printed_unit = "V";
+    setting.printed = {"10", "20"};
+    setting.values = {10.0, 20.0};
+    table.layout.emplace().columns = {setting};
+    certificate::CertifiedColumn column;
+    column.result = "E";
+    column.values.resize(2);
+    for (CertifiedValue& one : column.values) {
+        one.printed_value = "1";
+    }
+    table.columns = {column};
+    record.certificate->tables = {table};
+    const auto sentence = [&](const std::vector<std::string>& results) {
+        record.certificate->data.external_results = {{.results = results, .provider = "Example Partner Laboratory"}};
+        return text_of(sections_of(record, closing_sections), "external");
+    };
+    EXPECT_THAT(sentence({"E[2]"}), HasSubstr("Laboratory: E[20\u00A0V]."));
+    EXPECT_THAT(sentence({"E[1]", "E[2]"}), HasSubstr("Laboratory: E."));
+    EXPECT_THAT(sentence({"E"}), HasSubstr("Laboratory: E."));
+    EXPECT_THAT(sentence({"E[7]"}), HasSubstr("Laboratory: E[7].")) << "what no table has is a finding";
+    record.certificate->tables[0].layout->shown.push_back(
+        {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
+    EXPECT_THAT(sentence({"E[2]"}), HasSubstr("Laboratory: E[2]."));
+}
+
 TEST(CertificateStatement, StatesMethodTraceabilityAndConditions) {
     const json sections = sections_of(test::certified_rotary_record(), method_sections);
     EXPECT_THAT(text_of(sections, "method_used"), HasSubstr("Method=CP-01\nVersion=4\n"));
