@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -606,58 +607,135 @@ private:
         }
     }
 
+    /// The points whose names a cell of their row says, and the same cell of no other row: of two rows of 1 V none is "1".
+    [[nodiscard]] std::set<std::size_t> points_that_are_said(const TableRequest& table) const {
+        std::set<std::size_t> said;
+        for (const ShownColumn& shown_column : table.columns) {
+            const PointColumn* const c = shown_column.show == "column" ? column(shown_column.of) : nullptr;
+            std::map<std::string, std::vector<std::size_t>> rows;  // by their cell
+            for (std::size_t p = 0; c != nullptr && p < c->printed.size(); ++p) {
+                if (holds(table, p)) {
+                    rows[c->printed[p]].push_back(p);
+                }
+            }
+            for (const auto& [cell, points] : rows) {
+                if (points.size() == 1 && says(*c, points.front(), job_.points[points.front()].name)) {
+                    said.insert(points.front());
+                }
+            }
+        }
+        return said;
+    }
+
+    /// What the row of a point shows beside its results, each text once, as certificate/point_names.h has it.
+    [[nodiscard]] std::vector<std::string> cells(const TableRequest& table, std::size_t point) const {
+        std::vector<std::string> texts;
+        const auto add = [&](const std::string& name) {
+            const PointColumn* const c = column(name);
+            if (c == nullptr || point >= c->printed.size() || c->printed[point].empty()) {
+                return;
+            }
+            std::string text = c->printed[point] + "\n" + c->printed_unit;
+            if (std::find(texts.begin(), texts.end(), text) == texts.end()) {
+                texts.push_back(std::move(text));
+            }
+        };
+        add(table.group_by);
+        for (const ShownColumn& c : table.columns) {
+            if (c.show == "column") {
+                add(c.of);
+            }
+        }
+        return texts;
+    }
+
+    [[nodiscard]] static bool shows_points(const TableRequest& table) {
+        return std::any_of(table.columns.begin(), table.columns.end(),
+                           [](const ShownColumn& c) { return c.show == "point"; });
+    }
+
+    /// Points by a result and what their rows show beside the results, in tables that do not show their names.
+    using RowsThatShow = std::map<std::pair<std::string, std::vector<std::string>>, std::set<std::size_t>>;
+    [[nodiscard]] RowsThatShow rows_that_show() const {
+        RowsThatShow rows;
+        for (const TableRequest& table : job_.tables) {
+            for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                if (shows_points(table) || !holds(table, p)) {
+                    continue;
+                }
+                const std::vector<std::string> texts = cells(table, p);
+                for (const ShownColumn& c : table.columns) {
+                    if (c.show == "value") {
+                        rows[{c.of, texts}].insert(p);
+                    }
+                }
+            }
+        }
+        return rows;
+    }
+
+    /// Whether another row shows a result of the table beside the same cells: no sentence tells which of both it means.
+    [[nodiscard]] bool is_like_another(const RowsThatShow& rows, const TableRequest& table, std::size_t point) const {
+        const std::vector<std::string> texts = cells(table, point);
+        return std::any_of(table.columns.begin(), table.columns.end(), [&](const ShownColumn& c) {
+            const auto found = c.show == "value" ? rows.find({c.of, texts}) : rows.end();
+            return found != rows.end() && found->second.size() > 1;
+        });
+    }
+
     /// Sentences name a value by its point ("E[low]"): a table that the program makes shows the names that its rows do not
-    /// say anyway (ISO/IEC 17025:2017, 7.8.6.2 a). Numbers that count the rows are left out until a specification needs
-    /// them. Columns that the job chooses stay as they are, and what a specification needs is told.
+    /// say anyway (ISO/IEC 17025:2017, 7.8.6.2 a). Numbers that count the rows are left out until a specification, or what
+    /// another laboratory provided, needs them. Columns that the job chooses stay as they are, and what is needed is told.
     void name_points() {
+        const RowsThatShow rows = job_.certificate ? rows_that_show() : RowsThatShow();
         for (std::size_t t = 0; t < job_.tables.size(); ++t) {
             TableRequest& table = job_.tables[t];
-            const auto is_point = [](const ShownColumn& c) { return c.show == "point"; };
-            if (std::any_of(table.columns.begin(), table.columns.end(), is_point)) {
+            if (shows_points(table)) {
                 continue;
             }
             const bool is_made = std::find(made_.begin(), made_.end(), t) != made_.end();
+            const std::set<std::size_t> said = points_that_are_said(table);
             bool needed = false;
             std::vector<std::string> alone;
             for (std::size_t p = 0; p < job_.points.size(); ++p) {
+                if (!holds(table, p)) {
+                    continue;
+                }
                 const std::string& name = job_.points[p].name;
-                const bool is_said = !holds(table, p) ||
-                                     std::any_of(table.columns.begin(), table.columns.end(), [&](const ShownColumn& c) {
-                                         const PointColumn* const shown_column =
-                                             c.show == "column" ? column(c.of) : nullptr;
-                                         return shown_column != nullptr && says(*shown_column, p, name);
-                                     });
-                if (!is_said && is_named_alone(p)) {
+                const bool is_said = said.contains(p);
+                if ((!is_said || is_like_another(rows, table, p)) && is_named_alone(p)) {
                     alone.push_back(text::in_quotes(name));
                 }
-                needed = needed || (!is_said && (name != std::to_string(p + 1) || !alone.empty()));
+                needed = needed || !alone.empty() || (!is_said && name != std::to_string(p + 1));
             }
             if (is_made && needed) {
                 table.columns.insert(table.columns.begin(),
                                      {.show = "point", .of = "", .heading = {}, .role = "", .stage = ""});
             } else if (!is_made && !alone.empty()) {
                 problems_.warn(k_warn_point_not_shown, document_.where("/certificate"),
-                               "a specification names a result of the point" +
+                               "the certificate names a result of the point" +
                                    std::string(alone.size() == 1 ? " " : "s ") + text::listed(alone, 5) +
-                                   ", and the table does not say which row that is",
-                               "a certificate says to which results a statement of conformity applies (ISO/IEC "
-                               "17025:2017, 7.8.6.2 a)",
+                                   " alone, and the table does not say which row that is",
+                               "a certificate says to which results a statement of conformity applies, and which ones "
+                               "another laboratory provided (ISO/IEC 17025:2017, 7.8.6.2 a and 7.8.2.1 p)",
                                "add \"point\" to the columns of the table");
             }
         }
     }
 
-    /// Whether a specification names a result of one point, not of all of them.
+    /// Whether a specification, or what another laboratory provided, names a result of one point, not of all of them.
     [[nodiscard]] bool is_named_alone(std::size_t point) const {
         const auto& results = results_[section_of(point)];
-        const auto names = [&](const certificate::AgreedSpecification& s) {
+        const auto names = [&](const auto& statement) {
             return std::any_of(results.begin(), results.end(), [&](const auto& known) {
-                return certificate::is_named(s.results, known.first + "[" + job_.points[point].name + "]") &&
-                       !certificate::is_named(s.results, known.first);
+                return certificate::is_named(statement.results, known.first + "[" + job_.points[point].name + "]") &&
+                       !certificate::is_named(statement.results, known.first);
             });
         };
         return job_.certificate &&
-               std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(), names);
+               (std::any_of(job_.certificate->specifications.begin(), job_.certificate->specifications.end(), names) ||
+                std::any_of(job_.certificate->external_results.begin(), job_.certificate->external_results.end(),
+                            names));
     }
 
     void finish(TableRequest table, const std::string& where) {

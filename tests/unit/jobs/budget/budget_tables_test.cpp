@@ -387,6 +387,54 @@ TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotSay) {
     }
 }
 
+/// A row of 1 V is that of the point "1" only where it is the only one; rows that show the same are told apart by the names.
+TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotTellApart) {
+    struct Case {
+        std::string rows;   ///< V_s and V_x of each, and a mode
+        std::string named;  ///< result of one point
+        bool is_needed;
+    };
+    const std::vector<Case> all = {
+        {"1;1.001;dc\n1;1.001;dc\n2;2.001;dc\n", "E[1]", true},
+        {"1;1.001;dc\n1;1.002;dc\n2;2.001;dc\n", "E[1]", true},
+        {"1;1.001;dc\n2;2.001;dc\n3;3.001;dc\n", "E[1]", false},
+        {"1;1.001;dc\n1;1.001;dc\n2;2.001;dc\n", "E", false},
+        {"1;1.001;dc\n2;2.001;dc\n1;1.001;ac\n", "E[1]", true},  // two tables, told apart by their titles
+        {"1;1.001;dc\n2;2.001;dc\n3;1.001;ac\n", "E[1]", false},
+        {"1;4;dc\n2;2.001;dc\n4;1;ac\n", "E[1]", false},  // the same numbers in other columns
+    };
+    const auto is_told = [](const BudgetJob& job) {
+        return std::any_of(job.warnings.begin(), job.warnings.end(),
+                           [](const gum::Diagnostic& one) { return one.code == k_warn_point_not_shown.code; });
+    };
+    for (const Case& one : all) {
+        SCOPED_TRACE(one.rows + one.named);
+        const test::BudgetFiles files{{"points.csv", "V_s;V_x;mode\n" + one.rows}};
+        std::string keys = k_meter + R"j(, "points": {"file": "points.csv", "columns": {"mode": "text"}})j";
+        keys.replace(keys.find(R"j("unit": "V", "role": "indication")j"), 11, R"j("unit": "V", "u": 0.1)j");
+        const std::string specified = R"j(, "certificate": {"specifications": [{"id": "s", "results": [")j" +
+                                      one.named +
+                                      R"j("], "unit": "mV", "rule": {"id": "DR-01"}, "lower": -1, "upper": 1}]})j";
+        const std::string provided = R"j(, "certificate": {"external_results": [{"provider": "Other", "results": [")j" +
+                                     one.named + R"j("]}]})j";
+        const bool has_modes = one.rows.find("ac") != std::string::npos;
+        for (const std::string& statement : {specified, provided}) {
+            const std::string columns = R"j("columns": ["V_s", "V_x", "E", "U"])j";
+            const auto of_mode = [&](const std::string& mode, const std::string& shown) {
+                return R"j({"where": {"mode": ")j" + mode + "\"}, " + shown + "}";
+            };
+            const std::string own =
+                has_modes ? of_mode("dc", columns) + "," + of_mode("ac", columns) : "{" + columns + "}";
+            EXPECT_EQ(is_told(read_budget(keys + statement + R"j(, "tables": [)j" + own + "]", files)), one.is_needed);
+            if (!has_modes) {
+                const BudgetJob made = read_budget(keys + statement, files);
+                EXPECT_EQ(shown(made.tables.at(0)).front() == "point:", one.is_needed);
+                EXPECT_FALSE(is_told(made));
+            }
+        }
+    }
+}
+
 /// Of a list of accuracies the first that fits is taken: a range that no point has leaves its points to another one.
 TEST(BudgetTables, TellAnAccuracyThatNoPointTakes) {
     const auto accuracy = [](const std::string& entries) {
