@@ -23,6 +23,12 @@ bool has_columns_of_a_row(const AuditedRow& row, bool but_normal = false) {
     return row.stated || row.divisor || row.sensitivity || row.type_a ||
            (!row.shape_text.empty() && !(but_normal && is_normal));
 }
+bool is_amount_alone(const AuditedRow& row) {
+    return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
+}
+bool is_named_as_influence(const AuditedRow& row) {
+    return contributor_of(name_in_words(row), row.comment, row.source) != Contributor::other;
+}
 
 class SumRows {
 public:
@@ -47,9 +53,6 @@ private:
             return;
         }
         drop_squares();
-        const auto is_amount_alone = [](const AuditedRow& row) {
-            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
-        };
         std::size_t end = table_.rows.size(), lines = 0, looks = 0, begin = 0;
         while (end > 0 && is_amount_alone(table_.rows[end - 1])) {
             --end;  // behind it are lines that may be u_c and U
@@ -160,9 +163,6 @@ private:
     [[nodiscard]] bool settle_plain_last_lines() {
         constexpr std::size_t k_least = 2, k_most_results = 3;
         const std::size_t count = table_.rows.size();
-        const auto is_other = [](const AuditedRow& row) {
-            return contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
-        };
         if (count >= k_least + 2 && are_u_and_U(table_.rows[count - 2].quantity, table_.rows[count - 1].quantity)) {
             table_.state(Statement::u_c, table_.amount_of(count - 2));
             table_.state(Statement::U, table_.amount_of(count - 1));
@@ -173,7 +173,7 @@ private:
         for (std::size_t i = count > k_most_results + k_least ? count - k_most_results : k_least; i + 1 < count; ++i) {
             const StatedResult amount = table_.amount_of(i);
             const std::optional<Interval> sum = table_.sum_of_first(amount, i);
-            if (!sum || !as_rounded(amount.number, 1.0).meets(*sum) || !is_other(table_.rows[i])) {
+            if (!sum || !as_rounded(amount.number, 1.0).meets(*sum) || is_named_as_influence(table_.rows[i])) {
                 continue;
             }
             const auto is_U = [&](std::size_t row) {
@@ -183,7 +183,8 @@ private:
                 for (const double k : {2.0, 3.0}) {
                     const StatedNumber &of = amount.number, &by_k = table_.amount_of(row).number;
                     const double step = k * printed_half_step(of) + printed_half_step(by_k) + 1e-9 * std::abs(of.value);
-                    if (is_other(table_.rows[row]) && std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
+                    if (!is_named_as_influence(table_.rows[row]) &&
+                        std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
                         return true;
                     }
                 }
@@ -216,9 +217,6 @@ private:
         settle_divided_result();
         const std::size_t count = table_.rows.size();
         std::size_t first = count;
-        const auto is_amount_alone = [](const AuditedRow& row) {
-            return !has_columns_of_a_row(row, true) && (row.u || row.contribution);
-        };
         while (first > 0 && is_amount_alone(table_.rows[first - 1])) {
             --first;
         }
@@ -261,8 +259,7 @@ private:
     [[nodiscard]] bool have_no_influence(std::size_t from, const Interval& sum) const {
         for (std::size_t i = from; i < table_.rows.size(); ++i) {
             const AuditedRow& row = table_.rows[i];
-            const bool is_other = contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other;
-            if (!is_other && !(table_.k_to(table_.amount_of(i), row.quantity, sum) > 0.0)) {
+            if (is_named_as_influence(row) && !(table_.k_to(table_.amount_of(i), row.quantity, sum) > 0.0)) {
                 return false;
             }
         }
@@ -313,7 +310,7 @@ private:
             const bool is_called_so =
                 std::any_of(std::begin(k_words), std::end(k_words),
                             [&name](std::string_view word) { return name.find(word) != name.npos; });
-            if (is_called_so && contributor_of(name_in_words(row), row.comment, row.source) == Contributor::other) {
+            if (is_called_so && !is_named_as_influence(row)) {
                 ask_for_row(row);
                 return;
             }
@@ -330,8 +327,7 @@ private:
         const bool is_distinct = !last.sensitivity && last.shape_text.empty() && !last.type_a &&
                                  std::all_of(table_.rows.begin(), table_.rows.end() - 1,
                                              [](const AuditedRow& row) { return row.sensitivity.has_value(); });
-        if (!has_all || !is_distinct ||
-            contributor_of(name_in_words(last), last.comment, last.source) != Contributor::other) {
+        if (!has_all || !is_distinct || is_named_as_influence(last)) {
             return;
         }
         const StatedResult amount = table_.amount_of(table_.rows.size() - 1);
@@ -372,8 +368,7 @@ private:
                                   .unit = by_u ? table_.units.back().u : table_.units.back().contribution,
                                   .column = table_.column_of(by_u ? Column::u : Column::contribution)};
         // A row that is named as an influence is one, whatever its number.
-        const bool is_result = last.estimate && last.estimate->value != 0.0 &&
-                               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other &&
+        const bool is_result = last.estimate && last.estimate->value != 0.0 && !is_named_as_influence(last) &&
                                table_.is_stated_u_c(result);
         const std::optional<Interval> above = table_.sum_above(result, true), all = table_.sum_above(result);
         if (!above || !all) {
@@ -396,8 +391,7 @@ private:
             take_last_row(result);
             return;
         }
-        if (is_distinct && is_stated && *without && !last.estimate &&
-            contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other) {
+        if (is_distinct && is_stated && *without && !last.estimate && !is_named_as_influence(last)) {
             drop_last_row();  // the value in the column of u
             return;
         }
@@ -432,8 +426,7 @@ private:
         if (all && table_.gives_statements(*all).value_or(false)) {
             return false;
         }
-        return (above && table_.gives_statements(*above).value_or(false)) ||
-               contributor_of(name_in_words(last), last.comment, last.source) == Contributor::other;
+        return (above && table_.gives_statements(*above).value_or(false)) || !is_named_as_influence(last);
     }
     void drop_last_row() {
         const AuditedRow& last = table_.rows.back();
