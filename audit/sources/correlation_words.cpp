@@ -66,6 +66,27 @@ std::optional<double> assigned_r(std::string_view name) {
     return std::nullopt;
 }
 
+/// Two symbols between brackets, "x; y" or "x, y".
+std::optional<std::pair<std::string_view, std::string_view>> pair_between(std::string_view inside) {
+    const std::size_t sign = inside.find_first_of(";,");
+    if (sign == std::string_view::npos || inside.find_first_of(";,", sign + 1) != std::string_view::npos) {
+        return std::nullopt;
+    }
+    return std::pair(without_blanks(inside.substr(0, sign)), without_blanks(inside.substr(sign + 1)));
+}
+/// Whether a name begins as "r(x; y)". A density "ρ(20 °C)" and a radius "r(1)" do not, nor does a density "ρ(20 °C; 1 bar)".
+bool begins_with_r_of_pair(std::string_view name) {
+    const std::size_t open = name.find('('), close = name.find(')');
+    if ((!name.starts_with("r(") && !name.starts_with("ρ(")) || close == std::string_view::npos) {
+        return false;
+    }
+    const auto pair = pair_between(name.substr(open + 1, close - open - 1));
+    const auto is_symbol = [](std::string_view text) {
+        return !text.empty() && (text.front() < '0' || text.front() > '9');
+    };
+    return pair && is_symbol(pair->first) && is_symbol(pair->second);
+}
+
 std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view name) {
     std::vector<std::pair<std::string, std::string>> pairs;
     for (std::size_t open = name.find('('); open != std::string_view::npos; open = name.find('(', open + 1)) {
@@ -73,10 +94,8 @@ std::vector<std::pair<std::string, std::string>> pairs_in(std::string_view name)
         if (close == std::string_view::npos) {
             break;
         }
-        const std::string_view inside = name.substr(open + 1, close - open - 1);
-        const std::size_t sign = inside.find_first_of(";,");
-        if (sign != std::string_view::npos && inside.find_first_of(";,", sign + 1) == std::string_view::npos) {
-            pairs.emplace_back(without_blanks(inside.substr(0, sign)), without_blanks(inside.substr(sign + 1)));
+        if (const auto pair = pair_between(name.substr(open + 1, close - open - 1))) {
+            pairs.emplace_back(pair->first, pair->second);
         }
     }
     for (const std::string_view between : {" and ", " und ", " et ", " y ", " with ", " mit ", "/", " - ", "-", "–"}) {
@@ -108,19 +127,20 @@ std::optional<CorrelationWords> correlation_words(std::string_view name) {
     constexpr std::string_view k_covariance[] = {"covarian", "kovarian", "協方差", "共變異", "协方差"};
     constexpr std::string_view k_coefficient[] = {"coefficient", "koeffizient", "coeficiente", "係數", "系数"};
     const bool is_named = has_one_of(lower, k_correlation);
-    const bool is_symbol = name.starts_with("r(") || name.starts_with("ρ(");
+    const bool is_symbol = begins_with_r_of_pair(name);
     const std::optional<double> r =
         is_named || is_symbol || end_of_symbol(name, 0) > 0 ? assigned_r(name) : std::nullopt;
     const bool is_covariance = has_one_of(lower, k_covariance);
     if (!is_named && !is_symbol && !is_covariance) {
         return std::nullopt;
     }
-    std::size_t symbol = name.find("r(");
+    // What "r(x; y)" alone has under u may be the u of a quantity r: without words it is a coefficient where x and y are rows.
+    std::size_t symbol = is_named ? name.find("r(") : std::string_view::npos;
     while (symbol != std::string_view::npos && end_of_symbol(name, symbol) == 0) {
         symbol = name.find("r(", symbol + 1);
     }
-    return CorrelationWords{.is_coefficient = !is_covariance && (is_symbol || symbol != std::string_view::npos ||
-                                                                 r.has_value() || has_one_of(lower, k_coefficient)),
+    return CorrelationWords{.is_coefficient = !is_covariance && (symbol != std::string_view::npos || r.has_value() ||
+                                                                 has_one_of(lower, k_coefficient)),
                             .is_covariance = is_covariance,
                             .r = r,
                             .pairs = pairs_in(name)};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "audit/audit.h"
 #include "audit/rules/registry.h"
@@ -56,6 +57,28 @@ TEST(Correlations, AreReadWhereverTheirLineHasR) {
     EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
 }
 
+TEST(Correlations, AreNoQuantitiesWithAnArgument) {
+    const std::string heads = "Quantity,Value,u / %,Contribution / %\n",
+                      claims = "Combined standard uncertainty,,,0.23\nExpanded uncertainty (k = 2),,,0.46\n";
+    for (const auto& [one, other] : std::vector<std::pair<std::string, std::string>>{
+             {"r(1)", "r(2)"}, {"ρ(20 °C)", "ρ(25 °C)"}, {"ρ(20 °C; 1 bar)", "r(2; 5)"}, {"r(x; y)", "r(x; z)"}}) {
+        const AuditReport report = audit_of_correlated(heads + one + ",0.90,0.10,0.10\n" + other +
+                                                       ",0.45,0.20,0.20\nh,10,0.05,0.05\n" + claims);
+        SCOPED_TRACE(one);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, std::sqrt(0.0525), 1e-9);
+        EXPECT_FALSE(has_critical(report));
+    }
+    // Of two rows that are there, it is one.
+    const AuditReport two =
+        audit_of_correlated(heads + "d1,0.90,0.10,0.10\nd2,0.45,0.20,0.20\nh,10,0.05,0.05\n" + "r(d1; d2),,,0.5\n" +
+                            "Combined standard uncertainty,,,0.27\nExpanded uncertainty (k = 2),,,0.54\n");
+    ASSERT_EQ(two.results.size(), 1U);
+    EXPECT_EQ(two.subject.budgets[0].rows.size(), 3U);
+    EXPECT_NEAR(two.results[0].recomputed.u_c, std::sqrt(0.0725), 1e-9);
+}
+
 TEST(Correlations, AreNamedByWords) {
     EXPECT_FALSE(correlation_words("Temperature of the reference"));
     EXPECT_FALSE(correlation_words("r"));
@@ -68,6 +91,12 @@ TEST(Correlations, AreNamedByWords) {
     EXPECT_EQ(words->pairs.front(), std::pair(std::string("t_S"), std::string("t_X")));
     EXPECT_TRUE(correlation_words("Kovarianz u(a; b)")->is_covariance);
     EXPECT_FALSE(correlation_words("Correlation")->is_coefficient);
+    for (const char* quantity : {"r(1)", "ρ(20 °C)", "ρ(20 °C; 1 bar)", "r(1, 2)", "r(", "r(;)", "r)(a; b)"}) {
+        EXPECT_FALSE(correlation_words(quantity)) << quantity;
+    }
+    EXPECT_FALSE(correlation_words("r(T1; T2)")->is_coefficient);
+    EXPECT_TRUE(correlation_words("ρ(T1; T2) = 0.6")->is_coefficient);
+    EXPECT_TRUE(correlation_words("Correlation r(T1; T2)")->is_coefficient);
 }
 
 }  // namespace
