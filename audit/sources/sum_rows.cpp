@@ -159,6 +159,8 @@ private:
     }
     /// A table of names and u alone ends with u_c and U where a line is the root of the sum of squares of all above it, and those
     /// behind it are what k makes of it; or where the last two have one name but for their first letter, "u(f)" and "U(f)".
+    /// What is taken is told. Numbers of one digit fit many sums by chance: without a name of a sum they are asked about. Where u_c
+    /// or U is stated elsewhere, the rows above these lines have to give it.
     /// \return whether these lines were taken, or asked about
     [[nodiscard]] bool settle_plain_last_lines() {
         constexpr std::size_t k_least = 2, k_most_results = 3;
@@ -166,6 +168,8 @@ private:
         if (count >= k_least + 2 && are_u_and_U(table_.rows[count - 2].quantity, table_.rows[count - 1].quantity)) {
             table_.state(Statement::u_c, table_.amount_of(count - 2));
             table_.state(Statement::U, table_.amount_of(count - 1));
+            tell_taken(table_.rows[count - 2], "u_c");
+            tell_taken(table_.rows[count - 1], "U");
             table_.rows.resize(count - 2);
             table_.units.resize(count - 2);
             return true;
@@ -176,32 +180,49 @@ private:
             if (!sum || !as_rounded(amount.number, 1.0).meets(*sum) || is_named_as_influence(table_.rows[i])) {
                 continue;
             }
+            if (table_.stated_of_sum() && !table_.gives_statements(*sum).value_or(false)) {
+                continue;
+            }
             const auto is_U = [&](std::size_t row) {
+                if (is_named_as_influence(table_.rows[row])) {
+                    return false;
+                }
                 if (table_.k_to(table_.amount_of(row), table_.rows[row].quantity, *sum) > 0.0) {
                     return true;
                 }
                 for (const double k : {2.0, 3.0}) {
                     const StatedNumber &of = amount.number, &by_k = table_.amount_of(row).number;
                     const double step = k * printed_half_step(of) + printed_half_step(by_k) + 1e-9 * std::abs(of.value);
-                    if (!is_named_as_influence(table_.rows[row]) &&
-                        std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
+                    if (std::abs(std::abs(by_k.value) - k * std::abs(of.value)) <= step) {
                         return true;
                     }
                 }
                 return false;
             };
-            bool are_U = true;
+            bool are_U = true, is_any_of_one_digit = has_one_digit(amount.number);
             for (std::size_t row = i + 1; row < count; ++row) {
                 are_U = are_U && is_U(row);
+                is_any_of_one_digit = is_any_of_one_digit || has_one_digit(table_.amount_of(row).number);
             }
-            if (are_U) {
-                take_last_lines(i, *sum);
+            const SumName name = sum_name(table_.rows[i].quantity);
+            const bool is_named_sum = name == SumName::whole || name == SumName::of_quantity;
+            if (are_U && (is_named_sum || !is_any_of_one_digit)) {
+                take_last_lines(i, *sum, true);
             } else {
                 ask_for_row(table_.rows[i]);
             }
             return true;
         }
         return false;
+    }
+    [[nodiscard]] static bool has_one_digit(const StatedNumber& number) {
+        constexpr double k_two_digits = 9.99;  // units of the last digit
+        return std::abs(number.value) < k_two_digits * 2.0 * printed_half_step(number);
+    }
+    /// \param symbol  of what a line was taken for
+    void tell_taken(const AuditedRow& row, const std::string& symbol) {
+        not_read_.push_back(say("{cell}: {text} is taken for {symbol} of the rows above it, and for no contribution",
+                                row.place, text::in_quotes(row.quantity), symbol));
     }
     void ask_for_row(const AuditedRow& row) {
         is_open_ = true;
@@ -265,7 +286,8 @@ private:
         }
         return true;
     }
-    void take_last_lines(std::size_t from, const Interval& sum) {
+    /// \param are_told  that nothing but their numbers says what these lines are
+    void take_last_lines(std::size_t from, const Interval& sum, bool are_told = false) {
         const std::vector<AuditedRow> lines(table_.rows.begin() + static_cast<std::ptrdiff_t>(from), table_.rows.end());
         std::vector<StatedResult> amounts;
         for (std::size_t i = from; i < table_.rows.size(); ++i) {
@@ -278,6 +300,9 @@ private:
             const bool is_u_c = as_rounded(amounts[i].number, 1.0).meets(sum);
             const CoverageText said = coverage_in(lines[i].quantity);
             const bool is_U = k > 0.0 || (i > 0 && (said.says_any() || (ratio > k_least_k && ratio < k_most_k)));
+            if (are_told && (is_u_c || is_U)) {
+                tell_taken(lines[i], is_u_c ? "u_c" : "U");
+            }
             if (is_u_c) {
                 table_.state(Statement::u_c, amounts[i]);
                 if (lines[i].nu) {

@@ -41,6 +41,10 @@ std::string critical_of(const AuditReport& report) {
     }
     return all;
 }
+bool tells(const AuditReport& report, std::string_view what) {
+    return std::any_of(report.subject.not_read.begin(), report.subject.not_read.end(),
+                       [what](const Sentence& said) { return said.english().find(what) != std::string::npos; });
+}
 double root_of_squares(const std::vector<double>& terms) {
     double sum = 0.0;
     for (const double term : terms) {
@@ -168,6 +172,10 @@ TEST(PlainTables, EndWithTheirResultsWhateverTheirNames) {
         EXPECT_NEAR(sound.results[0].recomputed.u_c, u_c, 1e-9);
         ASSERT_TRUE(sound.subject.budgets[0].claims.U);
         EXPECT_EQ(sound.subject.budgets[0].claims.U->text, "1.72");
+        if (other != "U(f) (k = 2)") {  // which is U by its name
+            EXPECT_TRUE(tells(sound, "is taken for u_c of the rows above it"));
+            EXPECT_TRUE(tells(sound, "is taken for U of the rows above it"));
+        }
         EXPECT_EQ(critical_of(sound), "");
         const AuditReport planted = audit_of_sums(rows + one + ",0.86\n" + other + ",1.20\n");
         // What nobody states of k, nobody can hold U against.
@@ -181,6 +189,37 @@ TEST(PlainTables, EndWithTheirResultsWhateverTheirNames) {
     ASSERT_EQ(influences.results.size(), 1U);
     EXPECT_EQ(influences.subject.budgets[0].rows.size(), 4U);
     EXPECT_EQ(critical_of(influences), "");
+}
+
+TEST(PlainTables, HaveNoResultsByChance) {
+    // Of one digit, numbers fit many sums.
+    for (const char* rows : {"Weighing,0.3\nVolume,0.3\nPurity,0.4\nRecovery,0.8\n",
+                             "u1,0.1\nu2,0.1\nu3,0.1\nu4,0.2\nu5,0.1\n", "a1,0.3\na2,0.4\na3,0.5\na4,1.0\n"}) {
+        const AuditReport open = audit_of_sums(std::string("Quantity,u / %\n") + rows);
+        SCOPED_TRACE(rows);
+        EXPECT_TRUE(open.results.empty());
+        EXPECT_TRUE(tells(open, "may be the result of the rows above it, or one more contribution"));
+    }
+    const AuditReport named = audit_of_sums("Quantity,u / %\nWeighing,0.3\nVolume,0.3\nSum,0.4\n2 × Sum,0.8\n");
+    ASSERT_EQ(named.results.size(), 1U);
+    EXPECT_EQ(named.subject.budgets[0].rows.size(), 2U);
+    EXPECT_TRUE(tells(named, "is taken for U of the rows above it"));
+    // Where U is stated, no other line is it; and none is u_c, unless the rows above it give what is stated.
+    for (const char* rows :
+         {"Reference thermometer,0.02\nu_stab,0.02\nGradient,0.03\nu_res,0.06\nExpanded uncertainty,0.15\n",
+          "Reference thermometer,0.020\nu_stab,0.015\nu_grad,0.025\nu_res,0.050\nExpanded uncertainty,0.12\n"}) {
+        const AuditReport stated = audit_of_sums(std::string("Quantity,Standard uncertainty / °C\n") + rows);
+        SCOPED_TRACE(rows);
+        ASSERT_EQ(stated.results.size(), 1U);
+        EXPECT_EQ(stated.subject.budgets[0].rows.size(), 4U);
+        EXPECT_EQ(critical_of(stated), "");
+    }
+    const AuditReport again = audit_of_sums(
+        "Frequency\nComponent,u / mHz\nReference,0.5\nDrift of the reference,0.3\nCounter resolution,0.6\n"
+        "Repeatability,0.2\nWhat comes out,0.86\nTwice that,1.72\nExpanded uncertainty (k = 2),1.72\n");
+    ASSERT_EQ(again.results.size(), 1U);
+    EXPECT_EQ(again.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(critical_of(again), "");
 }
 
 TEST(PartsOfAValue, LeaveTheUnitOfTheRows) {
