@@ -59,7 +59,7 @@ private:
         }
         std::vector<std::size_t> sums, named, certain, parts, of_type;
         std::size_t matches = 0;
-        bool is_any_of_type = false;
+        bool is_any_of_type = false, is_any_of_several = false;
         for (std::size_t i = 1; i < table_.rows.size() && lines < k_most_lines && looks < k_most_looks; ++i) {
             const AuditedRow& row = table_.rows[i];
             const SumName name = sum_name(row.quantity);
@@ -73,7 +73,7 @@ private:
             const StatedResult amount = table_.amount_of(i);
             // From the last sum on, and where the name says that it is one, from any row on.
             const std::size_t last_begin = name == SumName::none ? begin : i - 1;
-            bool is_sum = false, is_certain = name == SumName::part;
+            bool is_sum = false, is_of_several = false, is_certain = name == SumName::part;
             for (std::size_t from = begin; from <= last_begin && looks < k_most_looks && !is_sum; ++from) {
                 const bool is_last = end > 0 ? i >= end : table_.is_stated_u_c(amount) || !table_.stated_of_sum();
                 const bool is_of_all = from == 0 && sums.empty() && is_last && name != SumName::part;
@@ -90,6 +90,7 @@ private:
                     is_sum = false;
                     break;  // u_c
                 }
+                is_of_several = is_of_several || (is_sum && !is_one);
                 is_certain = is_certain || (is_sum && !is_one && (name == SumName::whole || name == SumName::of_type));
                 is_any_of_type = is_any_of_type || (is_sum && name == SumName::of_type);
             }
@@ -106,6 +107,7 @@ private:
             keep(certain, is_certain);
             keep(parts, is_sum && name == SumName::part);
             matches += is_sum && name != SumName::none ? 1U : 0U;
+            is_any_of_several = is_any_of_several || (is_of_several && name != SumName::none);
         }
         // Where "Type A" is a sum, so is "Type B", whatever its number; two that fit are none by chance, though the stated u_c
         // was made of all.
@@ -115,8 +117,13 @@ private:
             named = std::move(all);
         }
         const bool are_several = matches > 1 || (is_any_of_type && of_type.size() > 1);
+        // One that fits, or numbers that are those of one row each, may be so by chance: "Type A" is a contribution then, if what is
+        // stated follows with it alone.
+        const bool may_be_rows = (matches < 2 || !is_any_of_several) && has_types_alone(named);
         if (are_several && !holds_by(sums, false)) {
-            drop_sums(named);
+            if (!may_be_rows || !holds_by(named, true)) {
+                drop_sums(named);
+            }
         } else if (!sums.empty() && holds_by(sums, false)) {
             drop_sums(sums);
         } else if (!certain.empty()) {
@@ -133,6 +140,10 @@ private:
         const bool holds_with = sum_of_all && table_.gives_statements(*sum_of_all).value_or(false);
         const bool holds_without = of_others && table_.gives_statements(*of_others).value_or(false);
         return with ? holds_with && !holds_without : holds_without && !holds_with;
+    }
+    [[nodiscard]] bool has_types_alone(const std::vector<std::size_t>& sums) const {
+        return std::all_of(sums.begin(), sums.end(),
+                           [this](std::size_t row) { return sum_name(table_.rows[row].quantity) == SumName::of_type; });
     }
     void drop_sums(const std::vector<std::size_t>& sums) {
         for (auto sum = sums.rbegin(); sum != sums.rend(); ++sum) {

@@ -148,6 +148,37 @@ TEST(SumsBetweenRows, AreFoundWhereTheyWereAddedTwice) {
     EXPECT_EQ(critical_of(sum), "");
 }
 
+TEST(SumsBetweenRows, OfATypeMayBeContributionsOfTheSizeOfARow) {
+    const std::string plain = "Quantity,u / mK\n";
+    for (const std::string& table :
+         {plain + "Calibration,0.010\nType A,0.010\nStability,0.008\nType B,0.009\nResolution,0.006\n"
+                  "u_c,0.0195\nU (k = 2),0.039\n",
+          plain + "u_cal,0.50\nu_A,0.30\nu_B,0.30\nu_T,0.10\nStability,0.05\nu_c,0.66\nU (k = 2),1.3\n",
+          plain + "Calibration,0.2\nType A,0.2\nType B,0.1\nResolution,0.1\nu_c,0.32\nU (k = 2),0.64\n",
+          std::string("Quantity,u / mV,c,Contribution / mV\nReference,0.3,1,0.3\nType A,,,0.3\nType B,,,0.4\n"
+                      "Resolution,0.2,1,0.2\nDrift,0.1,1,0.1\nCombined standard uncertainty,,,0.62\n"
+                      "Expanded uncertainty (k = 2),,,1.2\n")}) {
+        const AuditReport report = audit_of_sums(table);
+        SCOPED_TRACE(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), table.find("Calibration,0.2") == table.npos ? 5U : 4U);
+        EXPECT_EQ(first_of(report, "K01"), nullptr);
+        EXPECT_EQ(first_of(report, "K09"), nullptr);
+        EXPECT_FALSE(tells(report, "is taken for a sum"));
+    }
+    // They are sums where what is stated follows without them, and where several rows make up one of two.
+    const std::string of_one =
+        "Component,Unit,u,c,Contribution\nHandling,mg,0.30,1,0.30\nType A,mg,,,0.30\nBalance,mg,0.40,1,0.40\n"
+        "Timer,mg,0.10,1,0.10\nBuoyancy,mg,0.25,1,0.25\nType B,mg,,,0.48\n";
+    for (const bool is_sound : {true, false}) {
+        const AuditReport report = audit_of_sums(of_one + (is_sound ? "u_c,mg,,,0.57\n" : "u_c,mg,,,0.80\n") +
+                                                 "k,,,,2\nU,mg,,," + (is_sound ? "1.14\n" : "1.60\n"));
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+        EXPECT_EQ(first_of(report, "K01") == nullptr, is_sound);
+    }
+}
+
 TEST(PlainTables, EndWithTheirResultsWhateverTheirNames) {
     const std::string rows =
         "Frequency\nComponent,u / mHz\nReference (certificate; U = 1.0 mHz; k = 2),0.5\n"
