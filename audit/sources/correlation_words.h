@@ -10,7 +10,7 @@ namespace gumcert::audit {
 
 /// What the name of a line says of a correlation of two rows.
 struct CorrelationWords {
-    /// A coefficient by its name, "r(T1; T2)", "Correlation coefficient": its number is r, whatever the column that it stands in.
+    /// A coefficient by its name, "Correlation r(T1; T2)", "r(T1; T2) = 0.6": its number is r, whatever the column that it stands in.
     bool is_coefficient = false;
     bool is_covariance = false;    ///< a term of the sum, and no coefficient
     std::optional<double> r = {};  ///< that the name has: "r(T1, T2) = 0.6", "(r = 0.6)"
