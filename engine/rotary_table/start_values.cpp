@@ -1126,7 +1126,7 @@ public:
             }
         }
         if (problems.empty() && std::ranges::none_of(causes, [](const auto& cause) { return cause.has_value(); })) {
-            refuse_stray_reflector(fits);
+            refuse_stray_reflector(fits, asked == Asked::all);
         }
         for (const std::size_t j : open) {
             refuse_two_places(j, misfits[j]);
@@ -1573,7 +1573,7 @@ private:
         refuse_coordinates(*wrong, place_of_reflector(*wrong, stations, fits));
     }
     /// One reflector of many, which most distances agree without: the places of the stations are right, and it strays alone.
-    void refuse_stray_reflector(const std::vector<StationFit>& fits) const {
+    void refuse_stray_reflector(const std::vector<StationFit>& fits, bool has_no_result) const {
         constexpr double k_times_deviation = 20.0;
         constexpr double k_least = 0.05 * gum::k_millimetre;
         constexpr double k_least_way = 0.5 * gum::k_millimetre;  // below it the tests of groups tell it, with its u
@@ -1642,9 +1642,10 @@ private:
             }
         }
         const std::optional<Eigen::Vector3d> place = place_of_reflector(m, stations, found);
-        // Without one place it is no coordinate but a reflector that moves: the tests of groups name it, with a result.
-        if (place &&
-            (*place - measurement_.fixture.row(static_cast<Eigen::Index>(m)).transpose()).norm() > k_least_way) {
+        // Without one place it is no coordinate but a reflector that moves: the tests of groups name it, where there is a
+        // result.
+        if (place ? (*place - measurement_.fixture.row(static_cast<Eigen::Index>(m)).transpose()).norm() > k_least_way
+                  : has_no_result) {
             refuse_coordinates(m, place);
         }
     }
