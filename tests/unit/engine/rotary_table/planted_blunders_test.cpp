@@ -213,7 +213,7 @@ TEST(PlantedBlunders, ATableWithFourReflectorsThatTurnsTheOtherWayIsTold) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
         synthetic::CampaignPlan plan;
         plan.angles_deg = synthetic::full_turn(12);
-        plan.reflectors.resize(4);
+        plan.reflectors = {{0.03, 0.06, 0.0}, {0.09, 0.062, 0.07}, {0.15, 0.061, -0.08}, {0.09, -0.08, 0.02}};
         plan.seed = seed;
         RotaryTableMeasurement m = simulate(plan).measurement;
         for (LengthObservation& length : m.lengths) {
