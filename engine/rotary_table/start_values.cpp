@@ -18,6 +18,7 @@
 #include "engine/rotary_table/joint_adjustment.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/golden_section.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"
 
@@ -1214,29 +1215,8 @@ private:
             return found.upright_misfit();
         };
         // What is left grows with the distance of the factor from the right one, on both sides.
-        const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-        double low = -std::log(k_most);
-        double high = std::log(k_most);
-        double left = high - golden * (high - low);
-        double right = low + golden * (high - low);
-        double of_left = misfit_at(left);
-        double of_right = misfit_at(right);
-        for (int step = 0; step < k_steps; ++step) {
-            if (of_left < of_right) {
-                high = right;
-                right = left;
-                of_right = of_left;
-                left = high - golden * (high - low);
-                of_left = misfit_at(left);
-            } else {
-                low = left;
-                left = right;
-                of_left = of_right;
-                right = low + golden * (high - low);
-                of_right = misfit_at(right);
-            }
-        }
-        const LabelHypothesis found{.lengths = std::exp(0.5 * (low + high)), .scale = true};
+        const double logarithm = gum::least_by_golden_section(misfit_at, -std::log(k_most), std::log(k_most), k_steps);
+        const LabelHypothesis found{.lengths = std::exp(logarithm), .scale = true};
         if (std::abs(found.lengths - 1.0) > k_least &&
             misfit_with(found, station, active, true) < std::min(k_share_with_right_labels * misfit, k_good_misfit)) {
             return found;

@@ -15,6 +15,7 @@
 #include "gum/coverage.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
+#include "gum/quantity/golden_section.h"
 #include "gum/quantity/special_values.h"
 #include "gum/weighted_t_square.h"
 #include "text/numbers.h"
@@ -247,33 +248,9 @@ private:
                 at = i;
             }
         }
-        return least_between(tried[at == 0 ? 0 : at - 1], tried[std::min(at + 1, tried.size() - 1)]);
-    }
-
-    /// By the golden section.
-    [[nodiscard]] double least_between(double low, double high) const {
         constexpr int k_steps = 48;
-        constexpr double k_golden = 0.6180339887498949;
-        double inner_low = high - k_golden * (high - low);
-        double inner_high = low + k_golden * (high - low);
-        double at_low = sum_at(inner_low);
-        double at_high = sum_at(inner_high);
-        for (int i = 0; i < k_steps && low < high; ++i) {
-            if (at_low <= at_high) {
-                high = inner_high;
-                inner_high = inner_low;
-                at_high = at_low;
-                inner_low = high - k_golden * (high - low);
-                at_low = sum_at(inner_low);
-            } else {
-                low = inner_low;
-                inner_low = inner_high;
-                at_low = at_high;
-                inner_high = low + k_golden * (high - low);
-                at_high = sum_at(inner_high);
-            }
-        }
-        return 0.5 * (low + high);
+        return least_by_golden_section([this](double x) { return sum_at(x); }, tried[at == 0 ? 0 : at - 1],
+                                       tried[std::min(at + 1, tried.size() - 1)], k_steps);
     }
 
     CentredResults c_;
