@@ -1023,6 +1023,25 @@ private:
                               });
     }
 
+    /// The test of one size along an effect, without its place. Nothing where the parameters take the effect up wholly, and where a
+    /// displaced reflector or a fixture of another size explains more at the same weights: then it is they.
+    [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const Visits::Effect& effect,
+                                                            std::size_t count) const {
+        const Visits::Projection projection = visits_.projection(effect, 1);
+        const double spread = projection.spread(0, 0);
+        if (!(spread > k_controlled * projection.weight)) {
+            return std::nullopt;
+        }
+        const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
+        if (chi_square < misfit_of_fixture_) {
+            return std::nullopt;
+        }
+        GroupTest test = judged(kind, chi_square / (used_scale_ * used_scale_), 1, count);
+        test.estimate = projection.weighted[0] / spread;
+        test.minimal_detectable = detectable(test, spread);
+        return test;
+    }
+
     /// One error of all distances between a station and a reflector: a beam that grazes something, a reflector that is
     /// seen from behind.
     [[nodiscard]] std::optional<Candidate> best_pair() {
@@ -1048,25 +1067,14 @@ private:
             if (first[pair] == visits_.size()) {
                 continue;
             }
-            const Visits::Projection projection = visits_.projection(effects[pair], 1);
-            const double spread = projection.spread(0, 0);
             // With dead paths for each reflector it is a dead path, and nothing is left to test.
-            if (!(spread > k_controlled * projection.weight)) {
+            std::optional<GroupTest> test = test_of_one_size(GroupKind::pair_length, effects[pair], effects.size());
+            if (!test) {
                 continue;
             }
-            const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
-            // A displaced reflector and a fixture of another size leave something between each station and reflector:
-            // where they explain more, at the same weights, it is they.
-            if (chi_square < misfit_of_fixture_) {
-                continue;
-            }
-            GroupTest test =
-                judged(GroupKind::pair_length, chi_square / (used_scale_ * used_scale_), 1, effects.size());
-            test.station = pair / reflectors;
-            test.reflector = pair % reflectors;
-            test.estimate = projection.weighted[0] / spread;
-            test.minimal_detectable = detectable(test, spread);
-            take(best, {test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }});
+            test->station = pair / reflectors;
+            test->reflector = pair % reflectors;
+            take(best, {*test, [this, effect = effects[pair]] { visits_.take_away(effect, 1); }});
         }
         return best;
     }
@@ -1079,21 +1087,13 @@ private:
         std::optional<Candidate> best;
         for (std::size_t j = 0; j < stations; ++j) {
             const Visits::Effect effect = effect_of_scale(adjustment_, visits_, j);
-            const Visits::Projection projection = visits_.projection(effect, 1);
-            const double spread = projection.spread(0, 0);
             // A scale that is free takes it up wholly.
-            if (!(spread > k_controlled * projection.weight)) {
+            std::optional<GroupTest> test = test_of_one_size(GroupKind::station_scale, effect, stations);
+            if (!test) {
                 continue;
             }
-            const double chi_square = projection.weighted[0] * projection.weighted[0] / spread;
-            if (chi_square < misfit_of_fixture_) {
-                continue;
-            }
-            GroupTest test = judged(GroupKind::station_scale, chi_square / (used_scale_ * used_scale_), 1, stations);
-            test.station = j;
-            test.estimate = projection.weighted[0] / spread;
-            test.minimal_detectable = detectable(test, spread);
-            take(best, {test, [this, effect] { visits_.take_away(effect, 1); }});
+            test->station = j;
+            take(best, {*test, [this, effect] { visits_.take_away(effect, 1); }});
         }
         return best;
     }
