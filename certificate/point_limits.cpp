@@ -184,12 +184,14 @@ LimitsAt of_expression(const AgreedSpecification& s, const PointLookup& point) {
 
 }  // namespace
 
+const PointColumn* column_named(const std::vector<PointColumn>& columns, std::string_view name) {
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const PointColumn& column) { return column.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
 PointLookup lookup_at(const PointTable& table, std::size_t point) {
-    const auto find = [&table](const std::string& name) -> const PointColumn* {
-        const auto found = std::find_if(table.columns.begin(), table.columns.end(),
-                                        [&](const PointColumn& column) { return column.name == name; });
-        return found == table.columns.end() ? nullptr : &*found;
-    };
+    const auto find = [&table](const std::string& name) { return column_named(table.columns, name); };
     return {.number = [=](const std::string& name, const std::string& unit, bool difference) -> std::optional<double> {
                 const PointColumn* const column = find(name);
                 if (column == nullptr || point >= column->values.size() || !column->values[point]) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "certificate/certificate_data.h"
@@ -19,6 +20,9 @@ struct PointLookup {
     /// A word of a column; "" where the point has none.
     std::function<std::string(const std::string& name)> word;
 };
+
+/// The column of points with a name; nullptr where there is none.
+[[nodiscard]] const PointColumn* column_named(const std::vector<PointColumn>& columns, std::string_view name);
 
 /// \param table  must outlive what is returned
 /// \param point  position in it

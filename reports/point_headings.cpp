@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "certificate/piece_roles.h"
+#include "certificate/point_limits.h"
 #include "text/small_letters.h"
 
 namespace gumcert::reports {
@@ -24,9 +25,7 @@ bool shows_a_quantity(const ShownColumn& shown) {
 }
 
 const certificate::PointColumn* column_of_points(const CertifiedTable& table, const std::string& name) {
-    const auto& columns = table.layout->columns;
-    const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
-    return found == columns.end() ? nullptr : &*found;
+    return certificate::column_named(table.layout->columns, name);
 }
 
 /// Of a result; empty where it has its name alone.

@@ -123,9 +123,7 @@ private:
     // ---- names ------------------------------------------------------------------------------------------------------
 
     [[nodiscard]] const PointColumn* column(std::string_view name) const {
-        const auto found = std::find_if(job_.point_columns.begin(), job_.point_columns.end(),
-                                        [&](const PointColumn& c) { return c.name == name; });
-        return found == job_.point_columns.end() ? nullptr : &*found;
+        return certificate::column_named(job_.point_columns, name);
     }
     [[nodiscard]] std::optional<std::size_t> input(std::string_view name) const {
         for (std::size_t i = 0; i < job_.inputs.size(); ++i) {

@@ -102,9 +102,7 @@ private:
     }
 
     [[nodiscard]] const PointColumn* column(std::string_view name) const {
-        const auto found = std::find_if(job_.point_columns.begin(), job_.point_columns.end(),
-                                        [&](const PointColumn& c) { return c.name == name; });
-        return found == job_.point_columns.end() ? nullptr : &*found;
+        return certificate::column_named(job_.point_columns, name);
     }
 
     [[nodiscard]] certificate::PointTable table_of_points() const {

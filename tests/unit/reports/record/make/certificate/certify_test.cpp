@@ -425,9 +425,8 @@ TEST(Certify, PrintsNoDigitsOfAConvertedLimitInTheGuardBand) {
     }
 }
 
-/// The result of another laboratory may be that of one point: what names mean is the same for specifications and for these.
-TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
-    EvaluationRecord record = one_result(100.0, 2.0, "m");
+/// The record of one result with that result at the points "a" and "b".
+EvaluationRecord at_two_points(EvaluationRecord record) {
     record.results.push_back(record.results.front());
     certificate::PointTable& points = record.points.emplace();
     points.points = {"a", "b"};
@@ -435,6 +434,12 @@ TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
         record.results[p].point = points.points[p];
         record.results[p].name = "l[" + points.points[p] + "]";
     }
+    return record;
+}
+
+/// The result of another laboratory may be that of one point: what names mean is the same for specifications and for these.
+TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
+    const EvaluationRecord record = at_two_points(one_result(100.0, 2.0, "m"));
     CertificateData data = data_with(test::capability_of_one_value(1.0, "m"));
     data.specifications = {test::sample_specification("s", "l", 90.0, 110.0, "m")};
     struct Named {
@@ -464,14 +469,8 @@ TEST(Certify, MarksOnePointThatAnotherLaboratoryProvided) {
 
 // Golden vector 4: y = 9.8, u = 0.1, limits 9 and 10: p_c = 0.977250.
 TEST(Certify, DecidesByTheLimitsOfEachPoint) {
-    EvaluationRecord record = one_result(0.3, 0.1, "mV");
-    record.results.push_back(record.results.front());
-    certificate::PointTable& points = record.points.emplace();
-    points.points = {"a", "b"};
-    for (std::size_t p = 0; p < points.points.size(); ++p) {
-        record.results[p].point = points.points[p];
-        record.results[p].name = "l[" + points.points[p] + "]";
-    }
+    EvaluationRecord record = at_two_points(one_result(0.3, 0.1, "mV"));
+    certificate::PointTable& points = *record.points;
     points.columns = {{.name = "mpe",
                        .heading = {},
                        .role = "",
