@@ -1,6 +1,6 @@
 #include "app/limits.h"
 
-#include "app/read_file.h"
+#include "evaluation/read_file.h"
 #include "jobs/budget/budget_job_statement.h"
 #include "jobs/budget/budget_statement_fields.h"
 #include "jobs/budget/budget_statement_reader.h"
@@ -83,7 +83,7 @@ std::vector<Limit> limits() {
         {k_comparison, "results", jobs::k_most_compared_results},
         {k_comparison, "points of a side", jobs::k_most_side_points},
         {k_record, "a record as text", reports::k_max_record_bytes, k_byte},
-        {k_record, "a file that is read beside a job", k_largest_file, k_byte},
+        {k_record, "a file that is read beside a job", evaluation::k_largest_file, k_byte},
         {k_table, "a file", workbook::k_largest_file, k_byte},
         {k_table, "all parts of a workbook, unpacked", workbook::k_largest_unpacked, k_byte},
         {k_table, "sheets", workbook::k_most_sheets},

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/read_file.h"
+#include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "jobs/input_text.h"
 
@@ -52,7 +52,7 @@ std::vector<std::string> files_in(const fs::path& folder, const std::string& job
 
 std::vector<Method> method_library(const fs::path& examples) {
     const fs::path file = examples / "methods.json";
-    const ordered_json document = ordered_json::parse(read_file(file), nullptr, false);
+    const ordered_json document = ordered_json::parse(evaluation::read_file(file), nullptr, false);
     if (!document.is_object()) {
         refuse_damaged(file, "not the list of methods");
     }
@@ -98,13 +98,13 @@ std::vector<fs::path> begin_with(const Method& method, const fs::path& folder) {
                             .rule = "a method begins in a folder of its own, and nothing is overwritten",
                             .action = "Name a new folder: gumcert init " + method.name + " FOLDER"});
     }
-    std::vector<OutputFile> files;
+    std::vector<outputs::OutputFile> files;
     std::vector<fs::path> written;
     for (const std::string& name : method.files) {
-        files.push_back({.path = folder / name, .bytes = read_file(method.folder / name)});
+        files.push_back({.path = folder / name, .bytes = evaluation::read_file(method.folder / name)});
         written.push_back(folder / name);
     }
-    write_files(files, {}, {}, false);
+    outputs::write_files(files, {}, {}, false);
     return written;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/output_files.h"
+#include "outputs/output_files.h"
 
 namespace gumcert::app {
 

@@ -1,6 +1,6 @@
 # The header <gumcert_build_info.h>: version and commit, which a record names as its maker. The header
 # <gumcert_templates.h>: the digests of what this release comes with: templates, see reports/forms/template_digest.h, and
-# reference cases, see app/self_test/self_test.h. The header <gumcert_made_with.h>: the compiler, and the libraries that are
+# reference cases, see self_test/self_test.h. The header <gumcert_made_with.h>: the compiler, and the libraries that are
 # compiled in.
 #
 # Written at each build, because the commit changes without CMake being run again; rewritten only when it differs.

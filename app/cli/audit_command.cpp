@@ -11,13 +11,13 @@
 #include <string_view>
 #include <utility>
 
-#include "app/audit_evaluation.h"
-#include "app/audit_files.h"
 #include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/output_files.h"
 #include "audit/rules/registry.h"
+#include "evaluation/audit_evaluation.h"
+#include "evaluation/audit_files.h"
+#include "outputs/output_files.h"
 #include "reports/audit/audit_document.h"
 #include "reports/audit/audit_html.h"
 #include "reports/audit/audit_json.h"
@@ -136,10 +136,10 @@ std::string reason_of(const std::exception_ptr& failure) {
 
 ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& options, const CommonOptions& common) {
     const std::vector<fs::path> named(files.begin(), files.end());
-    const app::FilesToAudit files_to_audit = app::files_to_audit(named, options.laboratory);
+    const evaluation::FilesToAudit files_to_audit = evaluation::files_to_audit(named, options.laboratory);
     std::vector<fs::path> all;
     std::vector<reports::UnauditedFile> unaudited;
-    for (const app::FileToAudit& one : files_to_audit.files) {
+    for (const evaluation::FileToAudit& one : files_to_audit.files) {
         all.push_back(one.file);
         for (const fs::path& job : one.jobs) {
             all.push_back(job);
@@ -160,29 +160,29 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     const Destination to = destination_of(options, named.front());
     std::vector<fs::path> outputs;
     for (const auto& [form, file] : to.files) {
-        app::require_writable(file);
+        outputs::require_writable(file);
         outputs.push_back(file);
     }
     if (!to.files.empty()) {
         outputs.push_back(kept_place(numbers_file(to)));
     }
-    app::require_not_inputs(outputs, all);
-    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
+    outputs::require_not_inputs(outputs, all);
+    const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
     if (std::ranges::any_of(to.files, [](const auto& file) { return file.first == "pdf"; })) {
         reports::PdfWorker(render_assets(options.share)).require_ready();  // before anything is evaluated
     }
     const fs::path templates = templates_folder(options.share);
     const std::vector<certificate::Waiver> waivers =
-        options.waivers.empty() ? std::vector<certificate::Waiver>{} : app::waivers_from(options.waivers);
+        options.waivers.empty() ? std::vector<certificate::Waiver>{} : evaluation::waivers_from(options.waivers);
     ExitCode code = done;
     std::vector<reports::AuditedFileView> views;
     views.reserve(files_to_audit.files.size());
     ProgressLine progress(!common.quiet);
-    std::vector<app::AuditAttempt> attempts = app::audit_files(
+    std::vector<evaluation::AuditAttempt> attempts = evaluation::audit_files(
         files_to_audit.files, static_cast<unsigned>(common.threads), templates,
         [&](const std::string& text) { progress(text); }, waivers, options.laboratory);
     for (std::size_t i = 0; i < attempts.size(); ++i) {
-        app::AuditAttempt& attempt = attempts[i];
+        evaluation::AuditAttempt& attempt = attempts[i];
         const ExitCode one = explained(common, [&] {
             if (attempt.failure) {
                 unaudited.push_back(
@@ -200,9 +200,9 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         return code;
     }
     const reports::TaskRunner run = [&common](std::size_t n, const std::function<void(std::size_t)>& task) {
-        app::run_in_workers(static_cast<unsigned>(common.threads), n, task);
+        evaluation::run_in_workers(static_cast<unsigned>(common.threads), n, task);
     };
-    const reports::AuditView view = app::audit_view(std::move(views), std::move(unaudited));
+    const reports::AuditView view = evaluation::audit_view(std::move(views), std::move(unaudited));
     if (!to.to_stdout.empty()) {
         write_to_stdout(rendered(view, to.to_stdout, options, run));
         return code;
@@ -212,7 +212,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
         inputs.emplace_back(options.waivers);
     }
     add_program_files(inputs, options.share);
-    std::vector<app::OutputFile> written;
+    std::vector<outputs::OutputFile> written;
     make_or_keep(
         [&] {
             for (const auto& [form, file] : to.files) {
@@ -226,7 +226,7 @@ ExitCode audit_files(const std::vector<std::string>& files, const AuditOptions& 
     write_outputs(written, inputs, at_start);
     report_kept(numbers_file(to), common);
     if (!common.quiet) {
-        for (const app::OutputFile& file : written) {
+        for (const outputs::OutputFile& file : written) {
             print_to_stdout("Written: {}\n", text::one_line(file.path.string()));
         }
     }

@@ -8,19 +8,19 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/check_file.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/document_identity.h"
-#include "app/output_files.h"
-#include "app/output_set.h"
-#include "app/read_file.h"
+#include "evaluation/check_file.h"
+#include "evaluation/read_file.h"
 #include "imports/foreign_certificate.h"
 #include "imports/import_certificate.h"
 #include "imports/import_standard.h"
+#include "issuing/document_identity.h"
 #include "jobs/laboratory/laboratory_folder.h"
+#include "outputs/output_files.h"
+#include "outputs/output_set.h"
 #include "signing/verify.h"
 #include "text/visible_text.h"
 
@@ -46,7 +46,7 @@ void print_signature(const signing::SignatureReport& signature, const std::strin
     }
 }
 
-void print_identity(const app::DocumentIdentity& identity) {
+void print_identity(const issuing::DocumentIdentity& identity) {
     const auto row = [](const char* name, const std::string& text) {
         if (!text.empty()) {
             print_to_stdout("  {:<12}{}\n", name, text);
@@ -62,7 +62,7 @@ void print_identity(const app::DocumentIdentity& identity) {
 }
 
 void print_verification(const std::string& file, const signing::Verification& verification,
-                        const std::vector<app::DocumentIdentity>& identities, const CommonOptions& common) {
+                        const std::vector<issuing::DocumentIdentity>& identities, const CommonOptions& common) {
     for (const auto* signatures : {&verification.signatures, &verification.attachment_signatures}) {
         for (const signing::SignatureReport& signature : *signatures) {
             print_messages(signature.findings, common);
@@ -77,7 +77,7 @@ void print_verification(const std::string& file, const signing::Verification& ve
                     : attachment_alone ? "NOT VALID: the pages are not signed, only what is attached to them"
                     : verification.signatures.empty() ? "not signed"
                                                       : "NOT VALID");
-    for (const app::DocumentIdentity& identity : identities) {
+    for (const issuing::DocumentIdentity& identity : identities) {
         print_identity(identity);
     }
     for (const signing::SignatureReport& signature : verification.signatures) {
@@ -96,7 +96,7 @@ imports::CertificateTrust trust_of(const std::string& trust_store) {
     return trust;
 }
 
-ExitCode print_check(const std::string& file, const app::FileCheck& check, const CommonOptions& common) {
+ExitCode print_check(const std::string& file, const evaluation::FileCheck& check, const CommonOptions& common) {
     std::size_t errors = 0;
     std::size_t warnings = 0;
     for (const gum::Diagnostic& finding : check.findings) {
@@ -132,15 +132,15 @@ ExitCode import_certificate(const std::string& file, const std::string& asked, c
         }
     }
     const std::vector<std::filesystem::path> inputs{file, trust_store};
-    app::OutputsAtStart at_start;
+    outputs::OutputsAtStart at_start;
     if (!output.empty() && output != "-") {
-        app::require_writable(output);
-        app::require_not_an_input(output, inputs);
+        outputs::require_writable(output);
+        outputs::require_not_an_input(output, inputs);
         at_start = begin_outputs({output}, common);
     }
     const imports::ImportedJob imported =
-        standard.empty() ? imports::import_certificate(app::read_file(file), file, trust_of(trust_store))
-                         : imports::import_standard(app::read_file(file), file, standard, trust_of(trust_store));
+        standard.empty() ? imports::import_certificate(evaluation::read_file(file), file, trust_of(trust_store))
+                         : imports::import_standard(evaluation::read_file(file), file, standard, trust_of(trust_store));
     print_messages(imported.remarks, common);
     if (output.empty() || output == "-") {
         write_to_stdout(imported.job);
@@ -170,13 +170,13 @@ ExitCode check_files(const std::vector<std::string>& files, bool certificates, c
     const bool several = files.size() > 1;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
-            app::FileCheck check{.kind = "digital certificate", .findings = {}};
+            evaluation::FileCheck check{.kind = "digital certificate", .findings = {}};
             if (certificates) {
-                check.findings = imports::check_certificate(app::read_file(file), file, trust);
+                check.findings = imports::check_certificate(evaluation::read_file(file), file, trust);
             } else {
                 ProgressLine progress(!common.quiet);
                 check = naming_job(file, several, [&] {
-                    return app::check_file(
+                    return evaluation::check_file(
                         file, static_cast<unsigned>(common.threads), templates_folder(share),
                         [&](const std::string& text) { progress(text); }, laboratory);
                 });
@@ -201,13 +201,13 @@ ExitCode verify_files(const std::vector<std::string>& files, const std::string& 
     ExitCode code = done;
     for (const std::string& file : files) {
         const ExitCode one = explained(common, [&] {
-            const std::string bytes = app::read_file(file);
+            const std::string bytes = evaluation::read_file(file);
             const signing::Verification verification = signing::verify_signatures(bytes, file, trusted, seconds_now());
-            const std::vector<app::DocumentIdentity> identities = app::identities_in(bytes, file, verification);
-            for (const gum::Diagnostic& doubt : app::doubts_about(file, identities, verification)) {
+            const std::vector<issuing::DocumentIdentity> identities = issuing::identities_in(bytes, file, verification);
+            for (const gum::Diagnostic& doubt : issuing::doubts_about(file, identities, verification)) {
                 print_message(doubt, common);
             }
-            for (const gum::Diagnostic& doubt : app::doubts_about_set(file, bytes)) {
+            for (const gum::Diagnostic& doubt : outputs::doubts_about_set(file, bytes)) {
                 print_message(doubt, common);
             }
             print_verification(file, verification, identities, common);

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/kinds.h"
-#include "app/output_forms.h"
 #include "archive/store/open_store.h"
+#include "evaluation/kinds.h"
+#include "issuing/output_forms.h"
 #include "text/lists.h"
 
 namespace gumcert::cli {
@@ -46,7 +46,7 @@ constexpr const char* k_record_help =
 /// The values of --format.
 std::vector<std::string> form_names() {
     std::vector<std::string> names;
-    for (const app::OutputForm& form : app::output_forms()) {
+    for (const issuing::OutputForm& form : issuing::output_forms()) {
         names.emplace_back(form.name);
     }
     return names;
@@ -55,8 +55,8 @@ std::vector<std::string> form_names() {
 /// "html, pdf, text, dcc (digital certificate, XML), or csv (scores of a comparison)".
 std::string forms_in_words() {
     std::string words;
-    for (const app::OutputForm& form : app::output_forms()) {
-        words += words.empty() ? "" : &form == &app::output_forms().back() ? ", or " : ", ";
+    for (const issuing::OutputForm& form : issuing::output_forms()) {
+        words += words.empty() ? "" : &form == &issuing::output_forms().back() ? ", or " : ", ";
         words += form.name;
         words += form.description.empty() ? "" : " (" + std::string(form.description) + ")";
     }
@@ -65,7 +65,7 @@ std::string forms_in_words() {
 
 /// "budget, rotary_table, circle_closure and comparison".
 std::string kinds_in_words() {
-    const std::vector<std::string_view> words = app::words_of(app::program_kinds());
+    const std::vector<std::string_view> words = evaluation::words_of(evaluation::program_kinds());
     return text::all_of({words.begin(), words.end()});
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/cli/terminal/share_folder.h"
 #include "app/limits.h"
-#include "app/read_file.h"
+#include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/message_explanation.h"
 #include "reports/message_register.h"
@@ -43,7 +43,7 @@ gum::Diagnostic unknown_word(const reports::MessageRegister& all, const std::str
 
 ExitCode explain(const std::vector<std::string>& words, const std::string& share) {
     const std::filesystem::path file = templates_folder(share) / "messages.json";
-    const reports::MessageRegister all(app::read_file(file), file.string());
+    const reports::MessageRegister all(evaluation::read_file(file), file.string());
     std::string text = words.empty() ? reports::list_of_families(all) : "";
     std::vector<gum::Diagnostic> unknown;
     for (const std::string& word : words) {

@@ -11,23 +11,23 @@
 #include <set>
 #include <utility>
 
-#include "app/audit_evaluation.h"
-#include "app/check_file.h"
 #include "app/cli/summary.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/name_job.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/evaluate_job.h"
-#include "app/issue_documents.h"
-#include "app/output_files.h"
-#include "app/output_set.h"
-#include "app/read_file.h"
-#include "app/recompute_record.h"
-#include "app/unprintable_characters.h"
 #include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
 #include "certificate/gates/printed_languages.h"
+#include "evaluation/audit_evaluation.h"
+#include "evaluation/check_file.h"
+#include "evaluation/evaluate_job.h"
+#include "evaluation/read_file.h"
+#include "evaluation/recompute_record.h"
+#include "evaluation/unprintable_characters.h"
+#include "issuing/issue_documents.h"
+#include "outputs/output_files.h"
+#include "outputs/output_set.h"
 #include "reports/audit/audit_html.h"
 #include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
@@ -44,7 +44,7 @@ std::optional<reports::HeadToPrint> head_to_print(const DocumentOptions& options
     if (options.head.empty()) {
         return std::nullopt;
     }
-    const archive::Head head = archive::head_from_json(app::read_file(options.head), options.head);
+    const archive::Head head = archive::head_from_json(evaluation::read_file(options.head), options.head);
     return reports::HeadToPrint{.entries = std::to_string(head.size),
                                 .digits = archive::short_form(head),
                                 .mark = archive::mark_of(head),
@@ -74,7 +74,7 @@ public:
     [[nodiscard]] const std::vector<gum::Diagnostic>& warnings() const { return signer_.warnings; }
 
     /// \param with_templates  false: for a form of the document that needs none
-    [[nodiscard]] const app::IssueOptions& options(bool with_templates = true) {
+    [[nodiscard]] const issuing::IssueOptions& options(bool with_templates = true) {
         options_.signer = signer_.signer.get();
         if (with_templates && !worker_) {
             options_.assets = render_assets(asked_.share, asked_.languages);
@@ -96,9 +96,9 @@ public:
     /// The same of a job that was read: a page is set with its characters.
     /// \return characters that no font has
     /// \throws gum::StorageError
-    [[nodiscard]] std::vector<gum::Diagnostic> look_at(const app::ReadJob& job) {
+    [[nodiscard]] std::vector<gum::Diagnostic> look_at(const evaluation::ReadJob& job) {
         (void)options();
-        return app::unprintable_characters(job, [this](const std::vector<std::string>& characters) {
+        return evaluation::unprintable_characters(job, [this](const std::vector<std::string>& characters) {
             return reports::characters_without_glyph(characters, options_.assets, *worker_);
         });
     }
@@ -107,12 +107,12 @@ private:
     DocumentOptions asked_;
     signing::DescribedSigner signer_;
     std::unique_ptr<reports::PdfWorker> worker_;
-    app::IssueOptions options_;
+    issuing::IssueOptions options_;
 };
 
 /// Says of a job that it takes much memory, before it does.
 /// \throws gum::StorageError  GC-STORE-0026 where it is more than the command may take
-void tell_memory(const app::ReadJob& job, const CommonOptions& common) {
+void tell_memory(const evaluation::ReadJob& job, const CommonOptions& common) {
     constexpr double k_told = 1e9;  // [byte]
     constexpr double k_megabyte = 1e6;
     const bool is_too_much =
@@ -140,9 +140,9 @@ void print_warnings(const Issuer& issuer, const CommonOptions& common) {
     }
 }
 
-void print_written(const std::vector<app::OutputFile>& files) {
+void print_written(const std::vector<outputs::OutputFile>& files) {
     print_to_stdout("\nWritten:\n");
-    for (const app::OutputFile& file : files) {
+    for (const outputs::OutputFile& file : files) {
         print_to_stdout("  {}\n", text::one_line(file.path.string()));
     }
 }
@@ -194,7 +194,7 @@ constexpr const char* k_audit_file = "audit.html";
 
 /// Critical findings of the audit, where no certificate has them among its own findings; then how many there are of each
 /// severity.
-void report_audit(const app::Evaluation& evaluation, const CommonOptions& common) {
+void report_audit(const evaluation::Evaluation& evaluation, const CommonOptions& common) {
     const audit::AuditReport& report = *evaluation.audit;
     for (const audit::AuditFinding& finding : report.findings) {
         if (evaluation.record.certificate || !audit::is_open_critical(finding, report.subject.waivers)) {
@@ -220,9 +220,9 @@ void print_audit(const audit::AuditReport& report, const fs::path& where_to_read
 }
 
 /// Documents of a kind of records as they stand in a folder.
-std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& folder) {
+std::vector<fs::path> document_files(const evaluation::Kind& kind, const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const std::string& name : app::document_names(kind)) {
+    for (const std::string& name : issuing::document_names(kind)) {
         files.push_back(folder / name);
     }
     return files;
@@ -232,13 +232,13 @@ std::vector<fs::path> document_files(const app::Kind& kind, const fs::path& fold
 /// \param several  whether the command has other jobs
 /// \return true when the answer is negative
 bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> inputs,
-             const app::OutputsAtStart& at_start, Issuer& issuer, const DocumentOptions& options,
+             const outputs::OutputsAtStart& at_start, Issuer& issuer, const DocumentOptions& options,
              const CommonOptions& common, ProgressLine& progress, bool several) {
-    app::Evaluation evaluation = app::evaluate_job(
-        job, {app::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
+    evaluation::Evaluation evaluation = evaluation::evaluate_job(
+        job, {evaluation::CovarianceFile::own_folder, *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(options.share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
-        [&](const app::ReadJob& read) {
+        [&](const std::string& text) { progress(text); }, evaluation::program_kinds(), options.laboratory,
+        [&](const evaluation::ReadJob& read) {
             tell_memory(read, common);
             progress("characters of the documents");
             const std::vector<gum::Diagnostic> warnings = issuer.look_at(read);
@@ -246,24 +246,25 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
             print_messages(several ? of_job(warnings, job) : warnings, common);
         });
     const reports::EvaluationRecord& record = evaluation.record;
-    const std::vector<fs::path> documents = document_files(app::kind_of(record, app::program_kinds()), folder);
-    std::vector<app::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
+    const std::vector<fs::path> documents =
+        document_files(evaluation::kind_of(record, evaluation::program_kinds()), folder);
+    std::vector<outputs::OutputFile> files{{folder / "record.json", reports::to_canonical_json(record)}};
     judge_issue(evaluation.record, options.languages, options.share);  // the record is written as it is on every day
     if (!evaluation.covariance.empty()) {
         files.push_back({folder / evaluation.covariance_file, evaluation.covariance});
     }
-    for (const fs::path& file : app::input_files(job, record, options.laboratory)) {
+    for (const fs::path& file : evaluation::input_files(job, record, options.laboratory)) {
         inputs.push_back(file);
     }
     const bool held_back = withheld(record, options.draft);
     const auto make_documents = [&] {
-        files.push_back({folder / k_audit_file,
-                         reports::audit_as_html(
-                             app::audit_view(std::span(evaluation.audit.get(), 1), {record.job_files.front().sha256}),
-                             issuer.options().assets)});
+        files.push_back(
+            {folder / k_audit_file, reports::audit_as_html(evaluation::audit_view(std::span(evaluation.audit.get(), 1),
+                                                                                  {record.job_files.front().sha256}),
+                                                           issuer.options().assets)});
         if (!held_back) {
             progress("documents");
-            std::vector<app::IssuedDocument> issued = app::issue_documents(record, issuer.options());
+            std::vector<issuing::IssuedDocument> issued = issuing::issue_documents(record, issuer.options());
             for (std::size_t i = 0; i < issued.size(); ++i) {
                 files.push_back({documents[i], std::move(issued[i].bytes)});
             }
@@ -296,7 +297,7 @@ bool run_job(const fs::path& job, const fs::path& folder, std::vector<fs::path> 
         print_audit(*evaluation.audit, folder / k_audit_file);
         print_written(files);
     }
-    return evaluation.negative || evaluation.blocked || app::is_refuted_by_audit(evaluation) ||
+    return evaluation.negative || evaluation.blocked || evaluation::is_refuted_by_audit(evaluation) ||
            (record.certificate && record.certificate->blocked);
 }
 
@@ -338,36 +339,37 @@ bool print_as_unchecked(reports::EvaluationRecord& record, gum::Diagnostic why, 
 /// \param file    empty: to standard output
 /// \param inputs  of the command
 ExitCode render_record(const std::string& name, const std::string& format, const fs::path& file,
-                       const std::vector<fs::path>& inputs, const app::OutputsAtStart& at_start, Issuer& issuer,
+                       const std::vector<fs::path>& inputs, const outputs::OutputsAtStart& at_start, Issuer& issuer,
                        const DocumentOptions& options, const CommonOptions& common) {
-    const std::string bytes_read = app::read_file(name);
-    for (const gum::Diagnostic& doubt : app::doubts_about_set(name, bytes_read)) {
+    const std::string bytes_read = evaluation::read_file(name);
+    for (const gum::Diagnostic& doubt : outputs::doubts_about_set(name, bytes_read)) {
         print_message(doubt, common);
     }
     reports::EvaluationRecord record = reports::record_from_json(bytes_read, name);
-    if (app::output_form(format).ending.ends_with(".pdf")) {
+    if (issuing::output_form(format).ending.ends_with(".pdf")) {
         issuer.require_ready();  // before the job of the record is evaluated again
     }
     ProgressLine progress(!common.quiet);
-    const std::optional<gum::Diagnostic> unchecked =
-        app::recompute_record(record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
-                              [&](const std::string& text) { progress("checking the record: " + text); });
+    const std::optional<gum::Diagnostic> unchecked = evaluation::recompute_record(
+        record, name, static_cast<unsigned>(common.threads), templates_folder(options.share),
+        [&](const std::string& text) { progress("checking the record: " + text); });
     progress.clear();
     if (unchecked && !print_as_unchecked(record, *unchecked, options, common)) {
         return negative_answer;
     }
     if (!options.superseded_by.empty()) {
-        app::supersede(record, reports::record_from_json(app::read_file(options.superseded_by), options.superseded_by),
-                       name, options.superseded_by);
+        issuing::supersede(
+            record, reports::record_from_json(evaluation::read_file(options.superseded_by), options.superseded_by),
+            name, options.superseded_by);
     }
     judge_issue(record, options.languages, options.share);
-    if (app::output_form(format).is_issued && withheld(record, options.draft)) {
+    if (issuing::output_form(format).is_issued && withheld(record, options.draft)) {
         report_findings(record, common);
         report_withheld(name, {file}, common);
         return negative_answer;
     }
     const std::string bytes =
-        app::issue_document(record, format, issuer.options(app::output_form(format).with_templates));
+        issuing::issue_document(record, format, issuer.options(issuing::output_form(format).with_templates));
     if (file.empty()) {
         write_to_stdout(bytes);
         return done;
@@ -390,8 +392,8 @@ void require_ready(Issuer& issuer, const std::vector<std::string>& jobs, const D
     } catch (const gum::StorageError&) {
         for (const std::string& job : jobs) {
             std::vector<gum::Diagnostic> found =
-                app::check_file(job, static_cast<unsigned>(common.threads), templates_folder(options.share), {},
-                                options.laboratory)
+                evaluation::check_file(job, static_cast<unsigned>(common.threads), templates_folder(options.share), {},
+                                       options.laboratory)
                     .findings;
             std::erase_if(found, [](const gum::Diagnostic& d) { return d.severity != gum::Severity::error; });
             if (!found.empty()) {
@@ -407,7 +409,7 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
     std::vector<fs::path> folders;
     for (const std::string& job : jobs) {
         folders.push_back(folder_of(job, options.output, jobs.size() > 1));
-        app::require_writable(folders.back() / "record.json");
+        outputs::require_writable(folders.back() / "record.json");
     }
     require_different(folders, "jobs");
     Issuer issuer(options);
@@ -418,13 +420,13 @@ ExitCode run_jobs(const std::vector<std::string>& jobs, const DocumentOptions& o
         for (const fs::path& file : {folder / "record.json", folder / "covariance.csv", folder / k_audit_file}) {
             outputs.insert(outputs.end(), {file, kept_place(file)});
         }
-        for (const app::Kind& kind : app::program_kinds()) {
+        for (const evaluation::Kind& kind : evaluation::program_kinds()) {
             const std::vector<fs::path> documents = document_files(kind, folder);
             outputs.insert(outputs.end(), documents.begin(), documents.end());
         }
     }
-    app::require_not_inputs(outputs, inputs);
-    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
+    outputs::require_not_inputs(outputs, inputs);
+    const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
     print_warnings(issuer, common);
     require_ready(issuer, jobs, options, common);
     ExitCode code = done;
@@ -451,24 +453,25 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
     std::vector<fs::path> inputs{job};
     add_program_files(inputs, share);
     if (!to_stdout) {
-        app::require_writable(record_file);
-        app::require_not_an_input(record_file, inputs);
+        outputs::require_writable(record_file);
+        outputs::require_not_an_input(record_file, inputs);
     }
-    const app::OutputsAtStart at_start = to_stdout ? app::OutputsAtStart() : begin_outputs({record_file}, common);
+    const outputs::OutputsAtStart at_start =
+        to_stdout ? outputs::OutputsAtStart() : begin_outputs({record_file}, common);
     ProgressLine progress(!common.quiet);
-    app::Evaluation evaluation = app::evaluate_job(
+    evaluation::Evaluation evaluation = evaluation::evaluate_job(
         job,
-        {to_stdout ? app::CovarianceFile::none : app::CovarianceFile::with_others,
+        {to_stdout ? evaluation::CovarianceFile::none : evaluation::CovarianceFile::with_others,
          *reports::covariance_form(options.covariance)},
         static_cast<unsigned>(common.threads), templates_folder(share),
-        [&](const std::string& text) { progress(text); }, app::program_kinds(), options.laboratory,
-        [&](const app::ReadJob& read) { tell_memory(read, common); });
+        [&](const std::string& text) { progress(text); }, evaluation::program_kinds(), options.laboratory,
+        [&](const evaluation::ReadJob& read) { tell_memory(read, common); });
     const std::string text = reports::to_canonical_json(evaluation.record);
     judge_issue(evaluation.record, {}, share);
     progress.clear();
     const bool blocked =
         evaluation.blocked || (evaluation.record.certificate && evaluation.record.certificate->blocked);
-    const bool negative = evaluation.negative || blocked || app::is_refuted_by_audit(evaluation);
+    const bool negative = evaluation.negative || blocked || evaluation::is_refuted_by_audit(evaluation);
     const ExitCode code = negative ? negative_answer : done;
     if (to_stdout) {
         report_diagnostics(evaluation.record, common);
@@ -477,11 +480,11 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
         write_to_stdout(text);
         return code;
     }
-    std::vector<app::OutputFile> files{{record_file, text}};
+    std::vector<outputs::OutputFile> files{{record_file, text}};
     if (!evaluation.covariance.empty()) {
         files.push_back({record_file.parent_path() / evaluation.covariance_file, evaluation.covariance});
     }
-    for (const fs::path& file : app::input_files(job, evaluation.record, options.laboratory)) {
+    for (const fs::path& file : evaluation::input_files(job, evaluation.record, options.laboratory)) {
         inputs.push_back(file);
     }
     write_outputs(files, inputs, at_start);
@@ -499,7 +502,7 @@ ExitCode evaluate_to_record(const fs::path& job, const DocumentOptions& options,
 }
 
 ExitCode compare_to_record(const fs::path& job, const DocumentOptions& options, const CommonOptions& common) {
-    app::require_comparison_job(job);
+    evaluation::require_comparison_job(job);
     return evaluate_to_record(job, options, common);
 }
 
@@ -515,7 +518,7 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
         refuse_usage("--head", "--format " + format, "certificates as HTML, PDF and text print a head of the archive",
                      "leave it out");
     }
-    if (!options.signer.empty() && !app::output_form(format).is_signed) {
+    if (!options.signer.empty() && !issuing::output_form(format).is_signed) {
         refuse_usage("--sign", "--format " + format,
                      "signatures are put into digital certificates and PDF certificates",
                      "leave it out, or ask for --format pdf or dcc");
@@ -527,25 +530,25 @@ ExitCode render_records(const std::vector<std::string>& records, const std::stri
     for (const std::string& name : records) {
         const fs::path record(name);
         const fs::path beside =
-            record.parent_path() / (record.stem().string() + std::string(app::output_form(format).ending));
+            record.parent_path() / (record.stem().string() + std::string(issuing::output_form(format).ending));
         files.push_back(options.output.empty() ? beside
                         : several              ? fs::path(options.output) / beside.filename()
                                                : fs::path(options.output));
         if (!to_stdout) {
-            app::require_writable(files.back());
+            outputs::require_writable(files.back());
         }
     }
     require_different(files, "documents");
     if (!to_stdout) {
-        app::require_not_inputs(files, {records.begin(), records.end()});
+        outputs::require_not_inputs(files, {records.begin(), records.end()});
     }
     Issuer issuer(options);
     std::vector<fs::path> inputs = issuer.inputs();
     inputs.insert(inputs.end(), records.begin(), records.end());
     if (!to_stdout) {
-        app::require_not_inputs(files, inputs);
+        outputs::require_not_inputs(files, inputs);
     }
-    const app::OutputsAtStart at_start = to_stdout ? app::OutputsAtStart() : begin_outputs(files, common);
+    const outputs::OutputsAtStart at_start = to_stdout ? outputs::OutputsAtStart() : begin_outputs(files, common);
     print_warnings(issuer, common);
     ExitCode code = done;
     for (std::size_t i = 0; i < records.size(); ++i) {

@@ -13,8 +13,8 @@
 #include <system_error>
 #include <thread>
 
-#include "app/read_file.h"
 #include "encoding/sha2.h"
+#include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 
 namespace gumcert::cli {
@@ -44,12 +44,12 @@ utsname kernel() {
 }
 
 /// "libceres.so.2.1.0" is version 2.1.0 of libceres; "libz-1.2.so" is named so.
-app::LibraryVersion library_of(const fs::path& loaded) {
+self_test::LibraryVersion library_of(const fs::path& loaded) {
     std::error_code error;
     const fs::path file = fs::canonical(loaded, error);
     const std::string name = (error ? loaded : file).filename().string();
     const std::size_t end = name.find(".so");
-    app::LibraryVersion library{.name = name.substr(0, end)};
+    self_test::LibraryVersion library{.name = name.substr(0, end)};
     if (end != std::string::npos && end + 4 < name.size()) {
         library.version = name.substr(end + 4);
     }
@@ -57,7 +57,7 @@ app::LibraryVersion library_of(const fs::path& loaded) {
         library.version = gnu_get_libc_version();
     }
     try {
-        library.sha256 = encoding::sha256(app::read_file(error ? loaded : file));
+        library.sha256 = encoding::sha256(evaluation::read_file(error ? loaded : file));
     } catch (const gum::DiagnosedError&) {
         library.sha256 = "unknown";  // replaced on the disk since the program began
     }
@@ -87,13 +87,13 @@ std::string operating_system() {
                        names.machine);
 }
 
-std::vector<app::LibraryVersion> libraries_in_use() {
+std::vector<self_test::LibraryVersion> libraries_in_use() {
     std::vector<fs::path> loaded;
     (void)dl_iterate_phdr(add_loaded, &loaded);
-    std::vector<app::LibraryVersion> libraries;
+    std::vector<self_test::LibraryVersion> libraries;
     std::transform(loaded.begin(), loaded.end(), std::back_inserter(libraries), library_of);
     std::sort(libraries.begin(), libraries.end(),
-              [](const app::LibraryVersion& a, const app::LibraryVersion& b) { return a.name < b.name; });
+              [](const self_test::LibraryVersion& a, const self_test::LibraryVersion& b) { return a.name < b.name; });
     for (const auto& [name, version] : k_compiled_in) {
         libraries.push_back({.name = std::string(name), .version = std::string(version), .sha256 = {}});
     }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/self_test/self_test.h"
+#include "self_test/self_test.h"
 
 namespace gumcert::cli {
 
@@ -15,6 +15,6 @@ namespace gumcert::cli {
 
 /// The libraries of this process: those that are loaded, by the names of their files, with SHA-256; then those that are
 /// compiled in.
-[[nodiscard]] std::vector<app::LibraryVersion> libraries_in_use();
+[[nodiscard]] std::vector<self_test::LibraryVersion> libraries_in_use();
 
 }  // namespace gumcert::cli

@@ -139,7 +139,7 @@ ExitCode dispatch(int argc, char** argv, Arguments& a) {
         return show_laboratory(a.file, a.date, a.format);
     }
     if (a.command == "self-test") {
-        return self_test(a.output, a.cases, a.language, a.share, a.common);
+        return gumcert::cli::self_test(a.output, a.cases, a.language, a.share, a.common);
     }
     if (a.command == "rerun") {
         return rerun_records(a.records, a.format, a.share, a.common);

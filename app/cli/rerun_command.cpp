@@ -4,30 +4,31 @@
 #include <filesystem>
 
 #include "app/cli/terminal/share_folder.h"
-#include "app/read_file.h"
-#include "app/rerun_record.h"
+#include "evaluation/read_file.h"
+#include "evaluation/rerun_record.h"
 
 namespace gumcert::cli {
 
 ExitCode rerun_records(const std::vector<std::string>& records, const std::string& format, const std::string& share,
                        const CommonOptions& common) {
     const std::filesystem::path templates = templates_folder(share);
-    std::vector<app::RerunRecord> all;
+    std::vector<evaluation::RerunRecord> all;
     ExitCode code = done;
     ProgressLine progress(!common.quiet);
     for (const std::string& name : records) {
         const ExitCode one = explained(common, [&] {
-            all.push_back(app::rerun_record(app::read_file(name), name, static_cast<unsigned>(common.threads),
-                                            templates, [&](const std::string& text) { progress(name + ": " + text); }));
+            all.push_back(evaluation::rerun_record(evaluation::read_file(name), name,
+                                                   static_cast<unsigned>(common.threads), templates,
+                                                   [&](const std::string& text) { progress(name + ": " + text); }));
             return all.back().is_negative() ? negative_answer : done;
         });
         code = std::max(code, one);
     }
     progress.clear();
     if (!all.empty()) {
-        write_to_stdout(format == "json"  ? app::rerun_json(all)
-                        : format == "csv" ? app::rerun_csv(all)
-                                          : app::rerun_text(all));
+        write_to_stdout(format == "json"  ? evaluation::rerun_json(all)
+                        : format == "csv" ? evaluation::rerun_csv(all)
+                                          : evaluation::rerun_text(all));
     }
     return code;
 }

@@ -15,13 +15,13 @@
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/output_files.h"
-#include "app/self_test/self_test.h"
-#include "app/self_test/self_test_document.h"
 #include "gum/quantity/diagnostic.h"
+#include "outputs/output_files.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/template_digest.h"
 #include "reports/record/evaluation_record.h"
+#include "self_test/self_test.h"
+#include "self_test/self_test_document.h"
 #include "text/lists.h"
 #include "text/visible_text.h"
 
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string source_of(const app::ReferenceCase& reference) {
+std::string source_of(const self_test::ReferenceCase& reference) {
     constexpr std::size_t k_longest = 120;
     return text::visible(reference.document + (reference.place.empty() ? "" : ", " + reference.place), k_longest) +
            (reference.is_place_seen ? "" : " (not looked up)");
@@ -40,7 +40,7 @@ std::string source_of(const app::ReferenceCase& reference) {
 constexpr std::size_t k_longest_line = 300;  // characters of a text of a case
 
 /// One line a case; a case that fails is a message as well.
-void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
+void tell(const self_test::CaseOutcome& outcome, const CommonOptions& common) {
     const bool passes = outcome.passes();
     if (!common.quiet) {
         print_to_stdout("{}  {}  {}  {} of {} values\n", passes ? "pass" : "FAIL", text::visible(outcome.reference.id),
@@ -51,7 +51,7 @@ void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
         return;
     }
     const auto first = std::find_if(outcome.values.begin(), outcome.values.end(),
-                                    [](const app::ComparedValue& value) { return !value.agrees; });
+                                    [](const self_test::ComparedValue& value) { return !value.agrees; });
     const std::size_t more = outcome.values.size() - outcome.agreed();
     print_message(
         {.code = "GC-SELF-0003",
@@ -68,17 +68,17 @@ void tell(const app::CaseOutcome& outcome, const CommonOptions& common) {
         common);
 }
 
-void tell_values(const app::CaseOutcome& outcome) {
-    for (const app::ComparedValue& value : outcome.values) {
+void tell_values(const self_test::CaseOutcome& outcome) {
+    for (const self_test::ComparedValue& value : outcome.values) {
         const int digits = value.expected.digits();
         print_to_stdout("      {}  {}: {}, {} {}{}  ({})\n", value.agrees ? "pass" : "FAIL",
                         text::visible(value.expected.name()),
-                        value.was_found ? text::visible(app::value_text(value.computed, 15)) : "nothing",
+                        value.was_found ? text::visible(self_test::value_text(value.computed, 15)) : "nothing",
                         value.expected.is_printed ? "printed" : "expected", text::visible(value.expected.text),
                         digits > 0 ? fmt::format(", {} of {} digits", value.digits_reached, digits) : "",
                         text::visible(value.expected.found.front(), k_longest_line));
     }
-    for (const app::ExpectedValue& expected : outcome.reference.expected) {
+    for (const self_test::ExpectedValue& expected : outcome.reference.expected) {
         if (!expected.not_compared.empty()) {
             print_to_stdout("      not compared  {}: {}\n", text::visible(expected.name()),
                             text::visible(expected.not_compared, k_longest_line));
@@ -101,17 +101,17 @@ std::vector<fs::path> chosen(const std::vector<fs::path>& files, const std::vect
     return result;
 }
 
-app::TestedSystem tested_system(const fs::path& templates, const std::string& cases_digest) {
-    app::TestedSystem system{.date = time_now(),
-                             .name = reports::Software().name,
-                             .version = std::string(k_version),
-                             .commit = std::string(k_commit),
-                             .compiler = std::string(k_compiler),
-                             .executable_sha256 = executable_digest(),
-                             .processor = processor(),
-                             .operating_system = operating_system(),
-                             .libraries = libraries_in_use(),
-                             .templates_sha256 = reports::template_digest(templates)};
+self_test::TestedSystem tested_system(const fs::path& templates, const std::string& cases_digest) {
+    self_test::TestedSystem system{.date = time_now(),
+                                   .name = reports::Software().name,
+                                   .version = std::string(k_version),
+                                   .commit = std::string(k_commit),
+                                   .compiler = std::string(k_compiler),
+                                   .executable_sha256 = executable_digest(),
+                                   .processor = processor(),
+                                   .operating_system = operating_system(),
+                                   .libraries = libraries_in_use(),
+                                   .templates_sha256 = reports::template_digest(templates)};
     system.templates_of_release = system.templates_sha256 == k_template_digest;
     system.cases_of_release = cases_digest == k_reference_case_digest;
     return system;
@@ -159,13 +159,13 @@ bool tried(const fs::path& pdf, const CommonOptions& common, const Work& work) {
 }
 
 ExitCode run_some(const std::vector<fs::path>& files, const fs::path& templates, const CommonOptions& common) {
-    const app::SelfTest test = app::run_self_test(files, static_cast<unsigned>(common.threads), templates,
-                                                  [&](const app::CaseOutcome& outcome) {
-                                                      tell(outcome, common);
-                                                      if (!common.quiet) {
-                                                          tell_values(outcome);
-                                                      }
-                                                  });
+    const self_test::SelfTest test = self_test::run_self_test(files, static_cast<unsigned>(common.threads), templates,
+                                                              [&](const self_test::CaseOutcome& outcome) {
+                                                                  tell(outcome, common);
+                                                                  if (!common.quiet) {
+                                                                      tell_values(outcome);
+                                                                  }
+                                                              });
     return test.passed() == test.cases.size() ? done : negative_answer;
 }
 
@@ -180,7 +180,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
     refuse_stdout("-o", output);
     const fs::path templates = templates_folder(share);
     const fs::path shipped = reference_cases_folder(share);
-    const std::vector<fs::path> files = app::case_files(shipped);
+    const std::vector<fs::path> files = self_test::case_files(shipped);
     if (!cases.empty()) {
         return run_some(chosen(files, cases), templates, common);
     }
@@ -190,23 +190,25 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
     const fs::path pdf = folder / "self-test.pdf";
     const std::vector<fs::path> outputs{folder / "self-test.json", folder / "self-test.html", pdf};
     for (const fs::path& file : outputs) {
-        app::require_writable(file);
+        outputs::require_writable(file);
     }
-    app::require_not_inputs(outputs, inputs);
-    const app::OutputsAtStart at_start = begin_outputs(outputs, common);
-    app::SelfTest test = app::run_self_test(files, static_cast<unsigned>(common.threads), templates,
-                                            [&](const app::CaseOutcome& outcome) { tell(outcome, common); });
+    outputs::require_not_inputs(outputs, inputs);
+    const outputs::OutputsAtStart at_start = begin_outputs(outputs, common);
+    self_test::SelfTest test =
+        self_test::run_self_test(files, static_cast<unsigned>(common.threads), templates,
+                                 [&](const self_test::CaseOutcome& outcome) { tell(outcome, common); });
     ProgressLine progress(!common.quiet);
     progress("the report");
     const reports::RenderAssets assets = render_assets(share, {language.empty() ? "en" : language});
     test.system = tested_system(templates, test.cases_sha256);
     const bool has_pdf = tried(pdf, common, [&] { test.system.fonts = font_families(assets); });
-    const std::string json = app::self_test_json(test);
-    const std::string digest = app::digest_of_self_test(json);
-    std::vector<app::OutputFile> written{{folder / "self-test.json", json},
-                                         {folder / "self-test.html", app::self_test_html(test, digest, assets)}};
+    const std::string json = self_test::self_test_json(test);
+    const std::string digest = self_test::digest_of_self_test(json);
+    std::vector<outputs::OutputFile> written{
+        {folder / "self-test.json", json},
+        {folder / "self-test.html", self_test::self_test_html(test, digest, assets)}};
     if (has_pdf) {
-        (void)tried(pdf, common, [&] { written.push_back({pdf, app::self_test_pdf(test, digest, assets)}); });
+        (void)tried(pdf, common, [&] { written.push_back({pdf, self_test::self_test_pdf(test, digest, assets)}); });
     }
     write_outputs(written, inputs, at_start);
     progress.clear();
@@ -221,7 +223,7 @@ ExitCode self_test(const std::string& output, const std::vector<std::string>& ca
                                                                : "cases and templates are");
         }
         print_to_stdout("SHA-256 of the report: {}\n\nWritten:\n", digest);
-        for (const app::OutputFile& file : written) {
+        for (const outputs::OutputFile& file : written) {
             print_to_stdout("  {}\n", text::one_line(file.path.string()));
         }
         print_to_stdout("Next: {}\n",

@@ -7,11 +7,11 @@
 
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/share_folder.h"
-#include "app/output_files.h"
-#include "app/plan_job.h"
-#include "app/simulate_job.h"
-#include "app/study_job.h"
-#include "app/unprintable_characters.h"
+#include "evaluation/plan_job.h"
+#include "evaluation/simulate_job.h"
+#include "evaluation/study_job.h"
+#include "evaluation/unprintable_characters.h"
+#include "outputs/output_files.h"
 #include "reports/forms/pdf_worker.h"
 #include "reports/forms/study_document.h"
 #include "text/visible_text.h"
@@ -29,7 +29,7 @@ struct StudyOutput {
     reports::RenderAssets assets = {};
     std::unique_ptr<reports::PdfWorker> worker = {};  ///< of a PDF
     std::vector<fs::path> inputs = {};
-    app::OutputsAtStart at_start = {};
+    outputs::OutputsAtStart at_start = {};
 };
 
 /// The outcome in the forms that need nothing but itself: numbers for programs, and text. They are kept where the
@@ -59,15 +59,15 @@ StudyOutput study_output(const std::string& output, const fs::path& job, const C
         outputs.push_back(kept_place(numbers_file(result.file)));
         outputs.push_back(kept_place(text_file(result.file)));
     }
-    app::require_writable(result.file);
-    app::require_not_inputs(outputs, {job});
+    outputs::require_writable(result.file);
+    outputs::require_not_inputs(outputs, {job});
     result.at_start = begin_outputs(outputs, common);
     return result;
 }
 
 /// Looks at what the document of a study is made with, before the study begins, which would be lost.
-void prepare_output(StudyOutput& output, const app::StudyJob& study, const fs::path& job, const std::string& share,
-                    const CommonOptions& common) {
+void prepare_output(StudyOutput& output, const evaluation::StudyJob& study, const fs::path& job,
+                    const std::string& share, const CommonOptions& common) {
     if (output.file.empty()) {
         return;
     }
@@ -80,11 +80,11 @@ void prepare_output(StudyOutput& output, const app::StudyJob& study, const fs::p
     if (output.form == ".pdf") {
         output.worker = std::make_unique<reports::PdfWorker>(output.assets);
         output.worker->require_ready();
-        print_messages(app::unprintable_characters(study.read(),
-                                                   [&](const std::vector<std::string>& characters) {
-                                                       return reports::characters_without_glyph(
-                                                           characters, output.assets, *output.worker);
-                                                   }),
+        print_messages(evaluation::unprintable_characters(study.read(),
+                                                          [&](const std::vector<std::string>& characters) {
+                                                              return reports::characters_without_glyph(
+                                                                  characters, output.assets, *output.worker);
+                                                          }),
                        common);
     }
 }
@@ -120,13 +120,13 @@ void write_study(const reports::StudyDocument& study, const StudyOutput& output,
 ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::optional<std::int64_t> seed,
                   const std::string& output, const std::string& share, const CommonOptions& common) {
     StudyOutput to = study_output(output, job, common);
-    const app::StudyJob read(job);  // what is wrong with the job goes before what is wrong with the machine
+    const evaluation::StudyJob read(job);  // what is wrong with the job goes before what is wrong with the machine
     prepare_output(to, read, job, share, common);
     ProgressLine progress(!common.quiet);
     const auto unsigned_seed = seed ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*seed)) : std::nullopt;
     const reports::StudyDocument study =
-        app::simulate_job(read.job(), read.name(), runs, unsigned_seed, static_cast<unsigned>(common.threads),
-                          [&](const std::string& text) { progress(text); });
+        evaluation::simulate_job(read.job(), read.name(), runs, unsigned_seed, static_cast<unsigned>(common.threads),
+                                 [&](const std::string& text) { progress(text); });
     progress.clear();
     write_study(study, to, common);
     return done;
@@ -134,11 +134,12 @@ ExitCode simulate(const fs::path& job, std::optional<std::size_t> runs, std::opt
 
 ExitCode plan(const fs::path& job, const std::string& output, const std::string& share, const CommonOptions& common) {
     StudyOutput to = study_output(output, job, common);
-    const app::StudyJob read(job);
+    const evaluation::StudyJob read(job);
     prepare_output(to, read, job, share, common);
     ProgressLine progress(!common.quiet);
-    const reports::StudyDocument study = app::plan_job(read.job(), read.name(), static_cast<unsigned>(common.threads),
-                                                       [&](const std::string& text) { progress(text); });
+    const reports::StudyDocument study =
+        evaluation::plan_job(read.job(), read.name(), static_cast<unsigned>(common.threads),
+                             [&](const std::string& text) { progress(text); });
     progress.clear();
     write_study(study, to, common);
     return done;

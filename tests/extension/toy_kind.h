@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/kinds.h"
+#include "evaluation/kinds.h"
 #include "gum/coverage.h"
 #include "gum/type_a.h"
 #include "jobs/job_files.h"
@@ -54,14 +54,14 @@ inline ToyJob read_toy_job(const jobs::FileSource& source, const std::string& jo
     return job;
 }
 
-inline app::Evaluation evaluate_toy_job(const app::EvaluationTask& task) {
+inline evaluation::Evaluation evaluate_toy_job(const evaluation::EvaluationTask& task) {
     constexpr double k_coverage_probability = 0.9545;
     const ToyJob job = read_toy_job(task.files, task.job_file);
     const gum::ObservationSummary mean = gum::evaluate_type_a(job.readings_mm);
     const double u = mean.standard_deviation_of_mean;
     const double k = gum::coverage_factor(k_coverage_probability, mean.degrees_of_freedom);
 
-    app::Evaluation evaluation;
+    evaluation::Evaluation evaluation;
     evaluation.record = reports::record_head(std::string(k_toy_kind),
                                              {.title = job.title,
                                               .coverage_probability = k_coverage_probability,
@@ -101,7 +101,7 @@ inline void readings_section(reports::CertificateBuilder& builder, const reports
 inline constexpr std::array<std::string_view, 2> k_forms{"html", "text"};
 
 /// Its row in the table of kinds …
-inline constexpr app::Kind k_kind{
+inline constexpr evaluation::Kind k_kind{
     .word = k_toy_kind,
     .read = [](const jobs::FileSource& source,
                const std::string& job_file) { return read_toy_job(source, job_file).warnings; },

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <string>
 
-#include "app/evaluate_job.h"
-#include "app/issue_documents.h"
-#include "app/recompute_record.h"
+#include "evaluation/evaluate_job.h"
+#include "evaluation/recompute_record.h"
+#include "issuing/issue_documents.h"
 #include "reports/record/record_kinds.h"
 #include "tests/support/file_content.h"
 
@@ -40,12 +40,12 @@ protected:
     }
     ~ToyKind() override { fs::remove_all(templates_); }
 
-    [[nodiscard]] app::Evaluation evaluated(const std::string& job) const {
-        return app::evaluate_job(jobs::MemoryFileSource({{"job.json", job}}), "job.json", app::CovarianceFile::none, 1,
-                                 templates_, {}, kinds_);
+    [[nodiscard]] evaluation::Evaluation evaluated(const std::string& job) const {
+        return evaluation::evaluate_job(jobs::MemoryFileSource({{"job.json", job}}), "job.json",
+                                        evaluation::CovarianceFile::none, 1, templates_, {}, kinds_);
     }
-    [[nodiscard]] app::IssueOptions options() const {
-        app::IssueOptions options;
+    [[nodiscard]] issuing::IssueOptions options() const {
+        issuing::IssueOptions options;
         options.assets.templates = templates_;
         options.assets.kinds = document_kinds_;
         options.kinds = kinds_;
@@ -53,7 +53,7 @@ protected:
     }
 
     fs::path templates_;
-    std::vector<app::Kind> kinds_ = with(app::program_kinds(), k_kind);
+    std::vector<evaluation::Kind> kinds_ = with(evaluation::program_kinds(), k_kind);
     std::vector<reports::DocumentKind> document_kinds_ = with(reports::document_kinds(), k_document);
 };
 
@@ -70,17 +70,17 @@ TEST_F(ToyKind, IsEvaluated) {
 
 TEST_F(ToyKind, IsIssued) {
     const reports::EvaluationRecord record = evaluated(k_job).record;
-    const std::vector<app::IssuedDocument> documents = app::issue_documents(record, options());
+    const std::vector<issuing::IssuedDocument> documents = issuing::issue_documents(record, options());
     ASSERT_EQ(documents.size(), 2U);
-    EXPECT_EQ(app::document_names(k_kind), (std::vector<std::string>{"toy.html", "toy.txt"}));
-    for (const app::IssuedDocument& document : documents) {
+    EXPECT_EQ(issuing::document_names(k_kind), (std::vector<std::string>{"toy.html", "toy.txt"}));
+    for (const issuing::IssuedDocument& document : documents) {
         EXPECT_THAT(document.bytes, HasSubstr("Five readings")) << document.form->name;
         EXPECT_THAT(document.bytes, HasSubstr("mean of readings")) << document.form->name;
         EXPECT_THAT(document.bytes, HasSubstr("Readings of the toy")) << document.form->name;
     }
     // Its row lists no digital certificate, so that there is none, and nothing that could be signed.
-    EXPECT_FALSE(app::is_certificate(record, kinds_));
-    EXPECT_THROW((void)app::issue_document(record, "dcc", options()), gum::InputError);
+    EXPECT_FALSE(issuing::is_certificate(record, kinds_));
+    EXPECT_THROW((void)issuing::issue_document(record, "dcc", options()), gum::InputError);
 }
 
 TEST_F(ToyKind, WhatItsReaderRefusesIsToldAllTogether) {
@@ -96,13 +96,13 @@ TEST_F(ToyKind, ItsRecordIsReadAndEvaluatedAgain) {
     const std::string text = reports::to_canonical_json(evaluated(k_job).record);
     reports::EvaluationRecord record =
         reports::record_from_json(text, "record.json", std::vector<std::string_view>{"budget", "toy"});
-    EXPECT_FALSE(app::recompute_record(record, "record.json", 1, templates_, {}, kinds_));
+    EXPECT_FALSE(evaluation::recompute_record(record, "record.json", 1, templates_, {}, kinds_));
     EXPECT_EQ(reports::to_canonical_json(record), text);
 }
 
 TEST_F(ToyKind, IsUnknownToTheProgram) {
     const jobs::MemoryFileSource source({{"job.json", std::string(k_job)}});
-    EXPECT_THROW((void)app::evaluate_job(source, "job.json", app::CovarianceFile::none, 1, templates_),
+    EXPECT_THROW((void)evaluation::evaluate_job(source, "job.json", evaluation::CovarianceFile::none, 1, templates_),
                  gum::InputError);
     const std::string text = reports::to_canonical_json(evaluated(k_job).record);
     EXPECT_THROW((void)reports::record_from_json(text, "record.json"), gum::InputError);
@@ -110,12 +110,12 @@ TEST_F(ToyKind, IsUnknownToTheProgram) {
 
 TEST_F(ToyKind, LeavesTheKindsOfTheProgramAsTheyAre) {
     const fs::path job = fs::path(GUMCERT_SOURCE_DIR) / "examples/end_gauge/job.json";
-    const auto record = [&](std::span<const app::Kind> kinds) {
-        return app::evaluate_job(job, app::CovarianceFile::none, 1, templates_, {}, kinds).record;
+    const auto record = [&](std::span<const evaluation::Kind> kinds) {
+        return evaluation::evaluate_job(job, evaluation::CovarianceFile::none, 1, templates_, {}, kinds).record;
     };
     const reports::EvaluationRecord with_toy = record(kinds_);
-    EXPECT_EQ(reports::to_canonical_json(with_toy), reports::to_canonical_json(record(app::program_kinds())));
-    EXPECT_THAT(app::issue_document(with_toy, "text", options()), Not(HasSubstr("toy")));
+    EXPECT_EQ(reports::to_canonical_json(with_toy), reports::to_canonical_json(record(evaluation::program_kinds())));
+    EXPECT_THAT(issuing::issue_document(with_toy, "text", options()), Not(HasSubstr("toy")));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/archive/standard_references.h"
+#include "archive/certificates/standard_references.h"
 #include "archive/settings.h"
 #include "archive/store/open_store.h"
 #include "tests/fuzz/demand.h"
@@ -33,10 +33,11 @@ void count_up(const std::string& pattern) {
 }
 
 void read_references(std::string_view record) {
-    if (const auto references = app::references_of(record)) {
-        for (const app::StandardReference& reference : references->references) {
+    if (const auto references = archive::references_of(record)) {
+        for (const archive::StandardReference& reference : references->references) {
             demand(app::word_of(reference.kind) != nullptr, "a kind of reference");
-            demand(reference.text.empty() || app::names(reference.text, reference.text), "a text that is not its name");
+            demand(reference.text.empty() || archive::names(reference.text, reference.text),
+                   "a text that is not its name");
         }
     }
 }
@@ -51,11 +52,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::read_settings(text);
     fuzz::count_up(text);
     fuzz::read_references(text);
-    const std::string standard = app::standard_of_file(text);
+    const std::string standard = archive::standard_of_file(text);
     fuzz::demand(standard.find('/') == std::string::npos, "a standard with a folder");
     const std::size_t half = text.find('\n');
     if (half != std::string::npos) {
-        (void)app::names(text.substr(0, half), text.substr(half + 1));
+        (void)archive::names(text.substr(0, half), text.substr(half + 1));
     }
     fuzz::demand(!archive::is_postgresql(text) || text.starts_with("postgres"), "an address of a server");
     return 0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/evaluate_job.h"
+#include "evaluation/evaluate_job.h"
 #include "gum/quantity/diagnostic.h"
 #include "imports/import_certificate.h"
 #include "imports/import_standard.h"
@@ -27,8 +27,8 @@ void evaluate_imported(const imports::ImportedJob& imported) {
         demand(false, gum::message(error.diagnostics().front()).c_str());
     }
     try {
-        const app::Evaluation evaluation =
-            app::evaluate_job(files, "job.json", app::CovarianceFile::none, 1, GUMCERT_SOURCE_DIR "/templates");
+        const evaluation::Evaluation evaluation = evaluation::evaluate_job(
+            files, "job.json", evaluation::CovarianceFile::none, 1, GUMCERT_SOURCE_DIR "/templates");
         const std::string written = reports::to_canonical_json(evaluation.record);
         demand(reports::to_canonical_json(reports::record_from_json(written, "written")) == written,
                "another record comes back");

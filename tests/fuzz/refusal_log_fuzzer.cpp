@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "app/refusal_log.h"
 #include "encoding/file_bytes.h"
+#include "outputs/refusal_log.h"
 #include "tests/fuzz/bundle_folder.h"
 
 /// A line with any words behind any text: what is no log stays as it is, and a log has one more line, which is JSON.
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string words = bytes.substr(before.size());
     folder.fill({});
     folder.write("log", before);
-    const std::string failure = app::append_refusal(
+    const std::string failure = outputs::append_refusal(
         folder.file("log"), {.at = "2026-11-24T18:55:00Z", .command = "run", .code = "GC-INPUT-0023", .where = words});
     const std::string after = encoding::read_regular_file(folder.file("log"), size + 10000).bytes;
     if (!failure.empty()) {

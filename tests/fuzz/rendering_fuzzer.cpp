@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/issue_documents.h"
 #include "gum/quantity/diagnostic.h"
+#include "issuing/issue_documents.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/dcc/dcc_reader.h"
 #include "reports/dcc/xml_document.h"
@@ -19,9 +19,9 @@
 namespace gumcert::fuzz {
 namespace {
 
-const app::IssueOptions& options_of_rendering() {
-    static const app::IssueOptions options = [] {
-        app::IssueOptions of_the_tree;
+const issuing::IssueOptions& options_of_rendering() {
+    static const issuing::IssueOptions options = [] {
+        issuing::IssueOptions of_the_tree;
         of_the_tree.assets.templates = GUMCERT_SOURCE_DIR "/templates";
         return of_the_tree;
     }();
@@ -31,8 +31,9 @@ const app::IssueOptions& options_of_rendering() {
 /// A document of a record, or nothing where it is refused with a reason.
 std::optional<std::string> rendered(const reports::EvaluationRecord& record, std::string_view form) {
     try {
-        std::string document = app::issue_document(record, form, options_of_rendering());
-        demand(document == app::issue_document(record, form, options_of_rendering()), "other bytes the second time");
+        std::string document = issuing::issue_document(record, form, options_of_rendering());
+        demand(document == issuing::issue_document(record, form, options_of_rendering()),
+               "other bytes the second time");
         return document;
     } catch (const gum::InputError& error) {
         demand(!error.diagnostics().empty(), "refused without a reason");

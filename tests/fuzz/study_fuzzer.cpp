@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/plan_job.h"
-#include "app/simulate_job.h"
+#include "evaluation/plan_job.h"
+#include "evaluation/simulate_job.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/fuzz/job_targets.h"
 #include "tests/fuzz/well_formed.h"
@@ -46,7 +46,7 @@ void studied_or_refused(const Study& study) {
 void plan(const jobs::FileSource& files) {
     const RotaryTableJob job = jobs::read_rotary_table_job(files, "job.json", jobs::JobUse::plan);
     if (is_small(job)) {
-        demand_shown(app::plan_job(job, "job.json", 1), "plan");
+        demand_shown(evaluation::plan_job(job, "job.json", 1), "plan");
     }
 }
 
@@ -56,7 +56,7 @@ void simulate(const jobs::FileSource& files) {
         if (job.simulation) {
             job.simulation->angle_counts.clear();
         }
-        demand_shown(app::simulate_job(job, "job.json", 2, 7, 1), "simulation");
+        demand_shown(evaluation::simulate_job(job, "job.json", 2, 7, 1), "simulation");
     }
 }
 

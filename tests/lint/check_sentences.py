@@ -147,7 +147,8 @@ def uneven_files(root: pathlib.Path) -> list[str]:
 def literal_calls(root: pathlib.Path) -> set[tuple[str, str]]:
     """Keys that sources ask for by two literals: words("group", "name"), filled("group", "name", …), fill("name", …)."""
     asked = set()
-    for path in [*root.glob("reports/**/*.cpp"), *root.glob("reports/**/*.h"), *root.glob("app/*.cpp")]:
+    for path in [*root.glob("reports/**/*.cpp"), *root.glob("reports/**/*.h"), *root.glob("evaluation/*.cpp"),
+                 *root.glob("issuing/*.cpp"), *root.glob("self_test/*.cpp"), *root.glob("app/*.cpp")]:
         source = without_comments(path.read_text(encoding="utf-8"))
         for group, name in re.findall(r'(?:words|words\(\)|wording_|filled)\(\s*"(\w+)",\s*"([^"]+)"', source):
             asked.add((group, name))
@@ -172,7 +173,7 @@ def unused_keys(root: pathlib.Path) -> list[str]:
     english = json.loads((root / "templates/wording/en.json").read_text(encoding="utf-8"))
     text = "\n".join(
         path.read_text(encoding="utf-8")
-        for folder in ("reports", "app", "certificate", "gum", "engine")
+        for folder in ("reports", "evaluation", "issuing", "self_test", "archive", "app", "certificate", "gum", "engine")
         for path in root.glob(f"{folder}/**/*")
         if path.suffix in (".cpp", ".h")
     )
@@ -194,7 +195,7 @@ def unused_keys(root: pathlib.Path) -> list[str]:
 
 # The audit -------------------------------------------------------------------------------------------------------------
 
-AUDIT = ("audit/*.cpp", "audit/rules/*.cpp", "audit/sources/*.cpp", "app/audit_files.cpp")
+AUDIT = ("audit/*.cpp", "audit/rules/*.cpp", "audit/sources/*.cpp", "evaluation/audit_files.cpp")
 # Words to look for in the files of others, pages of our documentation, and messages of the program.
 NO_SENTENCES_OF_AUDIT = (
     "row_meaning.cpp",

@@ -10,7 +10,7 @@ import pathlib
 import re
 
 LAYERS = ("encoding", "gum", "json", "certificate", "laboratory", "engine", "workbook", "audit", "jobs", "reports", "signing", "imports", "archive",
-          "app")
+          "outputs", "evaluation", "issuing", "self_test", "app")
 CODE = re.compile(r"GC-[A-Z]+-\d{4}")
 CLASSES = {"UsageError": "usage", "InputError": "refused", "NoResultError": "no_result", "StorageError": "storage"}
 THROWN = re.compile(rf"\b({'|'.join(CLASSES)})\b")

@@ -2,9 +2,9 @@
 
 #include <gumcert_build_info.h>
 
-#include "app/archive/message_json.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/terminal.h"
+#include "archive/certificates/message_json.h"
 #include "archive/store/open_store.h"
 #include "encoding/sha2.h"
 
@@ -56,7 +56,7 @@ ExitCode told(const archive::Written& written, const ArchiveOptions& options, co
 json shown_findings(const std::vector<gum::Diagnostic>& findings) {
     json list = json::array();
     for (const gum::Diagnostic& one : findings) {
-        list.push_back(app::as_json(one));
+        list.push_back(archive::as_json(one));
     }
     return list;
 }

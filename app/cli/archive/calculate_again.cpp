@@ -15,20 +15,20 @@
 #include <utility>
 #include <vector>
 
-#include "app/archive/affected_certificates.h"
-#include "app/archive/archive_replay.h"
-#include "app/archive/shared_work.h"
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
 #include "app/laboratory_overview.h"
-#include "app/output_files.h"
-#include "app/read_file.h"
-#include "app/recompute_record.h"
 #include "archive/archive.h"
+#include "archive/certificates/affected_certificates.h"
+#include "archive/certificates/archive_replay.h"
+#include "archive/certificates/shared_work.h"
 #include "archive/store/open_store.h"
 #include "archive/store/work_table.h"
+#include "evaluation/read_file.h"
+#include "evaluation/recompute_record.h"
+#include "outputs/output_files.h"
 #include "system/whole_folders.h"
 #include "text/visible_text.h"
 
@@ -78,15 +78,15 @@ class DraftFolders {
 public:
     explicit DraftFolders(const fs::path& output) : output_(output), folders_(output) {
         if (!output.empty()) {
-            app::require_writable(output / "draft");
+            outputs::require_writable(output / "draft");
         }
     }
 
-    [[nodiscard]] app::DraftSink sink() {
+    [[nodiscard]] archive::DraftSink sink() {
         if (output_.empty()) {
             return {};
         }
-        return {.write = [this](const std::vector<app::OutputFile>& draft) { told([&] { write(draft); }); },
+        return {.write = [this](const std::vector<outputs::OutputFile>& draft) { told([&] { write(draft); }); },
                 .finish =
                     [this] {
                         told([&] {
@@ -99,7 +99,7 @@ private:
     fs::path output_;
     system::WholeFolders folders_;
 
-    void write(const std::vector<app::OutputFile>& draft) {
+    void write(const std::vector<outputs::OutputFile>& draft) {
         const fs::path name = *draft.front().path.begin();
         std::error_code error;
         if (fs::exists(output_ / name, error) || error) {
@@ -110,15 +110,16 @@ private:
                          "a draft is written into a new folder", "choose another folder with -o");
         }
         std::vector<system::WholeFolders::File> files;
-        for (const app::OutputFile& file : draft) {
+        for (const outputs::OutputFile& file : draft) {
             files.emplace_back(file.path.lexically_relative(name), file.bytes);
         }
         folders_.fill(name.string(), files);
     }
 
-    [[nodiscard]] bool is_there(const app::OutputFile& file) const {
+    [[nodiscard]] bool is_there(const outputs::OutputFile& file) const {
         std::error_code error;
-        return fs::is_regular_file(output_ / file.path, error) && app::read_file(output_ / file.path) == file.bytes;
+        return fs::is_regular_file(output_ / file.path, error) &&
+               evaluation::read_file(output_ / file.path) == file.bytes;
     }
 
     void told(const std::function<void()>& work) const {
@@ -157,12 +158,12 @@ void require_query(const ArchiveOptions& options) {
 
 /// What fits on a terminal; JSON has all of them.
 std::vector<gum::Diagnostic> first_differences(const std::vector<gum::Diagnostic>& all, const std::string& number) {
-    if (all.size() <= app::k_most_disagreements + 1) {
+    if (all.size() <= evaluation::k_most_disagreements + 1) {
         return all;
     }
-    std::vector<gum::Diagnostic> first(all.begin(), all.begin() + app::k_most_disagreements);
-    const bool is_all = all.size() <= app::k_most_differences;
-    const std::size_t more = std::min(all.size(), app::k_most_differences) - first.size();
+    std::vector<gum::Diagnostic> first(all.begin(), all.begin() + evaluation::k_most_disagreements);
+    const bool is_all = all.size() <= archive::k_most_differences;
+    const std::size_t more = std::min(all.size(), archive::k_most_differences) - first.size();
     first.push_back({.code = "GC-ARCHIVE-0073",
                      .where = number,
                      .what = (is_all ? "" : "more than ") + std::to_string(more) + " more places",
@@ -183,7 +184,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
     ProgressLine progress(!common.quiet);
     json list = json::array();
     std::size_t same = 0;
-    const auto take = [&](const std::string& number, const app::Replay& one) {
+    const auto take = [&](const std::string& number, const archive::Replay& one) {
         progress.clear();
         print_findings(first_differences(one.differences, number), common);
         same += one.differences.empty() ? std::size_t{1} : 0;
@@ -194,10 +195,10 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
                         {"differences", shown_findings(one.differences)}});
     };
     if (table) {
-        const app::WorkToShare shared = app::work_of_replay(records, program_name());
-        app::ArchiveWorker(archive, *table, threads, templates)
+        const archive::WorkToShare shared = archive::work_of_replay(records, program_name());
+        archive::ArchiveWorker(archive, *table, threads, templates)
             .finish(shared, wait_for_others, [&](const std::string& text) { progress(text); });
-        for (const auto& [number, one] : app::replays_in(*table, shared)) {
+        for (const auto& [number, one] : archive::replays_in(*table, shared)) {
             take(number, one);
         }
         table->remove(shared.work.id);
@@ -205,7 +206,7 @@ ExitCode replay(const ArchiveOptions& options, const CommonOptions& common) {
         for (std::size_t i = 0; i < records.size(); ++i) {
             const auto& [number, record] = records[i];
             progress(fmt::format("{} of {}: {}", i + 1, records.size(), text::one_line(number)));
-            take(number, app::replay_record(archive.content(record).value_or(""), number, threads, templates));
+            take(number, archive::replay_record(archive.content(record).value_or(""), number, threads, templates));
         }
     }
     if (as_json(options)) {
@@ -231,39 +232,41 @@ ExitCode find_affected(const ArchiveOptions& options, const CommonOptions& commo
     require_query(options);
     std::string corrected;
     if (!options.register_folder.empty()) {
-        corrected = app::read_file(fs::path(options.register_folder) / "standards" / (options.source + ".json"));
+        corrected = evaluation::read_file(fs::path(options.register_folder) / "standards" / (options.source + ".json"));
     }
     const std::unique_ptr<archive::WorkTable> table = options.shared ? opened_work(options) : nullptr;
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
     ProgressLine progress(!common.quiet);
     const auto tell = [&](const std::string& text) { progress(text); };
-    const app::WrongStandard standard{.name = options.source, .since = options.since, .until = options.until};
+    const archive::WrongStandard standard{.name = options.source, .since = options.since, .until = options.until};
     const auto threads = static_cast<unsigned>(common.threads);
     std::vector<gum::Diagnostic> remarks;
-    std::vector<app::AffectedCertificate> affected = app::find_affected(archive, standard, threads, tell, &remarks);
+    std::vector<archive::AffectedCertificate> affected =
+        archive::find_affected(archive, standard, threads, tell, &remarks);
     progress.clear();
     print_messages(remarks, common);
     std::string work;
     if (!options.register_folder.empty()) {
-        const app::Correction correction{
+        const archive::Correction correction{
             .standard = options.source,
             .corrected = corrected,
             .reason = options.why.empty() ? "The standard " + options.source + " was corrected." : options.why,
             .templates = templates_folder(options.share)};
         if (table) {
-            const app::WorkToShare shared = app::work_of(affected, correction, program_name());
-            app::ArchiveWorker(archive, *table, threads, correction.templates).finish(shared, wait_for_others, tell);
-            app::take_results(affected, *table, shared);
+            const archive::WorkToShare shared = archive::work_of(affected, correction, program_name());
+            archive::ArchiveWorker(archive, *table, threads, correction.templates)
+                .finish(shared, wait_for_others, tell);
+            archive::take_results(affected, *table, shared);
             work = shared.work.id;
         }
         DraftFolders drafts(options.output);
-        app::recalculate(affected, archive, correction, threads, drafts.sink(), tell);
+        archive::recalculate(affected, archive, correction, threads, drafts.sink(), tell);
     }
     progress.clear();
-    write_to_stdout(options.format == "json"  ? app::affected_json(affected, standard)
-                    : options.format == "csv" ? app::affected_csv(affected)
-                                              : app::affected_text(affected));
+    write_to_stdout(options.format == "json"  ? archive::affected_json(affected, standard)
+                    : options.format == "csv" ? archive::affected_csv(affected)
+                                              : archive::affected_text(affected));
     if (!work.empty()) {
         table->remove(work);  // what is told need not be kept
     }
@@ -275,7 +278,8 @@ ExitCode work_for_others(const ArchiveOptions& options, const CommonOptions& com
     const auto table = opened_work(options);
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
-    app::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads), templates_folder(options.share));
+    archive::ArchiveWorker worker(archive, *table, static_cast<unsigned>(common.threads),
+                                  templates_folder(options.share));
     ProgressLine progress(!common.quiet);
     std::size_t done_tasks = 0;
     for (std::optional<archive::SharedWork> work = table->next(program_name()); work || options.wait;

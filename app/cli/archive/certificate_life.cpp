@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "app/archive/archive_draft.h"
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/share_folder.h"
 #include "app/cli/terminal/terminal.h"
 #include "archive/archive.h"
+#include "archive/certificates/archive_draft.h"
 #include "signing/verify.h"
 
 namespace gumcert::cli {
@@ -20,16 +20,16 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
     const auto store = opened(options, archive::Access::read_and_write);
     archive::Archive archive(*store);
     ProgressLine progress(!common.quiet);
-    app::ArchiveChecks checks{.threads = static_cast<unsigned>(common.threads),
-                              .templates = templates_folder(options.share),
-                              .trusted = {},
-                              .now = seconds_now(),
-                              .progress = [&](const std::string& text) { progress(text); }};
+    archive::ArchiveChecks checks{.threads = static_cast<unsigned>(common.threads),
+                                  .templates = templates_folder(options.share),
+                                  .trusted = {},
+                                  .now = seconds_now(),
+                                  .progress = [&](const std::string& text) { progress(text); }};
     if (!options.trust.empty()) {
         checks.trusted = signing::read_trust_store(options.trust);
     }
-    app::CheckedDraft checked =
-        app::checked_draft(options.named.front(), {options.named.begin() + 1, options.named.end()}, checks);
+    archive::CheckedDraft checked =
+        archive::checked_draft(options.named.front(), {options.named.begin() + 1, options.named.end()}, checks);
     progress.clear();
     archive::Request request = request_of(options);
     const certificate::CertificateData& data = checked.record.certificate->data;
@@ -39,7 +39,7 @@ ExitCode add_draft(const ArchiveOptions& options, const CommonOptions& common, b
                      is_amendment ? "state the amendment in the certificate data, or use add" : "use amend");
     }
     if (is_amendment) {
-        app::state_amendment(checked, archive.record_of(data.amendment->number));
+        archive::state_amendment(checked, archive.record_of(data.amendment->number));
         if (request.why.empty()) {
             request.why = data.amendment->reason.in(data.languages.empty() ? "en" : data.languages.front());
         }
@@ -55,14 +55,14 @@ ExitCode advance(const ArchiveOptions& options, const CommonOptions& common, con
     std::vector<gum::Diagnostic> doubts;
     const auto judge = [&](const std::string& record, const archive::CertificateLife& life) {
         if (kind == "reviewed" || kind == "authorised") {
-            app::require_named_person(record, number, kind, options.by);
+            archive::require_named_person(record, number, kind, options.by);
         } else if (kind == "issued") {
-            app::require_issuable(record, number, today());
+            archive::require_issuable(record, number, today());
             if (!life.authorised_by.empty()) {
-                app::require_named_person(record, number, "authorised", life.authorised_by);
+                archive::require_named_person(record, number, "authorised", life.authorised_by);
             }
         }
-        doubts = app::doubts_about_days(record, number, kind, today());
+        doubts = archive::doubts_about_days(record, number, kind, today());
     };
     const archive::Written written =
         carried_out([&] { return archive.advance(number, kind, request_of(options), judge); });

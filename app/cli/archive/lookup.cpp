@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/archive/archive_statistics.h"
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/terminal.h"
 #include "archive/archive.h"
+#include "archive/certificates/archive_statistics.h"
 #include "encoding/sha2.h"
 #include "text/small_letters.h"
 #include "text/visible_text.h"
@@ -143,8 +143,8 @@ ExitCode show_certificate(const ArchiveOptions& options, const CommonOptions& /*
 ExitCode show_statistics(const ArchiveOptions& options, const CommonOptions&) {
     const auto store = opened(options, archive::Access::read_only);
     archive::Archive archive(*store);
-    const app::ArchiveStatistics statistics = app::statistics_of(archive);
-    write_to_stdout(as_json(options) ? app::statistics_json(statistics) : app::statistics_text(statistics));
+    const archive::ArchiveStatistics statistics = archive::statistics_of(archive);
+    write_to_stdout(as_json(options) ? archive::statistics_json(statistics) : archive::statistics_text(statistics));
     return done;
 }
 

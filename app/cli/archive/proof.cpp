@@ -12,17 +12,17 @@
 #include <utility>
 #include <vector>
 
-#include "app/archive/archive_files.h"
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/output_places.h"
 #include "app/cli/terminal/terminal.h"
-#include "app/output_files.h"
-#include "app/read_file.h"
 #include "archive/archive.h"
+#include "archive/certificates/archive_files.h"
 #include "archive/evidence.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
+#include "evaluation/read_file.h"
+#include "outputs/output_files.h"
 #include "signing/ed25519.h"
 #include "text/visible_text.h"
 
@@ -45,8 +45,8 @@ public:
     Output(std::string place, const ArchiveOptions& options, const CommonOptions& common)
         : place_(place == "-" ? "" : std::move(place)), inputs_(inputs_of(options)), quiet_(common.quiet) {
         if (!place_.empty()) {
-            app::require_writable(place_);
-            app::require_not_an_input(place_, inputs_);
+            outputs::require_writable(place_);
+            outputs::require_not_an_input(place_, inputs_);
             at_start_ = begin_outputs({place_}, common);
         }
     }
@@ -65,7 +65,7 @@ private:
     std::string place_;
     std::vector<fs::path> inputs_;
     bool quiet_;
-    app::OutputsAtStart at_start_;
+    outputs::OutputsAtStart at_start_;
 };
 
 archive::Head::Signature signature_of(const std::string& bytes, const std::string& key) {
@@ -93,8 +93,8 @@ std::optional<archive::Head> head_since_of(const ArchiveOptions& options) {
     if (options.since.empty()) {
         return std::nullopt;
     }
-    const std::string text = app::read_file(options.since);
-    return app::archive_file_of(text) == app::ArchiveFile::evidence
+    const std::string text = evaluation::read_file(options.since);
+    return archive::archive_file_of(text) == archive::ArchiveFile::evidence
                ? archive::evidence_from_json(text, options.since).head
                : archive::head_from_json(text, options.since);
 }
@@ -104,7 +104,7 @@ std::optional<archive::Head> head_since_of(const ArchiveOptions& options) {
 void require_own_evidence(const fs::path& file, const std::string& number) {
     std::error_code error;
     const std::string other =
-        fs::exists(file, error) ? app::certificate_of_evidence(app::read_file(file)) : std::string();
+        fs::exists(file, error) ? archive::certificate_of_evidence(evaluation::read_file(file)) : std::string();
     if (!other.empty() && other != number) {
         refuse_usage(file.string(), "is evidence of " + text::one_line(other) + ", not of " + text::one_line(number),
                      "evidence of two certificates stands in two files", "name another file with -o");
@@ -115,27 +115,27 @@ void require_own_evidence(const fs::path& file, const std::string& number) {
 struct GivenFile {
     std::string file;
     std::string text;  ///< read once: it may be another one a moment later
-    app::ArchiveFile kind;
-    std::vector<app::DocumentInHand> documents;
+    archive::ArchiveFile kind;
+    std::vector<archive::DocumentInHand> documents;
 };
 
 /// Evidence and heads, each by itself; what is neither, and stands behind evidence, should be a document of the evidence
 /// before it. tools/verify_archive.py reads its files in the same way.
 ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common) {
-    app::TrustedHeads heads(options.heads, options.trust, latest_time());
+    archive::TrustedHeads heads(options.heads, options.trust, latest_time());
     std::vector<GivenFile> given;
     std::optional<std::size_t> evidence;  // the last one
     ExitCode code = done;
     for (const std::string& file : options.named) {
         code = std::max(code, explained(common, [&] {
-                            std::string text = app::read_file(file);
-                            const app::ArchiveFile kind = app::archive_file_of(text);
-                            if (kind == app::ArchiveFile::other && evidence) {
+                            std::string text = evaluation::read_file(file);
+                            const archive::ArchiveFile kind = archive::archive_file_of(text);
+                            if (kind == archive::ArchiveFile::other && evidence) {
                                 given[*evidence].documents.push_back({file, encoding::sha256(text)});
                                 return done;
                             }
-                            evidence = kind == app::ArchiveFile::evidence ? given.size() : evidence;
-                            if (kind == app::ArchiveFile::head) {
+                            evidence = kind == archive::ArchiveFile::evidence ? given.size() : evidence;
+                            if (kind == archive::ArchiveFile::head) {
                                 heads.know(text, file);
                             }
                             given.push_back({file, std::move(text), kind, {}});
@@ -147,11 +147,12 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
     for (GivenFile& one : given) {
         const std::string& file = one.file;
         const std::string& text = one.text;
-        std::vector<app::DocumentInHand>& documents = one.documents;
+        std::vector<archive::DocumentInHand>& documents = one.documents;
         code = std::max(code, explained(common, [&] {
-                            const app::VerifiedFile said = one.kind == app::ArchiveFile::head
-                                                               ? app::verified_head(text, file, heads)
-                                                               : app::verified_evidence(text, file, heads, documents);
+                            const archive::VerifiedFile said =
+                                one.kind == archive::ArchiveFile::head
+                                    ? archive::verified_head(text, file, heads)
+                                    : archive::verified_evidence(text, file, heads, documents);
                             print_findings(said.findings, common);
                             if (as_json(options)) {
                                 print_json(said.json);
@@ -160,7 +161,7 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
                             }
                             return said.sound() ? done : negative_answer;
                         }));
-        const std::vector<gum::Diagnostic> of_others = app::findings_of(documents);
+        const std::vector<gum::Diagnostic> of_others = archive::findings_of(documents);
         print_findings(of_others, common);
         has_others = has_others || !of_others.empty();
         compared = compared == nullptr && !documents.empty() ? &documents.front().file : compared;
@@ -183,8 +184,9 @@ ExitCode verify_files(const ArchiveOptions& options, const CommonOptions& common
 }  // namespace
 
 ExitCode export_certificate(const ArchiveOptions& options, const CommonOptions& common) {
-    const std::string output =
-        options.output.empty() ? app::file_name_of_number(options.named.front()) + "-evidence.json" : options.output;
+    const std::string output = options.output.empty()
+                                   ? archive::file_name_of_number(options.named.front()) + "-evidence.json"
+                                   : options.output;
     const auto store = opened(options, archive::Access::read_only);
     const Output file(output, options, common);
     if (options.output.empty()) {
@@ -222,7 +224,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     if (!options.named.empty()) {
         return verify_files(options, common);
     }
-    const app::TrustedHeads heads(options.heads, options.trust, latest_time());
+    const archive::TrustedHeads heads(options.heads, options.trust, latest_time());
     const auto store = opened(options, archive::Access::read_only);
     ProgressLine progress(!common.quiet);
     archive::Verification verification =
@@ -233,7 +235,7 @@ ExitCode verify_archive(const ArchiveOptions& options, const CommonOptions& comm
     const bool trust_is_idle = heads.has_key() && heads.all().empty();
     std::vector<std::string> to_come = heads.times_to_come();
     if (verification.head) {
-        if (std::string line = app::time_to_come("the last entry", verification.head->at, heads.latest());
+        if (std::string line = archive::time_to_come("the last entry", verification.head->at, heads.latest());
             !line.empty()) {
             to_come.insert(to_come.begin(), std::move(line));
         }

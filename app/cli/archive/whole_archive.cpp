@@ -18,12 +18,12 @@
 #include "app/cli/archive/action.h"
 #include "app/cli/terminal/interruption.h"
 #include "app/cli/terminal/terminal.h"
-#include "app/output_files.h"
 #include "archive/archive.h"
 #include "archive/store/open_store.h"
 #include "archive/store/sqlite_store.h"
 #include "archive/verification.h"
 #include "encoding/sha2.h"
+#include "outputs/output_files.h"
 #include "system/cleanup.h"
 #include "system/new_file.h"
 #include "text/visible_text.h"
@@ -53,7 +53,7 @@ public:
     void put_in_place() {
         if (file_) {
             told_as_storage([&] { file_->put_in_place([&] { tell_written(file_->place()); }); });
-            app::synchronise_folder(file_->place().has_parent_path() ? file_->place().parent_path() : ".");
+            outputs::synchronise_folder(file_->place().has_parent_path() ? file_->place().parent_path() : ".");
         }
     }
 
@@ -135,7 +135,7 @@ ExitCode change_settings(const ArchiveOptions& options, const CommonOptions& com
 /// The copy is looked at before it gets its name, and noted in the log before anybody relies on it.
 ExitCode back_up(const ArchiveOptions& options, const CommonOptions& common) {
     const fs::path file = options.output;
-    app::require_writable(file);
+    outputs::require_writable(file);
     const auto store = opened(options, archive::Access::read_and_write);
     std::error_code error;
     if (fs::exists(file, error) || error) {

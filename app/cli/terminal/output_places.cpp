@@ -18,20 +18,20 @@ void refuse_stdout(const std::string& option, const std::string& place) {
     }
 }
 
-app::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outputs, const CommonOptions& common) {
+outputs::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outputs, const CommonOptions& common) {
     std::error_code error;
     const std::filesystem::path temporary = std::filesystem::temp_directory_path(error);
     if (!error) {
         (void)system::remove_dead_folders(temporary);
     }
-    print_messages(app::restore_outputs(outputs), common);
-    return app::OutputsAtStart(outputs);
+    print_messages(outputs::restore_outputs(outputs), common);
+    return outputs::OutputsAtStart(outputs);
 }
 
-void write_outputs(const std::vector<app::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
-                   const app::OutputsAtStart& at_start) {
-    app::write_files(files, inputs, at_start);
-    for (const app::OutputFile& file : files) {
+void write_outputs(const std::vector<outputs::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
+                   const outputs::OutputsAtStart& at_start) {
+    outputs::write_files(files, inputs, at_start);
+    for (const outputs::OutputFile& file : files) {
         tell_written(file.path);
     }
 }
@@ -54,11 +54,11 @@ void make_or_keep(const std::function<void()>& make, const std::function<void()>
     }
 }
 
-void keep_files(std::vector<app::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
-                const app::OutputsAtStart& at_start, const std::string& what, const std::string& action,
+void keep_files(std::vector<outputs::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
+                const outputs::OutputsAtStart& at_start, const std::string& what, const std::string& action,
                 const CommonOptions& common) {
     (void)explained(common, [&] {
-        for (app::OutputFile& file : files) {
+        for (outputs::OutputFile& file : files) {
             file.path = kept_place(file.path);
         }
         write_outputs(files, inputs, at_start);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/cli/terminal/terminal.h"
-#include "app/output_files.h"
+#include "outputs/output_files.h"
 
 namespace gumcert::cli {
 
@@ -20,12 +20,12 @@ void refuse_stdout(const std::string& option, const std::string& place);
 /// there, and says so. Removes temporary folders of programs that were killed.
 /// \return how the outputs are now, for write_outputs()
 /// \throws gum::StorageError  GC-STORE-0013
-[[nodiscard]] app::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outputs,
-                                                const CommonOptions& common);
+[[nodiscard]] outputs::OutputsAtStart begin_outputs(const std::vector<std::filesystem::path>& outputs,
+                                                    const CommonOptions& common);
 
-/// app::write_files(), remembered for the words of an interruption.
-void write_outputs(const std::vector<app::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
-                   const app::OutputsAtStart& at_start);
+/// outputs::write_files(), remembered for the words of an interruption.
+void write_outputs(const std::vector<outputs::OutputFile>& files, const std::vector<std::filesystem::path>& inputs,
+                   const outputs::OutputsAtStart& at_start);
 
 /// Where files of an evaluation are kept of which a document cannot be made: in a folder beside the outputs, so that they
 /// stand in no set with documents of an earlier evaluation (docs/adr/0057-records-are-kept.md).
@@ -39,8 +39,8 @@ void make_or_keep(const std::function<void()>& make, const std::function<void()>
 /// Writes files into the places that kept_place() says, and says so: GC-STORE-0022. A failure is told, and not thrown.
 /// \param what    "is the record of this evaluation"
 /// \param action  in which other way a document can be made
-void keep_files(std::vector<app::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
-                const app::OutputsAtStart& at_start, const std::string& what, const std::string& action,
+void keep_files(std::vector<outputs::OutputFile> files, const std::vector<std::filesystem::path>& inputs,
+                const outputs::OutputsAtStart& at_start, const std::string& what, const std::string& action,
                 const CommonOptions& common);
 
 /// Says of what keep_files() wrote that it is older than the outputs beside it: GC-STORE-0023.

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/read_file.h"
 #include "encoding/sha2.h"
+#include "evaluation/read_file.h"
 #include "gum/quantity/diagnostic.h"
 #include "reports/forms/template_digest.h"
 
@@ -43,7 +43,7 @@ fs::path executable() {
 
 std::string executable_digest() {
     try {
-        return encoding::sha256(app::read_file(executable()));
+        return encoding::sha256(evaluation::read_file(executable()));
     } catch (const gum::DiagnosedError&) {
         return "unknown";
     }

@@ -10,8 +10,8 @@
 
 #include "app/cli/terminal/clock.h"
 #include "app/cli/terminal/interruption.h"
-#include "app/refusal_log.h"
 #include "archive/store/open_store.h"
+#include "outputs/refusal_log.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -56,7 +56,7 @@ void log_refusal(const gum::Diagnostic& found, const CommonOptions& common) {
     }
     const gum::Diagnostic why = without_passwords(found);
     const std::string failure =
-        app::append_refusal(common.refusal_log, {time_now(), common.command, why.code, why.where});
+        outputs::append_refusal(common.refusal_log, {time_now(), common.command, why.code, why.where});
     if (!failure.empty()) {
         print_message({.code = "GC-STORE-0025",
                        .where = common.refusal_log,

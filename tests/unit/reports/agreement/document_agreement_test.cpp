@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/evaluate_job.h"
+#include "evaluation/evaluate_job.h"
 #include "reports/agreement/dcc_agreement.h"
 #include "reports/dcc/dcc_document.h"
 #include "reports/forms/asset_files.h"
@@ -33,9 +33,9 @@ const std::vector<std::pair<std::string, EvaluationRecord>>& example_certificate
              {"examples/certificate/end_gauge.json", "examples/everyday/pt100/job.json",
               "examples/everyday/mass_set/job.json", "examples/everyday/multimeter/job.json",
               "examples/everyday/gauge_blocks/job.json", "examples/everyday/torque_wrench/job.json"}) {
-            records.emplace_back(
-                job,
-                app::evaluate_job(k_agreement_tree / job, app::CovarianceFile::none, 1, k_agreement_templates).record);
+            records.emplace_back(job, evaluation::evaluate_job(k_agreement_tree / job, evaluation::CovarianceFile::none,
+                                                               1, k_agreement_templates)
+                                          .record);
         }
         return records;
     }();

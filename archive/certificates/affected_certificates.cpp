@@ -1,0 +1,736 @@
+#include "archive/certificates/affected_certificates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <future>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "archive/certificates/archive_files.h"
+#include "evaluation/recompute_record.h"
+#include "gum/expression/name_spelling.h"
+#include "gum/monte_carlo/worker_threads.h"
+#include "jobs/file_source.h"
+#include "json/canonical_json.h"
+#include "json/members.h"
+#include "reports/record/make/certificate/amended_record.h"
+#include "reports/record/record_value.h"
+#include "text/csv_field.h"
+#include "text/lists.h"
+#include "text/numbers.h"
+#include "text/visible_text.h"
+
+namespace gumcert::archive {
+
+namespace {
+
+// Bounds the memory: so many are worked at, and as many are read meanwhile.
+constexpr std::size_t k_records_at_once = 256;
+
+constexpr const char* k_withdrawn = "withdrawn";
+constexpr const char* k_text = "text";  // kind of a change, as reports::changes_between() has it
+
+/// How something is done beside the work of some threads: where one alone is wanted, afterwards.
+std::launch beside(const gum::WorkerThreads& threads) {
+    return threads.size() > 1 ? std::launch::async : std::launch::deferred;
+}
+
+/// A record that was read, without its bytes.
+struct SearchedRecord {
+    ListedCertificate certificate;
+    std::optional<RecordReferences> references;  ///< none: it cannot be read
+};
+
+/// Reads all records of an archive, and what they rest on.
+class RecordSearch {
+public:
+    RecordSearch(unsigned threads, const gum::Progress& progress) : threads_(threads), progress_(progress) {}
+
+    std::vector<SearchedRecord> read(Archive& archive) {
+        archive.each_record(
+            [&](const std::map<std::string, CertificateLife>& lives) {
+                for (const auto& [number, life] : lives) {
+                    numbers_.insert(number);
+                }
+            },
+            [&](const ListedCertificate& certificate, std::string bytes) {
+                found_.push_back({certificate, std::nullopt});
+                waiting_.push_back(std::move(bytes));
+                if (waiting_.size() == k_records_at_once) {
+                    begin_to_look();
+                    if (progress_) {
+                        progress_(std::to_string(found_.size()) + " of " + std::to_string(numbers_.size()) +
+                                  " certificates searched");
+                    }
+                }
+            });
+        begin_to_look();
+        end_to_look();
+        return std::move(found_);
+    }
+    /// Of an amendment, when all records are read.
+    [[nodiscard]] std::string free_number(const std::string& original) const {
+        int ordinal = 1;
+        while (numbers_.contains(original + "/A" + std::to_string(ordinal))) {
+            ++ordinal;
+        }
+        return original + "/A" + std::to_string(ordinal);
+    }
+
+private:
+    std::set<std::string> numbers_;  // of all certificates, with a record or without
+    gum::WorkerThreads threads_;
+    const gum::Progress& progress_;
+    std::vector<SearchedRecord> found_;
+    std::size_t done_ = 0;  // so many of them have been looked at
+    std::vector<std::string> waiting_, looked_at_;
+    std::vector<std::optional<RecordReferences>> references_;
+    std::future<void> looking_;  // the last member: it ends before the others are gone
+
+    /// While the next records are read from the archive.
+    void begin_to_look() {
+        end_to_look();
+        looked_at_ = std::move(waiting_);
+        waiting_.clear();
+        references_.assign(looked_at_.size(), std::nullopt);
+        looking_ = std::async(beside(threads_), [this] {
+            threads_.run(looked_at_.size(), [this](unsigned /*worker*/, std::size_t task) {
+                references_[task] = references_of(looked_at_[task]);
+            });
+        });
+    }
+    void end_to_look() {
+        if (looking_.valid()) {
+            looking_.get();
+            for (std::optional<RecordReferences>& one : references_) {
+                found_[done_++].references = std::move(one);
+            }
+        }
+    }
+};
+
+/// Which records say which text: every text is looked at once for each name, however many records say it.
+class TextsOfRecords {
+public:
+    explicit TextsOfRecords(const std::vector<SearchedRecord>& records) {
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            if (records[i].references) {
+                for (const StandardReference& one : records[i].references->references) {
+                    records_[one.text].push_back(i);
+                }
+            }
+        }
+    }
+    /// Texts that name nothing else than `name` but for their spelling: "std-017", "STD\u2011017, certificate 12".
+    [[nodiscard]] std::set<std::string> that_may_mean(const std::string& name) const {
+        std::set<std::string> found;
+        const std::string wanted = gum::without_spelling(name);
+        for (const auto& [text, records] : records_) {
+            if (!wanted.empty() && !names(text, name) && contains_name(gum::without_spelling(text), wanted)) {
+                found.insert(text);
+            }
+        }
+        return found;
+    }
+    [[nodiscard]] std::set<std::size_t> that_name(const std::string& name) const {
+        std::set<std::size_t> found;
+        for (const auto& [text, records] : records_) {
+            if (names(text, name)) {
+                found.insert(records.begin(), records.end());
+            }
+        }
+        return found;
+    }
+
+private:
+    std::map<std::string, std::vector<std::size_t>> records_;
+
+    /// Without spelling there are no blanks between words; but "std171" is another standard than "std17".
+    static bool contains_name(std::string_view text, std::string_view name) {
+        const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+        for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+            const std::size_t end = at + name.size();
+            const bool goes_on = end < text.size() && is_digit(text[end]) && is_digit(name.back());
+            const bool began_before = at > 0 && is_digit(text[at - 1]) && is_digit(name.front());
+            if (!goes_on && !began_before) {
+                return true;
+            }
+        }
+        return false;
+    }
+};
+
+bool is_in_period(const RecordReferences& references, const std::string& since, const std::string& until) {
+    const bool is_before = !references.used_to.empty() && references.used_to < since;
+    const bool is_after = !until.empty() && !references.used_from.empty() && references.used_from > until;
+    return !is_before && !is_after;
+}
+
+std::vector<StandardReference> references_that_name(const std::string& name, const RecordReferences& references) {
+    std::vector<StandardReference> found;
+    std::copy_if(references.references.begin(), references.references.end(), std::back_inserter(found),
+                 [&](const StandardReference& one) { return names(one.text, name); });
+    return found;
+}
+
+gum::Diagnostic cannot_say(const std::string& number, std::string what) {
+    return {.code = "GC-ARCHIVE-0062",
+            .where = number,
+            .what = std::move(what),
+            .rule =
+                "a certificate is calculated again where its record holds the job, and the job takes the standard "
+                "from the register",
+            .action = "correct the job by hand, and evaluate it"};
+}
+
+/// Puts the corrected file of the register into the job of a record.
+bool correct_files(reports::EvaluationRecord& record, const Correction& correction) {
+    bool found = false;
+    for (reports::InputFile& file : record.job_files) {
+        if (standard_of_file(file.name) == correction.standard) {
+            file = reports::input_file(file.name, correction.corrected, true);
+            found = true;
+        }
+    }
+    return found;
+}
+
+/// A standard is found by its name alone: what a person should know of the name.
+std::vector<gum::Diagnostic> remarks_on_name(const std::string& name, const TextsOfRecords& texts) {
+    std::vector<gum::Diagnostic> remarks;
+    const auto add = [&](std::string what, const char* action) {
+        remarks.push_back({.code = "GC-ARCHIVE-0064",
+                           .where = "--source " + text::visible(name, 80),
+                           .what = std::move(what),
+                           .rule = "a record rests on a standard where it names it by these letters",
+                           .action = action,
+                           .severity = gum::Severity::warning});
+    };
+    for (const std::string& text : texts.that_may_mean(name)) {
+        add("records name " + text::in_quotes(text) + ", and are not among those that are listed for it",
+            "search for this name as well, where it is the same standard");
+    }
+    if (texts.that_name(name).empty()) {
+        add("no record names it",
+            "look at the spelling: it is the identification in the register, or the number of a "
+            "certificate of the standard");
+    }
+    return remarks;
+}
+
+double number_or(const nlohmann::json& object, const char* key, double otherwise) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+}
+
+/// The change of a value, or of its U, relative to the U of before: of one object that has both.
+double shift_of(const nlohmann::json& before, const nlohmann::json& now) {
+    const double U = number_or(before, "U", 0.0);
+    if (!(U > 0.0) || !before.contains("value") || !now.is_object()) {
+        return 0.0;
+    }
+    const double value = number_or(before, "value", 0.0);
+    return std::max(std::abs(number_or(now, "value", value) - value), std::abs(number_or(now, "U", U) - U)) / U;
+}
+
+/// Value and U as a certified value has them issued: of an interval U is half of its width.
+nlohmann::json certified_value(const nlohmann::json& value) {
+    nlohmann::json stated = value;
+    const nlohmann::json& interval = gumcert::json::part_of(value, "interval");
+    if (interval.is_array() && interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
+        stated["U"] = 0.5 * (interval[1].get<double>() - interval[0].get<double>());
+    }
+    return stated;
+}
+
+/// What certificates state, by its place: table, result and row.
+std::map<std::string, nlohmann::json> certified_values(const nlohmann::json& record) {
+    std::map<std::string, nlohmann::json> values;
+    for (const nlohmann::json& table :
+         gumcert::json::part_of(gumcert::json::part_of(record, "certificate"), "tables")) {
+        for (const nlohmann::json& column : gumcert::json::part_of(table, "columns")) {
+            std::size_t row = 0;
+            for (const nlohmann::json& value : gumcert::json::part_of(column, "values")) {
+                values[gumcert::json::text_of(table, "section") + '\n' + gumcert::json::text_of(table, "id") + '\n' +
+                       gumcert::json::text_of(column, "result") + '\n' + std::to_string(row++)] =
+                    certified_value(value);
+            }
+        }
+    }
+    return values;
+}
+
+/// Of all objects with value and U in a part of two records that is stated as a whole.
+double shift_in(const nlohmann::json& before, const nlohmann::json& now) {
+    double largest = shift_of(before, now);
+    if (before.is_object() && now.is_object()) {
+        for (const auto& [key, item] : before.items()) {
+            if (const auto other = item.is_structured() ? now.find(key) : now.end(); other != now.end()) {
+                largest = std::max(largest, shift_in(item, *other));
+            }
+        }
+    } else if (before.is_array() && now.is_array()) {
+        for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+            largest = std::max(largest, shift_in(before[i], now[i]));
+        }
+    }
+    return largest;
+}
+
+/// The largest change of a value, or of its U, relative to the U that was issued, of what the certificate states: its
+/// tables, or the report of a comparison. Inputs, the budget and the job that the record holds as well are none of it: a
+/// standard that changes by its own U moves a result by much less where other contributions are larger.
+double largest_shift(const nlohmann::json& before, const nlohmann::json& now) {
+    const std::map<std::string, nlohmann::json> stated = certified_values(before);
+    const std::map<std::string, nlohmann::json> again = certified_values(now);
+    double largest = stated.empty() ? shift_in(gumcert::json::part_of(before, "comparison"),
+                                               gumcert::json::part_of(now, "comparison"))
+                                    : 0.0;
+    for (const auto& [place, value] : stated) {
+        if (const auto found = again.find(place); found != again.end()) {
+            largest = std::max(largest, shift_of(value, found->second));
+        }
+    }
+    return largest;
+}
+
+/// Places for the files of a job in a folder of its own. Names that lead out of the folder of the job ("../laboratory")
+/// stay as they are: the job lies so much deeper.
+class DraftPlaces {
+public:
+    explicit DraftPlaces(const std::vector<reports::InputFile>& files) {
+        for (const reports::InputFile& file : files) {
+            std::size_t depth = 0;
+            for (const auto& part : std::filesystem::path(file.name)) {
+                depth += part == ".." ? std::size_t{1} : 0;
+            }
+            depth_ = std::max(depth_, depth);
+        }
+    }
+    [[nodiscard]] std::filesystem::path of(const std::string& name) const {
+        std::filesystem::path place;
+        for (std::size_t i = 0; i < depth_; ++i) {
+            place /= "job";
+        }
+        if (name.starts_with(jobs::k_laboratory_prefix)) {
+            return place / "laboratory" / name.substr(jobs::k_laboratory_prefix.size());
+        }
+        return (place / name).lexically_normal();
+    }
+
+private:
+    std::size_t depth_ = 0;
+};
+
+std::string written(const nlohmann::ordered_json& value) {
+    return value.dump(2) + "\n";
+}
+
+bool is_shown(const evaluation::RecordChange& change) {
+    return change.kind == evaluation::ChangeKind::printed || change.kind == evaluation::ChangeKind::verdict;
+}
+
+nlohmann::json shown_change_list(const Recalculation& recalculation) {
+    nlohmann::json list = nlohmann::json::array();
+    const auto add = [&](const char* kind, const evaluation::RecordChange& change) {
+        list.push_back({{"kind", kind}, {"place", change.place}, {"before", change.before}, {"now", change.now}});
+    };
+    for (const evaluation::RecordChange& change : recalculation.rerun.changes) {
+        if (is_shown(change)) {
+            add(word_of(change.kind), change);
+        }
+    }
+    for (const evaluation::RecordChange& change : recalculation.texts) {
+        add(k_text, change);
+    }
+    return list;
+}
+
+/// What the certificates of two records state otherwise in words.
+std::vector<evaluation::RecordChange> texts_that_change(const reports::EvaluationRecord& before,
+                                                        const reports::EvaluationRecord& now) {
+    std::vector<evaluation::RecordChange> texts;
+    for (const certificate::Change& change : reports::changes_between(before, now)) {
+        if (change.kind == k_text &&
+            texts.size() < evaluation::k_most_changes) {  // numbers and verdicts are told by tell_changes()
+            texts.push_back({evaluation::ChangeKind::other, change.where, change.before, change.after});
+        }
+    }
+    return texts;
+}
+
+/// Job, certificate data and all files of an amendment.
+/// \return none where the job cannot be written beside each other again
+std::vector<outputs::OutputFile> drafted_amendment(const AffectedCertificate& one, const std::string& original,
+                                                   const reports::EvaluationRecord& corrected,
+                                                   const Correction& correction) {
+    constexpr const char* record_name = "original_record.json";
+    const DraftPlaces places(corrected.job_files);
+    const std::filesystem::path folder = one.draft_name;
+    std::map<std::string, std::string> files;
+    for (const reports::InputFile& file : corrected.job_files) {
+        if (std::filesystem::path(file.name).is_absolute()) {
+            return {};
+        }
+        files[file.name] = reports::bytes_of(file).value_or("");
+    }
+    const std::string& job_name = corrected.job_files.front().name;
+    nlohmann::ordered_json job = nlohmann::ordered_json::parse(files[job_name], nullptr, false, true);
+    if (!job.is_object() || !job.contains("certificate")) {
+        return {};
+    }
+    const bool inside = job["certificate"].is_object();
+    const std::string certificate_name =
+        inside || !job["certificate"].is_string() ? "" : job["certificate"].get<std::string>();
+    if (!inside && !files.contains(certificate_name)) {
+        return {};
+    }
+    nlohmann::ordered_json certificate =
+        inside ? job["certificate"] : nlohmann::ordered_json::parse(files[certificate_name], nullptr, false, true);
+    if (!certificate.is_object()) {
+        return {};
+    }
+    certificate["number"] = one.draft_number;
+    certificate["amendment"] = {
+        {"kind", "amended"},
+        {"number", one.certificate.number},
+        {"reason", correction.reason},
+        {"changes",
+         {(one.recalculated->rerun.is_negative() ? "Results calculated again with the corrected standard "
+                                                 : "What is stated of the corrected standard ") +
+          correction.standard}},
+        {"record", record_name}};
+    if (inside) {
+        job["certificate"] = certificate;
+    } else {
+        files[certificate_name] = written(certificate);
+    }
+    if (std::any_of(files.begin(), files.end(),
+                    [](const auto& file) { return file.first.starts_with(jobs::k_laboratory_prefix); })) {
+        job["laboratory"] = "laboratory";
+    }
+    files[job_name] = written(job);
+    std::vector<outputs::OutputFile> draft;
+    for (const auto& [name, bytes] : files) {
+        draft.push_back({folder / places.of(name), bytes});
+    }
+    draft.push_back({folder / places.of(record_name), original});
+    draft.push_back(
+        {folder / "changes.json", gumcert::json::canonical_json({{"schema", "gumcert/archive-amendment-draft/1"},
+                                                                 {"number", one.draft_number},
+                                                                 {"amends", one.certificate.number},
+                                                                 {"reason", correction.reason},
+                                                                 {"job", places.of(job_name).generic_string()},
+                                                                 {"changes", shown_change_list(*one.recalculated)}})});
+    return draft;
+}
+
+/// A record with the corrected standard among the files of its job, and what comes of it.
+struct Recalculated {
+    Recalculation result;
+    reports::EvaluationRecord corrected;
+};
+
+Recalculated recalculated(const std::string& number, const std::string& waits_for, const std::string& original,
+                          const Correction& correction) {
+    Recalculated done{.result = {.rerun = {.name = number}}, .corrected = {}};
+    evaluation::RerunRecord& rerun = done.result.rerun;
+    reports::EvaluationRecord& record = done.corrected;
+    try {
+        reports::ReadRecord read = reports::read_record(original, number);
+        record = std::move(read.record);
+        rerun.made_by = record.software;
+        rerun.kind = record.kind;
+        if (const std::optional<gum::Diagnostic> missing = evaluation::files_not_held(record, number)) {
+            rerun.not_evaluated = cannot_say(number, missing->what);
+        } else if (!correct_files(record, correction)) {
+            rerun.not_evaluated =
+                cannot_say(number, waits_for.empty() ? "its job does not take the standard from the register"
+                                                     : "it rests on " + waits_for);
+        } else {
+            const reports::EvaluationRecord again =
+                evaluation::evaluated_again(record, number, 1, correction.templates);
+            const nlohmann::json now = reports::to_json_value(again);
+            evaluation::tell_changes(read.value, now, rerun);
+            done.result.texts = texts_that_change(record, again);
+            std::erase_if(rerun.changes, [](const evaluation::RecordChange& change) { return !is_shown(change); });
+            done.result.shift = largest_shift(read.value, now);
+        }
+    } catch (const gum::DiagnosedError& error) {
+        rerun.not_evaluated = cannot_say(number, error.diagnostics().front().what);
+    }
+    return done;
+}
+
+bool needs_amendment(const AffectedCertificate& one) {
+    return one.recalculated && one.recalculated->states_otherwise() && one.certificate.state == "issued";
+}
+
+/// Calculates a certificate again where that is not done, and drafts its amendment where one is needed.
+void work_out(AffectedCertificate& one, const std::string& original, const Correction& correction,
+              const DraftSink& drafts) {
+    std::optional<reports::EvaluationRecord> corrected;
+    if (!one.recalculated) {
+        Recalculated done = recalculated(one.certificate.number, waits_for(one), original, correction);
+        one.recalculated = std::move(done.result);
+        corrected = std::move(done.corrected);
+    }
+    if (!needs_amendment(one)) {
+        return;
+    }
+    if (!corrected) {  // another machine has calculated it
+        corrected = reports::record_from_json(original, one.certificate.number);
+        (void)correct_files(*corrected, correction);
+    }
+    const std::vector<outputs::OutputFile> draft = drafted_amendment(one, original, *corrected, correction);
+    if (!draft.empty()) {
+        one.draft_folder = one.draft_name;
+        if (drafts.write) {
+            drafts.write(draft);
+        }
+    }
+}
+
+/// Records of some certificates, "" where nothing is to be done with one.
+std::vector<std::string> originals_of(const std::vector<AffectedCertificate>& affected, std::size_t from,
+                                      std::size_t to, Archive& archive) {
+    std::vector<std::string> originals;
+    for (std::size_t i = from; i < to; ++i) {
+        const AffectedCertificate& one = affected[i];
+        originals.push_back(
+            !one.recalculated || needs_amendment(one) ? archive.content(one.certificate.record).value_or("") : "");
+    }
+    return originals;
+}
+
+constexpr std::array<const char*, 5> k_outcomes = {"verdict", "printed", k_text, "cannot_say", "same"};
+
+/// Index of k_outcomes: what a person reads first comes first.
+std::size_t index_of_outcome(const Recalculation& one) {
+    return one.rerun.not_evaluated                                ? 3
+           : one.rerun.count(evaluation::ChangeKind::verdict) > 0 ? 0
+           : one.rerun.count(evaluation::ChangeKind::printed) > 0 ? 1
+           : !one.texts.empty()                                   ? 2
+                                                                  : 4;
+}
+
+auto rank_of(const AffectedCertificate& one) {
+    return std::tuple(one.recalculated ? index_of_outcome(*one.recalculated) : k_outcomes.size(),
+                      one.recalculated ? -one.recalculated->shift : 0.0, one.certificate.number);
+}
+
+std::string outcome_of(const AffectedCertificate& one) {
+    return one.recalculated ? k_outcomes.at(index_of_outcome(*one.recalculated)) : "not_recalculated";
+}
+
+/// Numbers that differ in characters that no file name has, such as "N/1" and "N_1", do not share a folder.
+void name_drafts(std::vector<AffectedCertificate>& affected) {
+    std::set<std::string> taken;
+    for (AffectedCertificate& one : affected) {
+        const std::string name = file_name_of_number(one.draft_number);
+        one.draft_name = name;
+        for (int ordinal = 2; !taken.insert(one.draft_name).second; ++ordinal) {
+            one.draft_name = name + "-" + std::to_string(ordinal);
+        }
+    }
+}
+
+std::string period_of(const AffectedCertificate& one) {
+    return one.used_from.empty() && one.used_to.empty() ? "unknown"
+           : one.used_from == one.used_to               ? one.used_to
+                                                        : one.used_from + "/" + one.used_to;
+}
+
+std::string through_text(const AffectedCertificate& one) {
+    return one.through.empty() ? ""
+                               : "through " + text::visible(one.through, 80) +
+                                     (one.through_state == k_withdrawn ? ", withdrawn: " : ": ");
+}
+
+std::string filled(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text + "  ";
+}
+
+}  // namespace
+
+std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStandard& standard, unsigned threads,
+                                               const gum::Progress& progress, std::vector<gum::Diagnostic>* remarks) {
+    RecordSearch search(threads, progress);
+    const std::vector<SearchedRecord> records = search.read(archive);
+    const TextsOfRecords texts(records);
+    std::vector<AffectedCertificate> affected;
+    std::set<std::size_t> known;
+    struct Wanted {
+        std::string name, through, through_state;
+    };
+    std::deque<Wanted> wanted{{standard.name, "", ""}};
+    if (remarks != nullptr) {
+        *remarks = remarks_on_name(standard.name, texts);
+    }
+    // What rests on a certificate is followed whether that one still holds or not: a withdrawal says nothing to those who
+    // have used it. Only the answer leaves it out.
+    const auto find = [&](std::size_t i, const Wanted& by, std::vector<StandardReference> because) {
+        const ListedCertificate& certificate = records[i].certificate;
+        const bool is_read = records[i].references.has_value();
+        if (certificate.state != k_withdrawn) {
+            affected.push_back({.certificate = certificate,
+                                .used_from = is_read ? records[i].references->used_from : "",
+                                .used_to = is_read ? records[i].references->used_to : "",
+                                .because = std::move(because),
+                                .through = by.through,
+                                .through_state = by.through_state,
+                                .draft_number = search.free_number(certificate.number)});
+        }
+        wanted.push_back({certificate.number, certificate.number, certificate.state});
+    };
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        if (!records[i].references) {  // it may rest on anything
+            known.insert(i);
+            find(i, {}, {{StandardReference::Kind::source, "the record cannot be read"}});
+        }
+    }
+    while (!wanted.empty()) {
+        const Wanted next = std::move(wanted.front());
+        wanted.pop_front();
+        for (const std::size_t i : texts.that_name(next.name)) {
+            const SearchedRecord& record = records[i];
+            // A standard that was calibrated with a wrong one stays wrong: only the first step has a last day.
+            if (record.certificate.number != next.name &&
+                is_in_period(*record.references, standard.since, next.through.empty() ? standard.until : "") &&
+                known.insert(i).second) {
+                find(i, next, references_that_name(next.name, *record.references));
+            }
+        }
+    }
+    std::sort(affected.begin(), affected.end(), [](const AffectedCertificate& a, const AffectedCertificate& b) {
+        return a.certificate.number < b.certificate.number;
+    });
+    name_drafts(affected);
+    return affected;
+}
+
+std::string waits_for(const AffectedCertificate& certificate) {
+    return certificate.through.empty()                ? ""
+           : certificate.through_state == k_withdrawn ? certificate.through + ", which was withdrawn"
+                                                      : certificate.through + ", which is to be amended first";
+}
+
+Recalculation recalculation_of(const std::string& number, const std::string& waits_for, const std::string& original,
+                               const Correction& correction) {
+    return recalculated(number, waits_for, original, correction).result;
+}
+
+void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,
+                 unsigned threads, const DraftSink& drafts, const gum::Progress& progress) {
+    gum::WorkerThreads workers(threads);
+    const auto finish = drafts.finish ? drafts.finish : [] {};
+    const auto end_of = [&](std::size_t first) { return std::min(first + k_records_at_once, affected.size()); };
+    std::vector<std::string> originals = originals_of(affected, 0, end_of(0), archive);
+    for (std::size_t first = 0; first < affected.size(); first = end_of(first)) {
+        // Beside the calculation: the drafts before come to the disk, and the records after are read.
+        std::vector<std::string> next;
+        std::future<void> disk = std::async(beside(workers), [&, after = end_of(first)] {
+            finish();
+            next = originals_of(affected, after, end_of(after), archive);
+        });
+        workers.run(originals.size(), [&](unsigned /*worker*/, std::size_t task) {
+            work_out(affected[first + task], originals[task], correction, drafts);
+        });
+        disk.get();
+        originals = std::move(next);
+        if (progress) {
+            progress(std::to_string(end_of(first)) + " of " + std::to_string(affected.size()) + " calculated");
+        }
+    }
+    finish();
+    rank(affected);
+}
+
+void rank(std::vector<AffectedCertificate>& affected) {
+    std::sort(affected.begin(), affected.end(),
+              [](const AffectedCertificate& a, const AffectedCertificate& b) { return rank_of(a) < rank_of(b); });
+}
+
+std::string affected_text(const std::vector<AffectedCertificate>& affected) {
+    std::string text;
+    for (const AffectedCertificate& one : affected) {
+        text += filled(text::visible(one.certificate.number, 80), 24) + filled(one.certificate.state, 10) +
+                filled(text::visible(period_of(one), 40), 21) + outcome_of(one);
+        if (one.recalculated && !one.recalculated->rerun.not_evaluated) {
+            text += "  " + text::significant(one.recalculated->shift, 3) + " U";
+        }
+        text += one.draft_folder.empty() ? "" : "  draft " + one.draft_folder;
+        text += "\n    " + through_text(one) + word_of(one.because.front().kind) + " \"" +
+                text::visible(one.because.front().text, 120) + "\"\n";
+        if (one.recalculated && one.recalculated->rerun.not_evaluated) {
+            text += "    " + text::visible(one.recalculated->rerun.not_evaluated->what, 200) + "\n";
+        }
+        constexpr std::size_t k_most_texts = 3;
+        for (std::size_t i = 0; one.recalculated && i < std::min(one.recalculated->texts.size(), k_most_texts); ++i) {
+            const evaluation::RecordChange& change = one.recalculated->texts[i];
+            text += "    " + text::visible(change.place, 80) + ": " + text::in_quotes(change.before) + " -> " +
+                    text::in_quotes(change.now) + "\n";
+        }
+    }
+    return text + text::count_of(static_cast<std::int64_t>(affected.size()), "certificate") + " affected\n";
+}
+
+std::string affected_json(const std::vector<AffectedCertificate>& affected, const WrongStandard& standard) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const AffectedCertificate& one : affected) {
+        nlohmann::json because = nlohmann::json::array();
+        for (const StandardReference& reference : one.because) {
+            because.push_back({{"kind", word_of(reference.kind)}, {"text", reference.text}});
+        }
+        nlohmann::json shown{{"number", one.certificate.number},
+                             {"state", one.certificate.state},
+                             {"item", one.certificate.item},
+                             {"record", one.certificate.record},
+                             {"used_from", one.used_from},
+                             {"used_to", one.used_to},
+                             {"because", std::move(because)},
+                             {"through", one.through},
+                             {"through_state", one.through_state},
+                             {"outcome", outcome_of(one)},
+                             {"shift", nullptr},
+                             {"changes", nlohmann::json::array()},
+                             {"draft", one.draft_folder},
+                             {"cannot_say", ""}};
+        if (one.recalculated) {
+            const evaluation::RerunRecord& rerun = one.recalculated->rerun;
+            shown["changes"] = shown_change_list(*one.recalculated);
+            if (rerun.not_evaluated) {
+                shown["cannot_say"] = rerun.not_evaluated->what;
+            } else {
+                shown["shift"] = one.recalculated->shift;
+            }
+        }
+        list.push_back(std::move(shown));
+    }
+    return gumcert::json::canonical_json({{"schema", "gumcert/archive-affected/1"},
+                                          {"standard", standard.name},
+                                          {"since", standard.since},
+                                          {"until", standard.until},
+                                          {"certificates", std::move(list)}});
+}
+
+std::string affected_csv(const std::vector<AffectedCertificate>& affected) {
+    std::string all = "number,state,used_from,used_to,through,because,outcome,shift,draft,through_state\n";
+    for (const AffectedCertificate& one : affected) {
+        const bool calculated = one.recalculated && !one.recalculated->rerun.not_evaluated;
+        all += text::csv_field(one.certificate.number) + "," + one.certificate.state + "," +
+               text::csv_field(one.used_from) + "," + text::csv_field(one.used_to) + "," +
+               text::csv_field(one.through) + "," + text::csv_field(one.because.front().text) + "," + outcome_of(one) +
+               "," + (calculated ? nlohmann::json(one.recalculated->shift).dump() : "") + "," +
+               text::csv_field(one.draft_folder) + "," + one.through_state + "\n";
+    }
+    return all;
+}
+
+}  // namespace gumcert::archive

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "archive/archive.h"
+#include "archive/certificates/standard_references.h"
+#include "evaluation/rerun_record.h"
+#include "gum/quantity/diagnostic.h"
+#include "gum/quantity/progress.h"
+#include "outputs/output_files.h"
+
+namespace gumcert::archive {
+
+/// A standard that was found wrong, and since when.
+struct WrongStandard {
+    std::string name;   ///< identification in the register, or number of its certificate
+    std::string since;  ///< first day of use that is affected, "2026-03-01"
+    std::string until;  ///< last one; "" without
+};
+
+/// What a certificate becomes with the corrected standard.
+struct Recalculation {
+    evaluation::RerunRecord
+        rerun;           ///< not_evaluated where nothing can be said, GC-ARCHIVE-0062; of the changes it lists those of
+                         ///< printed digits and verdicts
+    double shift = 0.0;  ///< largest change of a value or of its U, relative to the U that was issued
+    /// Texts of the certificate data that change, such as the certificate of the standard in a row of traceability; the first
+    /// ones. Their kind is `other`.
+    std::vector<evaluation::RecordChange> texts = {};
+
+    /// Whether the certificate would state anything else than it does.
+    [[nodiscard]] bool states_otherwise() const {
+        return !rerun.not_evaluated && (rerun.is_negative() || !texts.empty());
+    }
+};
+
+/// A certificate that rests on it.
+struct AffectedCertificate {
+    ListedCertificate certificate;
+    std::string used_from, used_to;          ///< days of the work; "" where the record states none
+    std::vector<StandardReference> because;  ///< what its record says
+    std::string through;          ///< number of the certificate that it rests on itself; "" where on the standard
+    std::string through_state;    ///< of that certificate, which may be withdrawn
+    std::string draft_number;     ///< the next free number of an amendment of it
+    std::string draft_name = {};  ///< of a folder for its draft, another one for each certificate that was found
+
+    std::optional<Recalculation> recalculated = {};
+    std::string draft_folder = {};  ///< of the amendment, after recalculate(); "" where none is needed
+};
+
+/// Every certificate of an archive whose record names the standard, with a day of use in the period or without any, and
+/// every one that rests on a certificate that was found, from the first day on. What names() says of references_of() is
+/// "rests on" (docs/archive.md). Certificates of all states but withdrawn ones; what rests on a withdrawn one, or on one whose
+/// record cannot be read, is found through it.
+/// \param remarks  none, or GC-ARCHIVE-0064, warnings: names in records that differ from the standard in their spelling alone,
+///                 and that no record names it
+[[nodiscard]] std::vector<AffectedCertificate> find_affected(Archive& archive, const WrongStandard& standard,
+                                                             unsigned threads, const gum::Progress& progress = {},
+                                                             std::vector<gum::Diagnostic>* remarks = nullptr);
+
+/// How affected certificates are calculated again.
+struct Correction {
+    std::string standard;   ///< identification
+    std::string corrected;  ///< bytes of its file in the register, with what holds
+    std::string reason;     ///< of the amendments
+    std::filesystem::path templates;
+};
+
+/// On which certificate one rests that is not right itself: "EX-1, which is to be amended first"; "" where on the standard.
+[[nodiscard]] std::string waits_for(const AffectedCertificate& certificate);
+
+/// Evaluates the job of an affected record with the corrected standard, and compares with what was issued.
+/// \param original  bytes of the record
+/// \param waits_for  as waits_for() says of the certificate
+[[nodiscard]] Recalculation recalculation_of(const std::string& number, const std::string& waits_for,
+                                             const std::string& original, const Correction& correction);
+
+/// Where drafts of amendments go.
+struct DraftSink {
+    /// Gets the files of a draft, below a folder of its own. Several threads call it at the same time.
+    std::function<void(const std::vector<outputs::OutputFile>&)> write = {};
+    /// Makes what was written since the last time last.
+    std::function<void()> finish = {};
+};
+
+/// Calculates all certificates again that are not yet, drafts an amendment of each issued one of which a printed digit, a
+/// verdict or a text changes, and ranks them; on several cores, with the same result for any number of threads.
+/// \param archive  in which they were found
+void recalculate(std::vector<AffectedCertificate>& affected, Archive& archive, const Correction& correction,
+                 unsigned threads, const DraftSink& drafts = {}, const gum::Progress& progress = {});
+
+/// Ranks what was calculated again: verdicts that changed first, then printed digits, each by shift, then texts, then those of
+/// which nothing can be said, before those that stay.
+void rank(std::vector<AffectedCertificate>& affected);
+
+/// For people, for programs (schema gumcert/archive-affected/1), as a table.
+[[nodiscard]] std::string affected_text(const std::vector<AffectedCertificate>& affected);
+[[nodiscard]] std::string affected_json(const std::vector<AffectedCertificate>& affected,
+                                        const WrongStandard& standard);
+[[nodiscard]] std::string affected_csv(const std::vector<AffectedCertificate>& affected);
+
+}  // namespace gumcert::archive

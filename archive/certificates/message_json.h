@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "gum/quantity/diagnostic.h"
+
+namespace gumcert::archive {
+
+/// A message as commands of an archive show it to programs, and hand it to each other; without its severity.
+[[nodiscard]] nlohmann::json as_json(const gum::Diagnostic& diagnostic);
+
+}  // namespace gumcert::archive

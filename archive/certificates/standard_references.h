@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gumcert::archive {
+
+/// A text by which a record says what it rests on.
+struct StandardReference {
+    enum class Kind {
+        registered,  ///< a file of the register of standards was read: identification, certificates of its calibrations
+        traceability,  ///< a row of the standards that the certificate lists: identification, certificate
+        source         ///< where an input, a component or a condition comes from, in words
+    };
+    Kind kind = Kind::source;
+    std::string text;
+};
+
+/// "register", "traceability" or "source".
+[[nodiscard]] const char* word_of(StandardReference::Kind kind);
+
+/// What a record says of one certificate.
+struct RecordReferences {
+    std::vector<StandardReference> references;  ///< each one once
+    /// Days of the work, "2026-11-18"; where the record states none, that of the authorisation or issue; "" without any.
+    std::string used_from, used_to;
+};
+
+/// Everything by which a record names standards: files of the register, rows of traceability, and texts at the keys
+/// `source`, `sensor`, `standard` and `standards`, wherever they stand.
+/// \param record  its bytes
+/// \return none where it is no JSON object
+[[nodiscard]] std::optional<RecordReferences> references_of(std::string_view record);
+
+/// Whether a text names something: all of it is the name, or the name stands in it as a word of its own. "STD-017" stands in
+/// "STD-017, certificate 12", and neither in "STD-0171" nor in "STD-017-2" or "STD-017/A1".
+[[nodiscard]] bool names(std::string_view text, std::string_view name);
+
+/// Identification of the standard whose file of the register it is: "STD-017" of "laboratory/standards/STD-017.json"; ""
+/// of other files.
+[[nodiscard]] std::string standard_of_file(std::string_view name);
+
+}  // namespace gumcert::archive

@@ -1,0 +1,446 @@
+#include "archive/certificates/affected_certificates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+
+#include "archive/store/sqlite_store.h"
+#include "evaluation/evaluate_job.h"
+#include "evaluation/read_file.h"
+#include "reports/record/record_value.h"
+#include "tests/support/archive_folder.h"
+#include "tests/support/sample_archive.h"
+
+namespace gumcert::archive {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path k_affected_tree(GUMCERT_SOURCE_DIR);
+
+class ArchiveOfStandards : public testing::Test {
+protected:
+    void add(const std::string& number, const std::string& record, bool is_issued = true) {
+        Draft draft = test::sample_draft(number);
+        draft.record = record;
+        (void)archive_.draft(draft, by("A. Author"));
+        if (is_issued) {
+            for (const char* const kind : {"reviewed", "authorised", "issued"}) {
+                (void)archive_.advance(number, kind, by("R. Reviewer"));
+            }
+        }
+    }
+    Request by(const std::string& who) {
+        return {.actor = who, .at = clock_.next(), .request_key = "", .why = "a reason"};
+    }
+    [[nodiscard]] std::set<std::string> found(const WrongStandard& standard, unsigned threads = 2) {
+        std::set<std::string> numbers;
+        for (const AffectedCertificate& one : find_affected(archive_, standard, threads)) {
+            EXPECT_TRUE(numbers.insert(one.certificate.number).second) << "listed twice";
+            EXPECT_FALSE(one.because.empty());
+        }
+        return numbers;
+    }
+
+    test::StoreFolder folder_;
+    test::Clock clock_;
+    std::unique_ptr<Store> store_ =
+        create_sqlite_store(folder_.file(), first_entry({}, "gumcert", "nonce", by("K. Keeper")));
+    Archive archive_{*store_};
+};
+
+/// Says that a record rests on something, in one of the ways that records have.
+void let_rest_on(json& record, const std::string& name, int way) {
+    switch (way) {
+        case 0:
+            record["certificate"]["data"]["standards"].push_back({{"identification", name}, {"certificate", "X"}});
+            break;
+        case 1:
+            record["certificate"]["data"]["standards"].push_back({{"identification", "Y"}, {"certificate", name}});
+            break;
+        case 2:
+            record["job"]["files"].push_back(
+                {{"name", "laboratory/standards/" + name + ".json"}, {"encoding", "utf-8"}, {"content", "{}"}});
+            break;
+        case 3:
+            record["results"]["l"]["budget"].push_back({{"components", {{{"source", name + ", certificate 7"}}}}});
+            break;
+        case 4:
+            record["job"]["files"].push_back({{"name", "laboratory/standards/Z.json"},
+                                              {"encoding", "utf-8"},
+                                              {"content", json{{"calibrations", {{{"certificate", name}}}}}.dump()}});
+            break;
+        default:
+            record["certificate"]["data"]["conditions"].push_back({{"sensor", name}});
+    }
+}
+
+/// What a record says of something that it does not rest on.
+void mention(json& record, const std::string& name) {
+    record["title"] = name;
+    record["results"]["l"]["budget"].push_back({{"source", name + "1, " + name + "-2, X" + name}});
+}
+
+// The oracle knows what was put in, and follows it by itself; it reads no record.
+TEST_F(ArchiveOfStandards, AreFoundAllOfThemAndNoOther) {
+    constexpr int k_certificates = 400;
+    constexpr int k_standards = 12;
+    std::mt19937_64 random(7);
+    const auto chance = [&](int n) { return static_cast<int>(random() % static_cast<std::uint64_t>(n)); };
+    struct Truth {
+        std::set<int> standards, certificates;
+        std::string day;
+        bool is_withdrawn = false;
+    };
+    std::vector<Truth> truth;
+    const auto number = [](int i) { return "EX-" + std::to_string(i); };
+    for (int i = 0; i < k_certificates; ++i) {
+        Truth one;
+        json record = {{"title", "x"}};
+        for (int n = chance(3); n > 0; --n) {
+            one.standards.insert(chance(k_standards));
+        }
+        if (i > 0 && chance(3) == 0) {
+            one.certificates.insert(chance(i));
+        }
+        for (const int standard : one.standards) {
+            let_rest_on(record, "STD-" + std::to_string(standard), chance(6));
+        }
+        for (const int certificate : one.certificates) {
+            let_rest_on(record, number(certificate), chance(6));
+        }
+        mention(record, "STD-" + std::to_string(chance(k_standards)) + "x");
+        if (chance(5) > 0) {
+            one.day = "2026-0" + std::to_string(1 + chance(9)) + "-15";
+            record["certificate"]["data"]["dates"]["performed_to"] = one.day;
+        }
+        add(number(i), record.dump(), chance(4) > 0);
+        if (chance(10) == 0) {
+            one.is_withdrawn = true;
+            (void)archive_.advance(number(i), "withdrawn", by("R. Reviewer"));
+        }
+        truth.push_back(one);
+    }
+    for (int standard = 0; standard < k_standards; ++standard) {
+        const WrongStandard wrong{"STD-" + std::to_string(standard), "2026-04-01",
+                                  standard % 2 == 0 ? "" : "2026-06-30"};
+        std::set<std::string> expected;
+        std::set<std::string> reached;  // withdrawn ones are no answer, but lead on
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (int i = 0; i < k_certificates; ++i) {
+                const Truth& one = truth[static_cast<std::size_t>(i)];
+                const bool after = one.day.empty() || one.day >= wrong.since;
+                const bool before = one.day.empty() || wrong.until.empty() || one.day <= wrong.until;
+                bool rests = one.standards.contains(standard) && before;
+                for (const int other : one.certificates) {
+                    rests = rests || reached.contains(number(other));
+                }
+                if (rests && after) {
+                    grows = reached.insert(number(i)).second || grows;
+                    if (!one.is_withdrawn) {
+                        expected.insert(number(i));
+                    }
+                }
+            }
+        }
+        EXPECT_FALSE(expected.empty());
+        EXPECT_EQ(found(wrong, 1), expected) << wrong.name;
+        EXPECT_EQ(found(wrong, 3), expected) << wrong.name;
+    }
+}
+
+/// It may rest on anything, and what rests on it as well.
+TEST_F(ArchiveOfStandards, TellARecordThatCannotBeRead) {
+    add("EX-1", "no record");
+    add("EX-2", R"({"source": "EX-1"})");
+    add("EX-3", R"({"source": "EX-4"})");
+    EXPECT_EQ(found({"STD-1", "2026-01-01", ""}), (std::set<std::string>{"EX-1", "EX-2"}));
+}
+
+/// A withdrawal takes the certificate back, and nothing of what others have calibrated with it.
+TEST_F(ArchiveOfStandards, AreFoundThroughAWithdrawnCertificate) {
+    add("G-1", R"({"source": "STD-017"})");
+    add("G-2", R"({"source": "G-1"})");
+    add("G-3", R"({"source": "G-2"})");
+    add("G-4", "no record");
+    add("G-5", R"({"source": "G-4"})");
+    for (const char* const number : {"G-1", "G-2", "G-4"}) {
+        (void)archive_.advance(number, "withdrawn", by("R. Reviewer"));
+    }
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    ASSERT_EQ(affected.size(), 2U);
+    EXPECT_EQ(affected[0].certificate.number, "G-3");
+    EXPECT_EQ(affected[0].through, "G-2");
+    EXPECT_EQ(affected[0].through_state, "withdrawn");
+    EXPECT_EQ(affected[1].certificate.number, "G-5");
+    recalculate(affected, archive_,
+                {.standard = "STD-017", .corrected = "{}", .reason = "r", .templates = k_affected_tree / "templates"},
+                1);
+    const std::string text = affected_text(affected);
+    EXPECT_NE(text.find("through G-2, withdrawn: source"), std::string::npos) << text;
+    EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["through_state"], "withdrawn");
+    EXPECT_NE(affected_csv(affected).find(",withdrawn\n"), std::string::npos);
+    EXPECT_NE(waits_for(affected[0]).find("which was withdrawn"), std::string::npos);
+}
+
+/// Two numbers that differ in a character that no name of a file has do not share a folder.
+TEST_F(ArchiveOfStandards, HaveEachAFolderForItsDraft) {
+    std::set<std::string> numbers;
+    for (const char* const between : {"/", "_", ":", "\\", "-", "", "_1-"}) {
+        for (const char* const after : {"1", "1/A1-2", "1_A1"}) {
+            numbers.insert(std::string("N") + between + after);
+        }
+    }
+    for (const std::string& number : numbers) {
+        add(number, R"({"source": "STD-017"})");
+    }
+    std::set<std::string> folders;
+    for (const AffectedCertificate& one : find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1)) {
+        EXPECT_TRUE(folders.insert(one.draft_name).second) << one.draft_name;
+        EXPECT_EQ(one.draft_name.find_first_of("/\\: "), std::string::npos) << one.draft_name;
+    }
+    EXPECT_EQ(folders.size(), numbers.size());
+}
+
+TEST_F(ArchiveOfStandards, AreCalculatedAgainAndRanked) {
+    const std::filesystem::path folder = k_affected_tree / "examples" / "laboratory";
+    const std::string record =
+        reports::to_canonical_json(evaluation::evaluate_job(folder / "end_gauge.json", evaluation::CovarianceFile::none,
+                                                            1, k_affected_tree / "templates")
+                                       .record);
+    add("EX-2026-0042", record);
+    add("EX-2026-0042/A1", R"({"title": "a number that is taken"})", false);
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const auto calculated = [&](const std::string& corrected) {
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(
+            affected, archive_,
+            {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"},
+            2);
+        return affected;
+    };
+    std::vector<AffectedCertificate> same = calculated(registered);
+    ASSERT_EQ(same.size(), 2U);
+    EXPECT_EQ(same[1].certificate.number, "EX-2026-0042");
+    EXPECT_STREQ(same[1].recalculated->rerun.outcome(), "same");
+    EXPECT_EQ(same[1].recalculated->shift, 0.0);
+    EXPECT_EQ(same[1].draft_folder, "");
+    EXPECT_EQ(same[0].recalculated->rerun.not_evaluated->code, "GC-ARCHIVE-0062");
+
+    std::string corrected = registered;
+    corrected.replace(corrected.find("50.000623"), 9, "50.001623");  // 1 µm: the gauge is out of its limits now
+    const std::vector<AffectedCertificate> changed = calculated(corrected);
+    ASSERT_EQ(changed.size(), 2U);
+    const AffectedCertificate& first = changed[0];
+    EXPECT_EQ(first.certificate.number, "EX-2026-0042");
+    EXPECT_GT(first.recalculated->rerun.count(evaluation::ChangeKind::verdict), 0U);
+    EXPECT_GT(first.recalculated->rerun.count(evaluation::ChangeKind::printed), 0U);
+    EXPECT_GT(first.recalculated->shift, 1.0);
+    EXPECT_EQ(first.draft_number, "EX-2026-0042/A2");
+    const std::string all = affected_json(changed, {"STD-017", "2026-03-02", ""});
+    EXPECT_EQ(json::parse(all)["certificates"][0]["outcome"], "verdict");
+    EXPECT_EQ(json::parse(all)["certificates"][1]["outcome"], "cannot_say");
+    EXPECT_EQ(all, affected_json(calculated(corrected), {"STD-017", "2026-03-02", ""}));
+    EXPECT_NE(affected_text(changed).find("draft EX-2026-0042_A2"), std::string::npos);
+    EXPECT_NE(affected_csv(changed).find("\nEX-2026-0042,issued,2026-11-18,2026-11-19,,STD-017,verdict,"),
+              std::string::npos);
+}
+
+/// Whatever the register corrects: "same" is a certificate that would be printed alike.
+TEST_F(ArchiveOfStandards, AreSameWhereTheyWouldStateTheSame) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const auto evaluated = [&] {
+        return evaluation::evaluate_job(folder / "end_gauge.json", evaluation::CovarianceFile::none, 1,
+                                        k_affected_tree / "templates")
+            .record;
+    };
+    const auto stated = [](const reports::EvaluationRecord& record) {
+        return reports::to_json_value(record)["certificate"]["data"];
+    };
+    const reports::EvaluationRecord record = evaluated();
+    add("EX-2026-0042", reports::to_canonical_json(record));
+    add("EX-9", R"({"results": {"source": "STD-017"}})");
+    const std::string registered = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    const json plain = json::parse(registered, nullptr, true, true);
+    std::size_t texts = 0;
+    const json texts_of_standard = plain.flatten();
+    for (const auto& [pointer, value] : texts_of_standard.items()) {
+        if (!value.is_string()) {
+            continue;
+        }
+        json changed = plain;
+        changed[json::json_pointer(pointer)] = value.get<std::string>() + "9";
+        std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+        recalculate(affected, archive_,
+                    {.standard = "STD-017",
+                     .corrected = changed.dump(),
+                     .reason = "r",
+                     .templates = k_affected_tree / "templates"},
+                    1);
+        const auto found = std::find_if(affected.begin(), affected.end(),
+                                        [](const auto& one) { return one.certificate.number == "EX-2026-0042"; });
+        ASSERT_NE(found, affected.end());
+        const Recalculation& recalculation = *found->recalculated;
+        const std::string outcome =
+            json::parse(affected_json({*found}, {}))["certificates"][0]["outcome"].get<std::string>();
+        if (recalculation.rerun.not_evaluated) {
+            EXPECT_EQ(outcome, "cannot_say") << pointer;
+            continue;
+        }
+        // The job evaluated anew, without the archive, is the oracle.
+        std::ofstream(folder / "laboratory" / "standards" / "STD-017.json") << changed.dump();
+        EXPECT_EQ(outcome == "same" || outcome == "printed" || outcome == "verdict",
+                  stated(evaluated()) == stated(record))
+            << pointer << " " << outcome;
+        EXPECT_EQ(found->draft_folder.empty(), outcome == "same") << pointer;
+        if (outcome == "text") {
+            ++texts;
+            EXPECT_EQ(affected[0].certificate.number, "EX-2026-0042") << "before what cannot be said";
+            EXPECT_NE(affected_text(affected).find(recalculation.texts.front().place), std::string::npos) << pointer;
+            EXPECT_EQ(json::parse(affected_json(affected, {}))["certificates"][0]["changes"][0]["kind"], "text");
+        }
+    }
+    EXPECT_GE(texts, 2U) << "certificate and issuer of the calibration in use";
+}
+
+/// A result that rests on more than the standard is moved by less of its own U than the standard by its.
+TEST_F(ArchiveOfStandards, AreRankedByWhatTheCertificateStates) {
+    const std::filesystem::path folder = folder_.file("laboratory");
+    std::filesystem::copy(k_affected_tree / "examples" / "laboratory", folder,
+                          std::filesystem::copy_options::recursive);
+    const std::string job = evaluation::read_file(folder / "end_gauge.json");
+    const auto record_with = [&](const char* u) {
+        std::string text = job;
+        text.replace(text.find("\"u\": 5.8"), 8, std::string("\"u\": ") + u);
+        std::ofstream(folder / "end_gauge.json") << text;
+        return evaluation::evaluate_job(folder / "end_gauge.json", evaluation::CovarianceFile::none, 1,
+                                        k_affected_tree / "templates")
+            .record;
+    };
+    std::map<std::string, double> U;
+    for (const auto& [number, u] : {std::pair("R-1", "320"), std::pair("R-2", "5.8")}) {
+        const std::optional<reports::EvaluationRecord> record = record_with(u);
+        U[number] = *record->certificate->tables.at(0).columns.at(0).values.at(0).U;
+        add(number, reports::to_canonical_json(*record));
+    }
+    ASSERT_GT(U["R-1"], 5 * U["R-2"]);
+    std::string corrected = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    corrected.replace(corrected.find("50.000623"), 9, "50.000643");  // 20 nm
+    std::vector<AffectedCertificate> affected = find_affected(archive_, {"STD-017", "2026-03-02", ""}, 1);
+    recalculate(
+        affected, archive_,
+        {.standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"}, 1);
+    ASSERT_EQ(affected.size(), 2U);
+    EXPECT_EQ(affected[0].certificate.number, "R-2");
+    for (const AffectedCertificate& one : affected) {
+        // The standard drifts: between its calibrations a part of the 20 nm counts, the same for both.
+        EXPECT_NEAR(one.recalculated->shift * U[one.certificate.number], affected[0].recalculated->shift * U["R-2"],
+                    0.5)
+            << one.certificate.number;
+        EXPECT_LT(one.recalculated->shift * U[one.certificate.number], 20.5);
+    }
+}
+
+/// A standard is found by its letters: what only looks like its name is told, and so is a name that nothing has.
+TEST_F(ArchiveOfStandards, AreToldWhereTheirNamesOnlyLookAlike) {
+    add("EX-1", R"({"source": "STD-017"})");
+    add("EX-2", R"({"source": "std-017, certificate 12"})");
+    add("EX-3", R"({"source": "STD\u2011017"})");
+    add("EX-4", R"({"source": "STD-0171, and STD-117"})");
+    const auto remarks = [&](const std::string& name) {
+        std::vector<gum::Diagnostic> told;
+        (void)find_affected(archive_, {name, "2026-01-01", ""}, 1, {}, &told);
+        std::string all;
+        for (const gum::Diagnostic& one : told) {
+            EXPECT_EQ(one.code, "GC-ARCHIVE-0064");
+            all += one.what + '\n';
+        }
+        return all;
+    };
+    const std::string alike = remarks("STD-017");
+    EXPECT_NE(alike.find("\"std-017, certificate 12\""), std::string::npos) << alike;
+    EXPECT_NE(alike.find("\"STD\u2011017\""), std::string::npos) << alike;
+    EXPECT_EQ(alike.find("STD-0171"), std::string::npos) << alike;
+    EXPECT_EQ(alike.find("no record names it"), std::string::npos) << alike;
+    EXPECT_EQ(remarks("STD-999"), "no record names it\n");
+    EXPECT_EQ(remarks("STD-0171"), "");
+}
+
+TEST_F(ArchiveOfStandards, GiveTheSameDraftsWithAnyNumberOfThreads) {
+    const std::filesystem::path folder = k_affected_tree / "examples" / "laboratory";
+    const std::string record =
+        reports::to_canonical_json(evaluation::evaluate_job(folder / "end_gauge.json", evaluation::CovarianceFile::none,
+                                                            1, k_affected_tree / "templates")
+                                       .record);
+    constexpr int k_certificates = 300;  // more than are read at once
+    std::set<std::string> expected;
+    for (int i = 0; i < k_certificates; ++i) {
+        const std::string number = "EX-" + std::to_string(i);
+        const bool is_evaluated = i % 7 == 0;
+        const bool is_issued = is_evaluated && i % 3 > 0;
+        add(number,
+            is_evaluated ? record + std::string(static_cast<std::size_t>(i), '\n')
+                         : R"({"source": "STD-017", "title": ")" + number + R"("})",
+            is_issued);
+        if (is_issued) {
+            expected.insert(number + "_A1");
+        }
+    }
+    std::string corrected = evaluation::read_file(folder / "laboratory" / "standards" / "STD-017.json");
+    corrected.replace(corrected.find("50.000623"), 9, "50.001623");
+    const WrongStandard wrong{"STD-017", "2026-03-02", ""};
+    const Correction correction{
+        .standard = "STD-017", .corrected = corrected, .reason = "r", .templates = k_affected_tree / "templates"};
+    struct Drafted {
+        std::map<std::filesystem::path, std::string> files;
+        std::set<std::string> folders;
+        std::string report;
+        std::vector<AffectedCertificate> affected;
+    };
+    const auto drafted = [&](unsigned threads, std::vector<AffectedCertificate> affected) {
+        Drafted all;
+        std::mutex mutex;
+        std::size_t unfinished = 0;
+        recalculate(affected, archive_, correction, threads,
+                    {.write =
+                         [&](const std::vector<outputs::OutputFile>& draft) {
+                             const std::lock_guard lock(mutex);
+                             ++unfinished;
+                             all.folders.insert(draft.front().path.begin()->string());
+                             for (const outputs::OutputFile& file : draft) {
+                                 EXPECT_TRUE(all.files.emplace(file.path, file.bytes).second) << file.path;
+                             }
+                         },
+                     .finish = [&] { unfinished = 0; }});
+        EXPECT_EQ(unfinished, 0U);
+        all.report = affected_json(affected, wrong);
+        all.affected = std::move(affected);
+        return all;
+    };
+    const Drafted one = drafted(1, find_affected(archive_, wrong, 1));
+    const Drafted several = drafted(4, find_affected(archive_, wrong, 4));
+    EXPECT_EQ(one.folders, expected);
+    EXPECT_EQ(several.files, one.files);
+    EXPECT_EQ(several.report, one.report);
+    // What another machine has calculated is drafted alike.
+    std::vector<AffectedCertificate> calculated = one.affected;
+    for (AffectedCertificate& certificate : calculated) {
+        certificate.draft_folder = "";
+    }
+    const Drafted later = drafted(2, std::move(calculated));
+    EXPECT_EQ(later.files, one.files);
+    EXPECT_EQ(later.report, one.report);
+}
+
+}  // namespace
+}  // namespace gumcert::archive

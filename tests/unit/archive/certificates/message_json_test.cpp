@@ -1,0 +1,16 @@
+#include "archive/certificates/message_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace gumcert::archive {
+namespace {
+
+TEST(MessageJson, HasFiveParts) {
+    const gum::Diagnostic message{.code = "GC-X-0001", .where = "a", .what = "b", .rule = "c", .action = "d"};
+    EXPECT_EQ(as_json(message).dump(), R"({"action":"d","code":"GC-X-0001","rule":"c","what":"b","where":"a"})");
+}
+
+}  // namespace
+}  // namespace gumcert::archive

@@ -1,0 +1,163 @@
+#include "archive/certificates/standard_references.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::archive {
+namespace {
+
+using nlohmann::json;
+
+TEST(NameInAText, IsAWordOfItsOwn) {
+    for (const char* const text : {"STD-017", "STD-017, certificate 12", "(STD-017)", "see STD-017.",
+                                   "by STD-017; STD-018", "STD-0171 and STD-017"}) {
+        EXPECT_TRUE(names(text, "STD-017")) << text;
+    }
+    for (const char* const text :
+         {"", "STD-0171", "XSTD-017", "STD-017-2", "STD-017/A1", "A/STD-017", "STD-01", "std-017"}) {
+        EXPECT_FALSE(names(text, "STD-017")) << text;
+    }
+    EXPECT_FALSE(names("anything", ""));
+}
+
+TEST(FileOfTheRegister, SaysWhichStandardItIs) {
+    EXPECT_EQ(standard_of_file("laboratory/standards/STD-017.json"), "STD-017");
+    EXPECT_EQ(standard_of_file("laboratory:/standards/STD-017.json"), "STD-017");
+    EXPECT_EQ(standard_of_file("standards/STD-017.json"), "STD-017");
+    EXPECT_EQ(standard_of_file("other_standards/STD-017.json"), "");
+    EXPECT_EQ(standard_of_file("laboratory/standards/old/STD-017.json"), "");
+    EXPECT_EQ(standard_of_file("laboratory/customers/CUST-3.json"), "");
+}
+
+TEST(RecordReferences, AreTakenFromEveryPlace) {
+    const nlohmann::json record = {
+        {"title", "STD-9 is in the title only"},
+        {"certificate",
+         {{"data",
+           {{"dates", {{"performed_from", "2026-01-02"}, {"performed_to", "2026-01-04"}}},
+            {"standards", {{{"identification", "STD-1"}, {"certificate", "NMI-1"}}, "STD-2"}},
+            {"conditions", {{{"sensor", "T-04"}}}}}}}},
+        {"results", {{"l", {{"budget", {{{"source", "STD-3, certificate NMI-3"}}}}}}}},
+        {"job",
+         {{"files",
+           {{{"name", "standards/STD-4.json"},
+             {"encoding", "utf-8"},
+             {"content", R"({"calibrations": [{"certificate": "NMI-4"}]})"}}}},
+          {"document", {{"inputs", {{"x", {{"source", {{"en", "STD-5"}, {"de", "Normal STD-5"}}}}}}}}}}}};
+    const std::optional<RecordReferences> found = references_of(record.dump());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->used_from, "2026-01-02");
+    EXPECT_EQ(found->used_to, "2026-01-04");
+    const auto named = [&](const std::string& name) {
+        return std::any_of(found->references.begin(), found->references.end(),
+                           [&](const StandardReference& one) { return names(one.text, name); });
+    };
+    for (const char* const name : {"STD-1", "NMI-1", "STD-2", "T-04", "STD-3", "NMI-3", "STD-4", "NMI-4", "STD-5"}) {
+        EXPECT_TRUE(named(name)) << name;
+    }
+    EXPECT_FALSE(named("STD-9"));
+    EXPECT_FALSE(references_of("no record"));
+}
+
+TEST(RecordReferences, TakeTheDayOfIssueWhereTheWorkHasNone) {
+    const auto found = references_of(R"({"certificate": {"data": {"dates": {"issued": "2026-05-06"}}}})");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->used_from, "2026-05-06");
+    EXPECT_EQ(found->used_to, "2026-05-06");
+    EXPECT_EQ(references_of("{}")->used_to, "");
+}
+
+using SaidTexts = std::set<std::pair<StandardReference::Kind, std::string>>;
+
+void add_texts(const json& value, StandardReference::Kind kind, SaidTexts& said) {
+    if (value.is_string() && value != "") {
+        said.emplace(kind, value.get<std::string>());
+    } else if (value.is_structured()) {
+        for (const json& item : value) {
+            add_texts(item, kind, said);
+        }
+    }
+}
+
+/// What a record says, looked for in the whole of its value.
+void add_said(const json& value, SaidTexts& said) {
+    for (const auto& [key, item] : value.items()) {
+        if (value.is_object() && key == "standards") {
+            for (const json& row : item.is_array() ? item : json::array({item})) {
+                if (!row.is_object()) {
+                    add_texts(row, StandardReference::Kind::traceability, said);
+                }
+                for (const char* const member : {"identification", "certificate"}) {
+                    if (row.is_object() && row.contains(member) && row[member].is_string()) {
+                        add_texts(row[member], StandardReference::Kind::traceability, said);
+                    }
+                }
+            }
+        } else if (value.is_object() && (key == "source" || key == "sensor" || key == "standard")) {
+            add_texts(item, StandardReference::Kind::source, said);
+        } else if (item.is_structured()) {
+            add_said(item, said);
+        }
+    }
+}
+
+/// Any value, with the keys that mean something in any place.
+json value_of_chance(std::mt19937_64& random, int depth) {
+    static const std::vector<std::string> k_keys{"a",        "b",         "source",         "sensor",
+                                                 "standard", "standards", "results",        "dates",
+                                                 "files",    "",          "identification", "certificate"};
+    const auto kind = random() % (depth > 0 ? 8U : 4U);
+    if (kind < 4) {
+        return kind == 0   ? json("S-" + std::to_string(random() % 50))
+               : kind == 1 ? json("")
+               : kind == 2 ? json(static_cast<double>(random() % 100) / 8)
+                           : json(nullptr);
+    }
+    json value = kind < 6 ? json::object() : json::array();
+    for (auto n = random() % 5; n > 0; --n) {
+        json item = value_of_chance(random, depth - 1);
+        if (value.is_object()) {
+            value[k_keys[random() % k_keys.size()]] = std::move(item);
+        } else {
+            value.push_back(std::move(item));
+        }
+    }
+    return value;
+}
+
+TEST(RecordReferences, AreThoseOfTheWholeValue) {
+    std::mt19937_64 random(11);
+    constexpr int k_records = 3000;
+    std::size_t found = 0;
+    for (int i = 0; i < k_records; ++i) {
+        json record = json::object();
+        for (const char* const key : {"results", "certificate", "source", "standards", "title"}) {
+            record[key] = value_of_chance(random, 6);
+        }
+        SaidTexts expected;
+        add_said(record, expected);
+        SaidTexts said;
+        const std::optional<RecordReferences> read = references_of(record.dump(i % 2 == 0 ? -1 : 1));
+        ASSERT_TRUE(read);
+        for (const StandardReference& one : read->references) {
+            EXPECT_TRUE(said.emplace(one.kind, one.text).second) << "said twice";
+        }
+        EXPECT_EQ(said, expected) << record.dump();
+        found += said.size();
+    }
+    EXPECT_GT(found, 2U * k_records);
+    for (const char* const text :
+         {"", "[]", "1", "[{\"source\": \"S\"}]", "{\"source\": \"S\"", "{} x", "{\"a\": 1e999}"}) {
+        EXPECT_FALSE(references_of(text)) << text;
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::archive

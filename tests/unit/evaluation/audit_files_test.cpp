@@ -1,0 +1,97 @@
+#include "evaluation/audit_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gumcert::evaluation {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// U of a certificate divided by another number than its k, or by it.
+std::string table_of_gauge(bool is_right) {
+    const std::string u = is_right ? "0.10" : "0.20";
+    return "quantity,unit,U or a,divisor,distribution,u,sensitivity,contribution,comment\n"
+           "Reference gauge,bar,0.20," +
+           std::string(is_right ? "2" : "1") + ",normal," + u + ",1," + u +
+           ",\"U = 0.20 bar, k = 2\"\nRepeatability,bar,0.01,1,normal,0.01,1,0.01,\nU,bar," +
+           (is_right ? "0.20" : "0.40") + "\nk,,2\n";
+}
+
+/// A folder `mix` with a table at its top and one of the same name in each of two folders.
+fs::path folder_of_tables() {
+    const fs::path all = fs::path(::testing::TempDir()) / "audit_files_test" / "mix";
+    for (const char* name : {"budget.csv", "one/budget.csv", "two/deep/budget.csv"}) {
+        fs::create_directories((all / name).parent_path());
+        std::ofstream(all / name) << table_of_gauge(std::string(name) != "one/budget.csv");
+    }
+    return all;
+}
+
+std::vector<std::string> names_of_files(const FilesToAudit& files) {
+    std::vector<std::string> names;
+    for (const FileToAudit& one : files.files) {
+        names.push_back(one.name);
+    }
+    return names;
+}
+
+TEST(AuditFiles, HaveNamesThatLeadToThem) {
+    const fs::path all = folder_of_tables();
+    EXPECT_THAT(names_of_files(files_to_audit({all})),
+                ::testing::ElementsAre("mix/budget.csv", "mix/one/budget.csv", "mix/two/deep/budget.csv"));
+    EXPECT_THAT(names_of_files(files_to_audit({all / ""})),
+                ::testing::ElementsAre("mix/budget.csv", "mix/one/budget.csv", "mix/two/deep/budget.csv"));
+    // The law: from wherever a folder is named, its names are those of its files from there.
+    const fs::path before = fs::current_path();
+    for (const auto& [from, named] : {std::pair(all.parent_path(), "mix"), std::pair(all.parent_path(), "./mix/"),
+                                      std::pair(all, "."), std::pair(all / "one", "..")}) {
+        fs::current_path(from);
+        std::set<std::string> distinct;
+        for (const FileToAudit& one : files_to_audit({named}).files) {
+            EXPECT_TRUE(fs::exists(one.name)) << one.name << " from " << from;
+            distinct.insert(one.name);
+        }
+        EXPECT_EQ(distinct.size(), 3U);
+    }
+    fs::current_path(before);
+    EXPECT_THAT(names_of_files(files_to_audit({all / "budget.csv"})), ::testing::ElementsAre("budget.csv"));
+    const std::vector<std::string> two = names_of_files(files_to_audit({all / "budget.csv", all / "one/budget.csv"}));
+    EXPECT_NE(two[0], two[1]);
+    EXPECT_THAT(two[1], HasSubstr("one/budget.csv"));
+}
+
+TEST(AuditFiles, TellAWaiverThatNoneOfThemTakes) {
+    const FilesToAudit files = files_to_audit({folder_of_tables()});
+    const auto waiver_of = [](const std::string& rule) {
+        certificate::Waiver waiver;
+        waiver.finding = rule;
+        return waiver;
+    };
+    const std::vector<certificate::Waiver> waivers{waiver_of("U13"), waiver_of("W99")};
+    const std::vector<AuditAttempt> attempts =
+        audit_files(files.files, 1, fs::path(GUMCERT_SOURCE_DIR) / "templates", {}, waivers);
+    ASSERT_EQ(attempts.size(), 3U);
+    std::string told;
+    for (const AuditAttempt& attempt : attempts) {
+        ASSERT_TRUE(attempt.view);
+        for (const std::string& sentence : reports::english_of(attempt.view->not_read)) {
+            told += sentence + "\n";
+        }
+    }
+    EXPECT_THAT(told, HasSubstr("the waiver of W99 fits no finding"));
+    EXPECT_EQ(told.find("W99"), told.rfind("W99")) << "once";
+    EXPECT_THAT(told, ::testing::Not(HasSubstr("U13 fits no finding"))) << "one of the files has it";
+    EXPECT_EQ(attempts[1].view->name, "mix/one/budget.csv");
+}
+
+}  // namespace
+}  // namespace gumcert::evaluation
