@@ -1,6 +1,6 @@
 // Start values without an operator: whatever the dead paths, the turn, the set-up and the outliers, the joint
 // adjustment converges from them to the truth.
-#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/start/start_values.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 #include "tests/support/weak_layout.h"

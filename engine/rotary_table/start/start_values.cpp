@@ -1,4 +1,6 @@
-#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/start/start_values.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>

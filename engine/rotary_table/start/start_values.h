@@ -1,21 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <vector>
 
+#include "engine/rotary_table/joint_adjustment.h"
 #include "engine/rotary_table/rotary_table_measurement.h"
-#include "engine/rotary_table/rotation.h"
 
 namespace gumcert::engine {
-
-/// Start values of the adjustment, in T.
-struct StartValues {
-    std::vector<Eigen::Vector3d> stations;  ///< [m]
-    Eigen::VectorXd dead_paths;             ///< [m]
-    RigidMotion set_up = {};                ///< T_s that was found with them; the positions do not contain it
-};
 
 /// Start values of stations and dead paths without an operator.
 ///
