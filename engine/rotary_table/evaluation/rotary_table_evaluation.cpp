@@ -17,6 +17,8 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
+#include "engine/rotary_table/start/interrupted_beams.h"
+#include "engine/rotary_table/start/no_rigid_table.h"
 #include "engine/rotary_table/start/start_values.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"

@@ -44,22 +44,10 @@ namespace gumcert::engine {
 ///         the layout
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
 
-/// To be asked before a measurement is refused for its layout: what is open where the distances of a station fit no place to
-/// a millimetre is no property of the layout.
-/// \throws gum::NoResultError  GC-ADJUST-0015
-void refuse_no_rigid_table(const RotaryTableMeasurement& measurement);
-
 /// To be asked before a measurement is refused for its layout: lengths of a station in another unit may fit a false place,
 /// of which the layout seems to leave a direction open. All labels of find_gross_errors() are tried for every station, and
 /// whether the angles of one are those of the others but for an offset.
 /// \throws gum::NoResultError  GC-ADJUST-0013; nothing is thrown where there is none
 void refuse_wrong_labels(const RotaryTableMeasurement& measurement);
-
-/// Beams that were interrupted by a tenth of a millimetre or more: with the distances of a station from some visit on
-/// on a dead path of their own, next to nothing of its misfit is left. For measurements that have no result without:
-/// every visit of every station is tried.
-///
-/// \throws gum::NoResultError  GC-ADJUST-0014 with place and size of each; nothing is thrown where there is none
-void refuse_interrupted_beams(const RotaryTableMeasurement& measurement);
 
 }  // namespace gumcert::engine

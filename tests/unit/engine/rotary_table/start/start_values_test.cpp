@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/interrupted_beams.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 #include "tests/support/weak_layout.h"
