@@ -218,10 +218,13 @@ set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
                             engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
                             engine/rotary_table/start/common_set_up.h engine/rotary_table/start/fit_limits.h
-                            engine/rotary_table/start/millimetres_text.h engine/rotary_table/start/observed_stations.h
-                            engine/rotary_table/start/open_places.h engine/rotary_table/start/place_search.h
-                            engine/rotary_table/start/robust_descent.h engine/rotary_table/start/shifted_angles.h
-                            engine/rotary_table/start/station_distances.h
+                            engine/rotary_table/start/label_hypothesis.h engine/rotary_table/start/labels_of_station.h
+                            engine/rotary_table/start/labels_of_visits.h engine/rotary_table/start/millimetres_text.h
+                            engine/rotary_table/start/observed_stations.h engine/rotary_table/start/open_places.h
+                            engine/rotary_table/start/place_of_reflector.h engine/rotary_table/start/place_search.h
+                            engine/rotary_table/start/robust_descent.h engine/rotary_table/start/selected_lengths.h
+                            engine/rotary_table/start/shifted_angles.h engine/rotary_table/start/station_distances.h
+                            engine/rotary_table/start/two_places.h engine/rotary_table/start/wrong_coordinates.h
                             gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signer_chain.h signing/signing_files.h

@@ -20,6 +20,7 @@
 #include "engine/rotary_table/start/interrupted_beams.h"
 #include "engine/rotary_table/start/no_rigid_table.h"
 #include "engine/rotary_table/start/start_values.h"
+#include "engine/rotary_table/start/wrong_labels.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"

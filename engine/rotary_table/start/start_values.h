@@ -33,21 +33,12 @@ namespace gumcert::engine {
 /// robust start values (median and median absolute deviation). Largest first; no more than one in twenty and one.
 /// Nothing is found in a dead path with fewer than three lengths: there is no telling which one is wrong.
 ///
-/// Distances of a station that no position explains are tried with other labels: the table turning the other way, two
-/// reflectors interchanged, lengths of the other sign or counted twice, a fixture in another unit, angles that are gon or steps
-/// of another size, a scale of their own, passes from two places; in a part of its visits too, where the others tell its
-/// place; and all stations without one reflector, whose coordinates are wrong. If one makes the misfit vanish it is reported
-/// as wrong labels, and no gross error is returned.
+/// Distances of a station that no position explains are asked for wrong labels first (wrong_labels.h): of those no gross
+/// error is returned.
 ///
-/// \throws gum::NoResultError  as find_start_values(); GC-ADJUST-0013 for wrong labels; and GC-ADJUST-0015 in place of
+/// \throws gum::NoResultError  as find_start_values(); as refuse_labels_of_suspicious(); and GC-ADJUST-0015 in place of
 ///         GC-RANK-0001 where the distances of a station fit no place to a millimetre: what is open then is no property of
 ///         the layout
 [[nodiscard]] std::vector<std::size_t> find_gross_errors(const RotaryTableMeasurement& measurement);
-
-/// To be asked before a measurement is refused for its layout: lengths of a station in another unit may fit a false place,
-/// of which the layout seems to leave a direction open. All labels of find_gross_errors() are tried for every station, and
-/// whether the angles of one are those of the others but for an offset.
-/// \throws gum::NoResultError  GC-ADJUST-0013; nothing is thrown where there is none
-void refuse_wrong_labels(const RotaryTableMeasurement& measurement);
 
 }  // namespace gumcert::engine

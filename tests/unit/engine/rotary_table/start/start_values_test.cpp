@@ -12,6 +12,7 @@
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/start/interrupted_beams.h"
+#include "engine/rotary_table/start/wrong_labels.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 #include "tests/support/weak_layout.h"
