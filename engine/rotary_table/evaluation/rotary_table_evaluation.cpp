@@ -17,6 +17,7 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
+#include "engine/rotary_table/start/gross_errors.h"
 #include "engine/rotary_table/start/interrupted_beams.h"
 #include "engine/rotary_table/start/no_rigid_table.h"
 #include "engine/rotary_table/start/start_values.h"

@@ -11,11 +11,8 @@
 #include <vector>
 
 #include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
-#include "engine/rotary_table/start/interrupted_beams.h"
-#include "engine/rotary_table/start/wrong_labels.h"
-#include "gum/quantity/diagnostic.h"
+#include "engine/rotary_table/start/gross_errors.h"
 #include "tests/support/synthetic_campaign.h"
-#include "tests/support/weak_layout.h"
 
 namespace gumcert::engine {
 namespace {
@@ -247,38 +244,6 @@ TEST(StartValues, SoundCampaignsOfWeakLayoutsAreNotAccused) {
             }
         }
     }
-}
-
-// Of a sound campaign no cause is told, whatever its layout: with few distances or a station that sees all reflectors near a
-// cone wrong labels, or a dead path more, leave next to nothing.
-TEST(StartValues, NoCauseIsToldOfSoundCampaigns) {
-    constexpr std::uint64_t k_campaigns = 500;
-    constexpr std::uint64_t k_with_all_labels = 20;  // they take longer
-    std::size_t evaluated = 0;
-    for (std::uint64_t seed = 1; seed <= k_campaigns; ++seed) {
-        const Campaign campaign = simulate(synthetic::weak_layout(seed));
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        try {
-            EXPECT_TRUE(find_gross_errors(campaign.measurement).empty());
-            ++evaluated;
-        } catch (const gum::NoResultError& error) {
-            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001") << error.what();
-        }
-        EXPECT_NO_THROW(refuse_interrupted_beams(campaign.measurement));
-        if (seed <= k_with_all_labels) {
-            EXPECT_NO_THROW(refuse_wrong_labels(campaign.measurement));
-        }
-    }
-    EXPECT_GT(evaluated, k_campaigns * 3 / 4);
-}
-
-TEST(StartValues, GrossErrorsComeLargestFirstAndSoundDistancesStay) {
-    Campaign campaign = simulate(CampaignPlan{});
-    campaign.measurement.lengths[100].length += 0.05;
-    campaign.measurement.lengths[700].length -= 0.4;
-    campaign.measurement.lengths[701].length += 0.005;  // left to the test of the adjustment
-    EXPECT_EQ(find_gross_errors(campaign.measurement), (std::vector<std::size_t>{700, 100}));
-    EXPECT_TRUE(find_gross_errors(simulate(CampaignPlan{}).measurement).empty());
 }
 
 }  // namespace
