@@ -18,7 +18,8 @@
 #include <string_view>
 
 #include "engine/rotary_table/anglewise_map.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/start_values.h"
 #include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/monte_carlo/monte_carlo.h"
 #include "gum/monte_carlo/random_draws.h"

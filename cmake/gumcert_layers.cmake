@@ -7,6 +7,7 @@
 # The layers from the foundation upwards. An edge may only point to a layer further left, so there are no cycles.
 set(GUMCERT_LAYER_FOLDERS text encoding system gum/quantity json gum/expression gum gum/monte_carlo gum/conformity
                           gum/comparison certificate certificate/gates laboratory engine engine/rotary_table
+                          engine/rotary_table/start engine/rotary_table/evaluation
                           engine/rotary_table/trials engine/rotary_table/studies gum/budget gum/circle_closure
                           gum/rotary_table gum/rotary_table/studies workbook audit audit/rules jobs jobs/certificate
                           jobs/laboratory jobs/budget
@@ -35,13 +36,17 @@ set(GUMCERT_EDGES_certificate_gates                  text gum/quantity gum certi
 set(GUMCERT_EDGES_laboratory                         text gum/quantity gum certificate)
 set(GUMCERT_EDGES_engine                             text gum/quantity)
 set(GUMCERT_EDGES_engine_rotary_table                text gum/quantity engine)
+set(GUMCERT_EDGES_engine_rotary_table_start          text gum/quantity engine engine/rotary_table)
+set(GUMCERT_EDGES_engine_rotary_table_evaluation     text gum/quantity engine engine/rotary_table
+                                                     engine/rotary_table/start)
 set(GUMCERT_EDGES_engine_rotary_table_trials         gum/quantity engine/rotary_table)
-set(GUMCERT_EDGES_engine_rotary_table_studies        gum/quantity engine/rotary_table)
+set(GUMCERT_EDGES_engine_rotary_table_studies        gum/quantity engine/rotary_table engine/rotary_table/evaluation)
 set(GUMCERT_EDGES_gum_budget                         text gum/quantity gum/expression gum gum/monte_carlo engine)
 set(GUMCERT_EDGES_gum_circle_closure                 gum/quantity gum gum/monte_carlo engine gum/budget)
 set(GUMCERT_EDGES_gum_rotary_table                   text gum/quantity gum gum/monte_carlo engine/rotary_table
-                                                     engine/rotary_table/trials gum/budget)
+                                                     engine/rotary_table/evaluation engine/rotary_table/trials gum/budget)
 set(GUMCERT_EDGES_gum_rotary_table_studies           text gum/quantity gum gum/monte_carlo engine/rotary_table
+                                                     engine/rotary_table/start engine/rotary_table/evaluation
                                                      engine/rotary_table/studies gum/rotary_table)
 set(GUMCERT_EDGES_workbook                           text gum/quantity)
 set(GUMCERT_EDGES_audit                              text gum/quantity gum gum/monte_carlo gum/conformity
@@ -73,7 +78,8 @@ set(GUMCERT_EDGES_reports_record_make_comparison     text gum/quantity gum/expre
                                                      jobs/circle_closure jobs/rotary_table jobs/comparison
                                                      reports/record reports/record/make reports/record/make/budget)
 set(GUMCERT_EDGES_reports_record_make_rotary_table   text gum/quantity gum certificate engine engine/rotary_table
-                                                     engine/rotary_table/trials gum/rotary_table jobs/budget
+                                                     engine/rotary_table/evaluation engine/rotary_table/trials
+                                                     gum/rotary_table jobs/budget
                                                      jobs/rotary_table reports/record reports/record/make
                                                      reports/record/make/budget reports/record/make/comparison)
 set(GUMCERT_EDGES_reports_record_make_circle_closure text gum/quantity gum gum/monte_carlo certificate
@@ -155,6 +161,8 @@ set(GUMCERT_THIRD_PARTY_certificate_gates)
 set(GUMCERT_THIRD_PARTY_laboratory)
 set(GUMCERT_THIRD_PARTY_engine                             Eigen ceres glog)
 set(GUMCERT_THIRD_PARTY_engine_rotary_table                Eigen)
+set(GUMCERT_THIRD_PARTY_engine_rotary_table_start          Eigen)
+set(GUMCERT_THIRD_PARTY_engine_rotary_table_evaluation     Eigen)
 set(GUMCERT_THIRD_PARTY_engine_rotary_table_trials         Eigen)
 set(GUMCERT_THIRD_PARTY_engine_rotary_table_studies        Eigen)
 set(GUMCERT_THIRD_PARTY_gum_budget                         Eigen)
@@ -217,6 +225,15 @@ set(GUMCERT_ONLY_IN gum/quantity/dense_factors.h Eigen/Eigenvalues Eigen/QR Eige
 # Headers of ours that only their own layer may include. They are not installed, and the line above leaves them alone.
 set(GUMCERT_PRIVATE_HEADERS archive/store/postgresql_connection.h archive/store/postgresql_schema.h
                             archive/store/sqlite_schema.h archive/store/sqlite_statement.h
+                            engine/rotary_table/start/candidate_places.h engine/rotary_table/start/closed_solution.h
+                            engine/rotary_table/start/common_set_up.h engine/rotary_table/start/fit_limits.h
+                            engine/rotary_table/start/label_hypothesis.h engine/rotary_table/start/labels_of_station.h
+                            engine/rotary_table/start/labels_of_visits.h engine/rotary_table/start/millimetres_text.h
+                            engine/rotary_table/start/observed_stations.h engine/rotary_table/start/open_places.h
+                            engine/rotary_table/start/place_of_reflector.h engine/rotary_table/start/place_search.h
+                            engine/rotary_table/start/robust_descent.h engine/rotary_table/start/selected_lengths.h
+                            engine/rotary_table/start/shifted_angles.h engine/rotary_table/start/station_distances.h
+                            engine/rotary_table/start/two_places.h engine/rotary_table/start/wrong_coordinates.h
                             gum/quantity/unit_expression.h reports/forms/qpdf_objects.h signing/certificates.h signing/checked_signature.h signing/cms.h
                             signing/document_verification.h signing/external_program.h
                             signing/openssl_handles.h signing/qpdf_objects.h signing/signer_chain.h signing/signing_files.h

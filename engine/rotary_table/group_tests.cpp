@@ -12,6 +12,7 @@
 
 #include "engine/fixed_parts.h"
 #include "engine/median.h"
+#include "engine/rotary_table/visit_effects.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/diagnostic.h"
 
@@ -26,10 +27,9 @@ using Eigen::VectorXd;
 constexpr double k_median_of_absolute_normal = 0.674489750196082;
 constexpr double k_spread_of_robust_scale = 1.17;         // times 1/sqrt(n): standard deviation of its relative error
 constexpr double k_deviate_of_power = 0.841621233572914;  // of the normal distribution, for 80 %
-constexpr double k_controlled = 1e-9;        // share of the weight of a group below which nothing else controls it
-constexpr std::size_t k_most_suspects = 40;  // groups that are taken away one after the other
-constexpr int k_most_steps = 18;             // by which the angles of a station are looked at to be off
-constexpr double k_most_amplitude = 3.5;     // of the effect of angles that are off: J/(J - 2) of three stations is 3
+constexpr std::size_t k_most_suspects = 40;               // groups that are taken away one after the other
+constexpr int k_most_steps = 18;                          // by which the angles of a station are looked at to be off
+constexpr double k_most_amplitude = 3.5;  // of the effect of angles that are off: J/(J - 2) of three stations is 3
 constexpr std::size_t k_fewest_for_scatter = 8;    // visits: fewer say nothing of a scatter
 constexpr std::size_t k_drift_hypotheses = 3;      // all stations alike, each its own, one station
 constexpr std::size_t k_most_angle_bounds = 36;    // between which a reflector is looked at to stand elsewhere
@@ -49,339 +49,6 @@ double critical_chi_square(const GroupTestOptions& options, double probability, 
     return high;
 }
 
-/// A symmetric positive semi-definite matrix inverted where it is not zero.
-struct Inverted {
-    MatrixXd inverse;
-    int rank = 0;
-};
-Inverted pseudo_inverse(const MatrixXd& matrix, double least) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
-    Inverted result{MatrixXd::Zero(matrix.rows(), matrix.cols()), 0};
-    for (Index i = 0; i < matrix.rows(); ++i) {
-        // What nothing else controls has no residual of its own: below the limit it is rounding, and its inverse would
-        // make a large test value of it.
-        if (eigen.eigenvalues()[i] > least) {
-            ++result.rank;
-            result.inverse +=
-                eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
-        }
-    }
-    return result;
-}
-
-/// V⁻¹v and M = V⁻¹ Q_v V⁻¹ of the observations of one group.
-struct GroupSpread {
-    MatrixXd whitening;  ///< L⁻¹
-    VectorXd weighted;   ///< V⁻¹v
-    MatrixXd own;        ///< M
-};
-GroupSpread spread_of(const LinearisedGroup& group, const BorderedCovariance& covariance) {
-    const Index n = group.residual.size();
-    MatrixXd whitening = MatrixXd::Identity(n, n);
-    group.cholesky.triangularView<Eigen::Lower>().solveInPlace(whitening);
-    const MatrixXd cofactor = MatrixXd::Identity(n, n) -
-                              group.jacobian * covariance(group.columns, group.columns) * group.jacobian.transpose();
-    return {whitening, whitening.transpose() * group.residual, whitening.transpose() * cofactor * whitening};
-}
-
-/// V⁻¹v and the blocks of M = V⁻¹ Q_v V⁻¹ of all visits and of the coordinates of the fixture, from which whole visits
-/// and other effects on distances can be left out.
-///
-/// Leaving out a visit g is estimating an error of each of its distances: V⁻¹v ← V⁻¹v - M_g M_gg⁻¹ (V⁻¹v)_g and
-/// M ← M - M_g M_gg⁻¹ M_gᵀ, exact for the linearised model at fixed weights.
-class Visits {
-public:
-    Visits(const JointAdjustment& adjustment, const NormalEquations& normal, const BorderedCovariance& covariance)
-        : covariance_(covariance), size_(adjustment.visits().size()), out_(size_, false) {
-        for (std::size_t g = 0; g < size_; ++g) {
-            groups_.push_back(&normal.groups()[g]);
-        }
-        groups_.push_back(&normal.groups()[adjustment.fixture_prior()]);
-        for (const LinearisedGroup* group : groups_) {
-            GroupSpread spread = spread_of(*group, covariance);
-            // Relative to the weights of the visit, so that no unit decides what counts as controlled.
-            least_.push_back(k_controlled * spread.whitening.squaredNorm());
-            weighted_.push_back(std::move(spread.weighted));
-            own_.push_back(std::move(spread.own));
-            whitening_.push_back(std::move(spread.whitening));
-        }
-    }
-
-    [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] bool is_out(std::size_t g) const { return out_[g]; }
-    [[nodiscard]] const VectorXd& weighted(std::size_t g) const { return weighted_[g]; }
-    [[nodiscard]] const MatrixXd& own(std::size_t g) const { return own_[g]; }
-    [[nodiscard]] double least(std::size_t g) const { return least_[g]; }
-    /// Of the coordinates of the fixture, x, y, z of one point after the other.
-    [[nodiscard]] const VectorXd& weighted_fixture() const { return weighted_.back(); }
-    [[nodiscard]] const MatrixXd& own_fixture() const { return own_.back(); }
-    [[nodiscard]] const MatrixXd& whitening_fixture() const { return whitening_.back(); }
-
-    /// Errors of each distance of a visit on its own.
-    void leave_out(std::size_t g) {
-        Effect effect(size_);
-        effect[g] = MatrixXd::Identity(own_[g].rows(), own_[g].rows());
-        take_away(effect, own_[g].rows());
-        out_[g] = true;
-    }
-
-    /// C: one matrix a visit, distances×q; without elements: no effect.
-    using Effect = std::vector<MatrixXd>;
-    /// Values at visits: the same at all distances of each.
-    using Column = std::vector<std::pair<std::size_t, double>>;
-
-    void take_away(const std::vector<Column>& columns) {
-        take_away(effect_of(columns), static_cast<Index>(columns.size()));
-    }
-    void take_away(const Effect& effect, Index q) {
-        const Projection projected = projection(effect, q);
-        // C may contain what was taken away before, or what the parameters take up wholly: only the part that is
-        // controlled is taken away.
-        LeftOut left{columns(effect, q),
-                     pseudo_inverse(projected.spread, k_controlled * std::max(projected.weight, 1e-300)).inverse};
-        const VectorXd error = left.inverse * projected.weighted;
-        for (std::size_t h = 0; h < groups_.size(); ++h) {
-            weighted_[h] -= left.columns[h] * error;
-            own_[h] -= left.columns[h] * left.inverse * left.columns[h].transpose();
-        }
-        left_out_.push_back(std::move(left));
-    }
-
-    /// Cᵀ V⁻¹ v and Cᵀ M C of columns.
-    struct Projection {
-        VectorXd weighted;
-        MatrixXd spread;
-        double weight = 0.0;  ///< largest of the diagonal of Cᵀ V⁻¹ C
-    };
-    [[nodiscard]] Projection projection(const std::vector<Column>& columns) const {
-        return projection(effect_of(columns), static_cast<Index>(columns.size()));
-    }
-    [[nodiscard]] Projection projection(const Effect& effect, Index q) const {
-        Projection result{VectorXd::Zero(q), MatrixXd::Zero(q, q), 0.0};
-        for (std::size_t g = 0; g < size_; ++g) {
-            if (effect[g].size() > 0) {
-                const MatrixXd whitened = whitening_[g] * effect[g];
-                result.weighted.noalias() += effect[g].transpose().lazyProduct(weighted_[g]);
-                result.spread.noalias() += whitened.transpose().lazyProduct(whitened);
-            }
-        }
-        result.weight = result.spread.diagonal().maxCoeff();
-        const MatrixXd pull = pull_of(effect, q);
-        // Cᵀ M C = C̃ᵀ C̃ − pᵀ Q p with C̃ = L⁻¹ C and p = J̃ᵀ C̃, less what was left out. M itself, distances ×
-        // distances, is never formed.
-        for (Index k = 0; k < q; ++k) {
-            result.spread.col(k) -= pull.transpose() * covariance_.times(pull.col(k));
-        }
-        result.spread -= taken_from(effect, q, 0);
-        return result;
-    }
-    /// What all that was left out after the first `from` takes from Cᵀ M C.
-    [[nodiscard]] MatrixXd taken_from(const Effect& effect, Index q, std::size_t from) const {
-        MatrixXd taken = MatrixXd::Zero(q, q);
-        for (std::size_t i = from; i < left_out_.size(); ++i) {
-            const MatrixXd across = left_out_[i].across(effect, q);
-            taken += across.transpose() * left_out_[i].inverse * across;
-        }
-        return taken;
-    }
-    [[nodiscard]] std::size_t left_out_count() const { return left_out_.size(); }
-
-    /// Rows of the distances of a reflector at one visit.
-    struct Seen {
-        std::size_t visit = 0;
-        std::vector<Index> rows;
-    };
-    using Triple = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-    /// Cᵀ V⁻¹ v and Cᵀ M C of three columns C that are not zero at the visits that were added only: of all beginnings of a
-    /// sequence of visits they cost no more than of the single ones.
-    struct Sum {
-        Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-        Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();    ///< Cᵀ V⁻¹ C
-        Eigen::Matrix3d of_poses = Eigen::Matrix3d::Zero();  ///< what the poses alone take from it
-        Triple carried;                                      ///< Z: what border and left out take from it is Zᵀ Z
-        std::size_t distances = 0;
-
-        [[nodiscard]] Sum operator-(const Sum& other) const {
-            return {weighted - other.weighted, weight - other.weight, of_poses - other.of_poses,
-                    carried - other.carried, distances - other.distances};
-        }
-        /// Chi-square of the three, with less than rounding added where nothing controls one of them.
-        [[nodiscard]] double chi_square() const {
-            Eigen::Matrix3d spread = weight - of_poses - carried.transpose().lazyProduct(carried);
-            spread.diagonal().array() += k_controlled * weight.diagonal().maxCoeff();
-            return weighted.dot(spread.inverse() * weighted);
-        }
-    };
-    /// A sum that grows. Poses of one angle are shared by its visits: their part does not add up by visits, but by angles.
-    class GrowingSum {
-    public:
-        GrowingSum(const Visits& visits, std::size_t angles)
-            : visits_(visits), pulls_(angles), parts_(angles, Eigen::Matrix3d::Zero()) {
-            sum_.carried = Triple::Zero(visits.carried_.front().cols(), 3);
-        }
-        /// \param columns  C at the visit
-        void add(const Seen& seen, std::size_t angle, const Triple& columns) {
-            const std::size_t g = seen.visit;
-            const MatrixXd& whitening = visits_.whitening_[g];
-            const LinearisedGroup& group = *visits_.groups_[g];
-            const Index border = visits_.covariance_.border();
-            Triple whitened = Triple::Zero(whitening.rows(), 3);
-            for (const Index i : seen.rows) {
-                sum_.weighted += visits_.weighted_[g][i] * columns.row(i).transpose();
-                sum_.carried.noalias() += visits_.carried_[g].row(i).transpose() * columns.row(i);
-                whitened.noalias() += whitening.col(i) * columns.row(i);
-            }
-            sum_.weight.noalias() += whitened.transpose().lazyProduct(whitened);
-            sum_.distances += seen.rows.size();
-            Index first = -1;
-            for (std::size_t c = 0; c < group.columns.size(); ++c) {
-                const Index parameter = group.columns[c];
-                if (parameter < border) {
-                    continue;
-                }
-                if (first < 0) {
-                    first = visits_.covariance_.first_of(parameter);
-                    if (pulls_[angle].size() == 0) {
-                        pulls_[angle] = Triple::Zero(visits_.covariance_.own(first).rows(), 3);
-                    }
-                }
-                pulls_[angle].row(parameter - first) +=
-                    group.jacobian.col(static_cast<Index>(c)).transpose() * whitened;
-            }
-            if (first >= 0) {
-                const Eigen::Matrix3d part =
-                    pulls_[angle].transpose() * (visits_.covariance_.own(first) * pulls_[angle]);
-                sum_.of_poses += part - parts_[angle];
-                parts_[angle] = part;
-            }
-        }
-        [[nodiscard]] const Sum& sum() const { return sum_; }
-
-    private:
-        const Visits& visits_;
-        std::vector<Triple> pulls_;           ///< Jᵀ V⁻¹ C of the pose of an angle
-        std::vector<Eigen::Matrix3d> parts_;  ///< of an angle, of what the poses take
-        Sum sum_;
-    };
-    /// Before sums are made: what a distance pulls at the border, and at what was left out, A with Z = Aᵀ C. With the root
-    /// R of the covariance of the border, and H from the border to all parameters, it is V⁻¹ J H R.
-    void prepare_sums(const Workers& workers) {
-        if (carried_.empty()) {
-            carried_.resize(size_);
-            const MatrixXd& root = covariance_.border_root();
-            const MatrixXd of_poses = covariance_.elimination() * root;
-            FixedParts(size_, 16).run(workers, [&](std::size_t, std::size_t begin, std::size_t end) {
-                for (std::size_t g = begin; g < end; ++g) {
-                    const std::vector<Index>& parameters = groups_[g]->columns;
-                    MatrixXd rows(parameters.size(), root.cols());
-                    for (std::size_t c = 0; c < parameters.size(); ++c) {
-                        const Index at = parameters[c] - covariance_.border();
-                        rows.row(static_cast<Index>(c)) = at < 0 ? root.row(parameters[c]) : of_poses.row(at);
-                    }
-                    carried_[g].noalias() = whitening_[g].transpose() * (groups_[g]->jacobian * rows);
-                }
-            });
-        }
-        for (; carried_left_out_ < left_out_.size(); ++carried_left_out_) {
-            const LeftOut& left = left_out_[carried_left_out_];
-            const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(left.inverse);
-            const MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-            for (std::size_t g = 0; g < size_; ++g) {
-                const Index before = carried_[g].cols();
-                carried_[g].conservativeResize(Eigen::NoChange, before + root.cols());
-                carried_[g].rightCols(root.cols()).noalias() = left.columns[g] * root;
-            }
-        }
-    }
-    /// Cᵀ V⁻¹ v of one column.
-    [[nodiscard]] double weighted(const Effect& effect) const {
-        double sum = 0.0;
-        for (std::size_t g = 0; g < size_; ++g) {
-            sum += effect[g].size() > 0 ? effect[g].col(0).dot(weighted_[g]) : 0.0;
-        }
-        return sum;
-    }
-
-private:
-    struct LeftOut {
-        Effect columns;    ///< M C at every visit, and at the fixture, when it was left out
-        MatrixXd inverse;  ///< (Cᵀ M C)⁻¹ then
-
-        /// Cᵀ M of what was left out with another effect.
-        [[nodiscard]] MatrixXd across(const Effect& effect, Index q) const {
-            MatrixXd sum = MatrixXd::Zero(inverse.rows(), q);
-            for (std::size_t g = 0; g < effect.size(); ++g) {
-                if (effect[g].size() > 0) {
-                    sum.noalias() += columns[g].transpose().lazyProduct(effect[g]);
-                }
-            }
-            return sum;
-        }
-    };
-
-    [[nodiscard]] Effect effect_of(const std::vector<Column>& columns) const {
-        const auto q = static_cast<Index>(columns.size());
-        Effect effect(size_);
-        for (Index k = 0; k < q; ++k) {
-            for (const auto& [g, value] : columns[static_cast<std::size_t>(k)]) {
-                if (effect[g].size() == 0) {
-                    effect[g] = MatrixXd::Zero(own_[g].rows(), q);
-                }
-                effect[g].col(k).array() += value;
-            }
-        }
-        return effect;
-    }
-
-    /// Jᵀ V⁻¹ C, parameters×q.
-    [[nodiscard]] MatrixXd pull_of(const Effect& effect, Index q) const {
-        MatrixXd pull = MatrixXd::Zero(covariance_.size(), q);
-        for (std::size_t g = 0; g < size_; ++g) {
-            if (effect[g].size() > 0) {
-                pull(groups_[g]->columns, Eigen::all) += groups_[g]->jacobian.transpose() * (whitening_[g] * effect[g]);
-            }
-        }
-        return pull;
-    }
-
-    /// M C at every visit, and at the fixture.
-    [[nodiscard]] Effect columns(const Effect& effect, Index q) const {
-        const MatrixXd pull = pull_of(effect, q);
-        MatrixXd shift(covariance_.size(), q);  // of the parameters
-        for (Index k = 0; k < q; ++k) {
-            shift.col(k) = covariance_.times(pull.col(k));
-        }
-        Effect result;
-        for (std::size_t h = 0; h < groups_.size(); ++h) {
-            const LinearisedGroup& group = *groups_[h];
-            MatrixXd part = -(group.jacobian * shift(group.columns, Eigen::all));
-            if (h < size_ && effect[h].size() > 0) {
-                part += whitening_[h] * effect[h];
-            }
-            result.emplace_back(whitening_[h].transpose() * part);
-        }
-        for (const LeftOut& left : left_out_) {
-            const MatrixXd error = left.inverse * left.across(effect, q);
-            for (std::size_t h = 0; h < groups_.size(); ++h) {
-                result[h] -= left.columns[h] * error;
-            }
-        }
-        return result;
-    }
-
-    const BorderedCovariance& covariance_;
-    std::size_t size_;
-    std::vector<const LinearisedGroup*> groups_;  ///< the visits, and last the fixture
-    std::vector<bool> out_;
-    std::vector<VectorXd> weighted_;
-    std::vector<MatrixXd> own_;
-    std::vector<MatrixXd> whitening_;  ///< L⁻¹
-    std::vector<double> least_;
-    std::vector<LeftOut> left_out_;
-    std::vector<MatrixXd> carried_;     ///< A of every visit; empty: not asked for yet
-    std::size_t carried_left_out_ = 0;  ///< of what was left out, how many are in
-};
-
 /// Both tests of one visit.
 struct VisitTest {
     bool is_controlled = false;
@@ -393,9 +60,10 @@ struct VisitTest {
 };
 
 /// What a relative change of all distances of a station does to them.
-Visits::Effect effect_of_scale(const JointAdjustment& adjustment, const Visits& visits, std::size_t station) {
+VisitEffects::Effect effect_of_scale(const JointAdjustment& adjustment, const VisitEffects& visits,
+                                     std::size_t station) {
     const StartValues now = adjustment.present_values();
-    Visits::Effect effect(visits.size());
+    VisitEffects::Effect effect(visits.size());
     for (std::size_t g = 0; g < visits.size(); ++g) {
         const Visit& visit = adjustment.visits()[g];
         if (visit.station != station || visits.is_out(g)) {
@@ -728,15 +396,15 @@ private:
         }
     }
 
-    static void add_errors(GroupTest& test, const Visits::Column& column, double size) {
+    static void add_errors(GroupTest& test, const VisitEffects::Column& column, double size) {
         for (const auto& [visit, value] : column) {
             test.errors.emplace_back(visit, size * value);
         }
     }
 
-    [[nodiscard]] std::optional<GroupTest> column_test(GroupKind kind, const Visits::Column& column,
+    [[nodiscard]] std::optional<GroupTest> column_test(GroupKind kind, const VisitEffects::Column& column,
                                                        std::size_t count) const {
-        const Visits::Projection projection = visits_.projection({column});
+        const VisitEffects::Projection projection = visits_.projection({column});
         const double spread = projection.spread(0, 0);
         // A drift that dead paths or poses take up wholly leaves nothing to test.
         if (!(spread > k_controlled * projection.weight)) {
@@ -781,7 +449,7 @@ private:
             if (first == 0) {
                 continue;
             }
-            Visits::Column column;
+            VisitEffects::Column column;
             for (std::size_t k = first; k < sequence.size(); ++k) {
                 column.emplace_back(sequence[k], 1.0);
             }
@@ -830,7 +498,7 @@ private:
         std::optional<Candidate> best;
         for (std::size_t j = 0; j < stations; ++j) {
             for (std::size_t from = 1; from < passes[j].size(); ++from) {
-                Visits::Effect effect(visits_.size());
+                VisitEffects::Effect effect(visits_.size());
                 for (std::size_t pass = from; pass < passes[j].size(); ++pass) {
                     for (const std::size_t g : passes[j][pass]) {
                         // The distance is |P - q|: what moves the table by t moves the station by -t (contract,
@@ -848,9 +516,9 @@ private:
         }
         return best;
     }
-    [[nodiscard]] std::optional<GroupTest> place_test(GroupKind kind, const Visits::Effect& effect,
+    [[nodiscard]] std::optional<GroupTest> place_test(GroupKind kind, const VisitEffects::Effect& effect,
                                                       std::size_t count) const {
-        const Visits::Projection projection = visits_.projection(effect, 3);
+        const VisitEffects::Projection projection = visits_.projection(effect, 3);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         if (inverted.rank == 0) {
             return std::nullopt;
@@ -866,7 +534,7 @@ private:
     }
 
     /// What the distances of a visit change by with the place of their reflector in the fixture, distances×3.
-    [[nodiscard]] Visits::Triple reflector_columns(std::size_t g) const {
+    [[nodiscard]] VisitEffects::Triple reflector_columns(std::size_t g) const {
         // Small error motions turn the displacement by less than it is known.
         const Eigen::Matrix3d table_from_fixture =
             nominal_rotation(adjustment_.measurement(), adjustment_.visits()[g].angle) * adjustment_.set_up().rotation;
@@ -874,7 +542,7 @@ private:
     }
 
     /// Visits that are in at which each reflector is seen, in the order of time.
-    [[nodiscard]] std::vector<std::vector<Visits::Seen>> seen_reflectors() const {
+    [[nodiscard]] std::vector<std::vector<VisitEffects::Seen>> seen_reflectors() const {
         std::vector<std::size_t> order;
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             if (!visits_.is_out(g)) {
@@ -883,11 +551,11 @@ private:
         }
         std::ranges::stable_sort(order, {}, [this](std::size_t g) { return time_of(g); });
         const RotaryTableMeasurement& measurement = adjustment_.measurement();
-        std::vector<std::vector<Visits::Seen>> seen(measurement.reflectors.size());
+        std::vector<std::vector<VisitEffects::Seen>> seen(measurement.reflectors.size());
         for (const std::size_t g : order) {
             const std::vector<std::size_t>& observations = adjustment_.visits()[g].observations;
             for (std::size_t i = 0; i < observations.size(); ++i) {
-                std::vector<Visits::Seen>& of = seen[measurement.lengths[observations[i]].reflector];
+                std::vector<VisitEffects::Seen>& of = seen[measurement.lengths[observations[i]].reflector];
                 if (of.empty() || of.back().visit != g) {
                     of.push_back({g, {}});
                 }
@@ -902,7 +570,7 @@ private:
         double chi_square = -1.0;  ///< less than 0: none
         std::size_t begin = 0, end = 0;
 
-        void consider(const Visits::Sum& part, std::size_t all, std::size_t from, std::size_t to) {
+        void consider(const VisitEffects::Sum& part, std::size_t all, std::size_t from, std::size_t to) {
             if (part.distances < k_fewest_of_place || all - part.distances < k_fewest_of_place) {
                 return;
             }
@@ -916,8 +584,8 @@ private:
     /// \param describe  adds to a test which visits they are, begin to end of that order
     template <typename Find, typename Describe>
     [[nodiscard]] std::optional<Candidate> best_elsewhere(GroupKind kind, std::size_t count,
-                                                          std::vector<std::vector<Visits::Seen>> seen, const Find& find,
-                                                          const Describe& describe) {
+                                                          std::vector<std::vector<VisitEffects::Seen>> seen,
+                                                          const Find& find, const Describe& describe) {
         std::vector<Elsewhere> found(seen.size());
         // What the reflectors share is only read here: limits are found afterwards, by one thread.
         FixedParts(seen.size(), 1)
@@ -930,10 +598,10 @@ private:
             if (found[m].chi_square < misfit_of_fixture_) {
                 continue;
             }
-            Visits::Effect effect(visits_.size());
+            VisitEffects::Effect effect(visits_.size());
             for (std::size_t k = found[m].begin; k < found[m].end; ++k) {
                 const std::size_t g = seen[m][k].visit;
-                const Visits::Triple columns = reflector_columns(g);
+                const VisitEffects::Triple columns = reflector_columns(g);
                 effect[g] = MatrixXd::Zero(columns.rows(), 3);
                 for (const Index i : seen[m][k].rows) {
                     effect[g].row(i) = columns.row(i);
@@ -963,13 +631,13 @@ private:
         }
         // Of many angles not every one is a bound of parts: what is between two of them is found by its neighbours.
         const std::size_t parts = std::min(angles, k_most_angle_bounds);
-        std::vector<std::vector<Visits::Seen>> seen = seen_reflectors();
+        std::vector<std::vector<VisitEffects::Seen>> seen = seen_reflectors();
         const std::size_t count = seen.size() * (parts * (parts + 1) / 2 - 1);
-        const auto place = [&](const Visits::Seen& at) { return place_of[visits[at.visit].angle]; };
-        const auto find = [&](std::vector<Visits::Seen>& of) {
+        const auto place = [&](const VisitEffects::Seen& at) { return place_of[visits[at.visit].angle]; };
+        const auto find = [&](std::vector<VisitEffects::Seen>& of) {
             std::ranges::stable_sort(of, {}, place);
-            Visits::GrowingSum growing(visits_, angles);
-            std::vector<Visits::Sum> until{growing.sum()};
+            VisitEffects::GrowingSum growing(visits_, angles);
+            std::vector<VisitEffects::Sum> until{growing.sum()};
             std::vector<std::size_t> ends{0};
             std::size_t k = 0;
             for (std::size_t part = 1; part <= parts; ++part) {
@@ -988,7 +656,7 @@ private:
             return best;
         };
         return best_elsewhere(GroupKind::reflector_at_angles, count, std::move(seen), find,
-                              [&](GroupTest& test, const std::vector<Visits::Seen>& of, const Elsewhere& part) {
+                              [&](GroupTest& test, const std::vector<VisitEffects::Seen>& of, const Elsewhere& part) {
                                   test.angle = visits[of[part.begin].visit].angle;
                                   test.last_angle = visits[of[part.end - 1].visit].angle;
                               });
@@ -999,17 +667,17 @@ private:
         visits_.prepare_sums(adjustment_.adjustment().workers());
         const std::vector<Visit>& visits = adjustment_.visits();
         const std::size_t angles = adjustment_.measurement().angles.size();
-        std::vector<std::vector<Visits::Seen>> seen = seen_reflectors();
+        std::vector<std::vector<VisitEffects::Seen>> seen = seen_reflectors();
         std::size_t count = 0;
-        for (const std::vector<Visits::Seen>& of : seen) {
+        for (const std::vector<VisitEffects::Seen>& of : seen) {
             count += of.empty() ? 0 : of.size() - 1;
         }
-        const auto find = [&](const std::vector<Visits::Seen>& of) {
+        const auto find = [&](const std::vector<VisitEffects::Seen>& of) {
             std::size_t all = 0;
-            for (const Visits::Seen& at : of) {
+            for (const VisitEffects::Seen& at : of) {
                 all += at.rows.size();
             }
-            Visits::GrowingSum growing(visits_, angles);
+            VisitEffects::GrowingSum growing(visits_, angles);
             Elsewhere best;
             for (std::size_t k = of.size(); k-- > 1;) {
                 growing.add(of[k], visits[of[k].visit].angle, reflector_columns(of[k].visit));
@@ -1018,16 +686,15 @@ private:
             return best;
         };
         return best_elsewhere(GroupKind::reflector_from_visit, count, std::move(seen), find,
-                              [this](GroupTest& test, const std::vector<Visits::Seen>& of, const Elsewhere& part) {
-                                  place(test, of[part.begin].visit);
-                              });
+                              [this](GroupTest& test, const std::vector<VisitEffects::Seen>& of,
+                                     const Elsewhere& part) { place(test, of[part.begin].visit); });
     }
 
     /// The test of one size along an effect, without its place. Nothing where the parameters take the effect up wholly, and where a
     /// displaced reflector or a fixture of another size explains more at the same weights: then it is they.
-    [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const Visits::Effect& effect,
+    [[nodiscard]] std::optional<GroupTest> test_of_one_size(GroupKind kind, const VisitEffects::Effect& effect,
                                                             std::size_t count) const {
-        const Visits::Projection projection = visits_.projection(effect, 1);
+        const VisitEffects::Projection projection = visits_.projection(effect, 1);
         const double spread = projection.spread(0, 0);
         if (!(spread > k_controlled * projection.weight)) {
             return std::nullopt;
@@ -1048,7 +715,7 @@ private:
         const RotaryTableMeasurement& measurement = adjustment_.measurement();
         const std::size_t stations = measurement.stations.size();
         const std::size_t reflectors = measurement.reflectors.size();
-        std::vector<Visits::Effect> effects(stations * reflectors, Visits::Effect(visits_.size()));
+        std::vector<VisitEffects::Effect> effects(stations * reflectors, VisitEffects::Effect(visits_.size()));
         std::vector<std::size_t> first(effects.size(), visits_.size());
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             const Visit& visit = adjustment_.visits()[g];
@@ -1086,7 +753,7 @@ private:
         const std::size_t stations = adjustment_.measurement().stations.size();
         std::optional<Candidate> best;
         for (std::size_t j = 0; j < stations; ++j) {
-            const Visits::Effect effect = effect_of_scale(adjustment_, visits_, j);
+            const VisitEffects::Effect effect = effect_of_scale(adjustment_, visits_, j);
             // A scale that is free takes it up wholly.
             std::optional<GroupTest> test = test_of_one_size(GroupKind::station_scale, effect, stations);
             if (!test) {
@@ -1161,7 +828,8 @@ private:
         place(*best, order[from]);
         return Candidate{*best, [this, effect = fixture_place_effect(order, from)] { visits_.take_away(effect, 6); }};
     }
-    [[nodiscard]] Visits::Effect fixture_place_effect(const std::vector<std::size_t>& order, std::size_t from) const {
+    [[nodiscard]] VisitEffects::Effect fixture_place_effect(const std::vector<std::size_t>& order,
+                                                            std::size_t from) const {
         const double lever = reflectors_about_their_centre().rowwise().norm().mean();
         // Poses turn about the origin of the table. The fixture turns about its middle: where the CMM has the origin of its
         // coordinates says nothing of what is seen of a motion, nor of its size.
@@ -1172,7 +840,7 @@ private:
         for (int c = 0; c < 3; ++c) {
             across_centre.col(c) = centre.cross(Eigen::Vector3d::Unit(c));
         }
-        Visits::Effect effect(visits_.size());
+        VisitEffects::Effect effect(visits_.size());
         for (std::size_t k = from; k < order.size(); ++k) {
             const std::size_t g = order[k];
             const Eigen::Matrix3d table_from_fixture =
@@ -1187,7 +855,7 @@ private:
     }
     [[nodiscard]] std::optional<GroupTest> fixture_place_test(const std::vector<std::size_t>& order,
                                                               std::size_t from) const {
-        const Visits::Projection projection = visits_.projection(fixture_place_effect(order, from), 6);
+        const VisitEffects::Projection projection = visits_.projection(fixture_place_effect(order, from), 6);
         const Inverted inverted = pseudo_inverse(projection.spread, k_seen_of_fixture * projection.weight);
         if (inverted.rank == 0) {
             return std::nullopt;
@@ -1219,9 +887,9 @@ private:
 
     /// Drifts that are tested: columns with the value -1/2 at the first visit and 1/2 at the last one.
     struct Drifts {
-        std::vector<Visits::Column> each;  ///< of every sequence
-        std::vector<std::size_t> first;    ///< visit of each
-        Visits::Column common;             ///< one rate of all sequences; 1 over the longest one
+        std::vector<VisitEffects::Column> each;  ///< of every sequence
+        std::vector<std::size_t> first;          ///< visit of each
+        VisitEffects::Column common;             ///< one rate of all sequences; 1 over the longest one
     };
     [[nodiscard]] Drifts drifts() const {
         Drifts result;
@@ -1241,7 +909,7 @@ private:
             if (sequences_[s].size() < 3 || !(duration > 0.0)) {
                 continue;
             }
-            Visits::Column column;
+            VisitEffects::Column column;
             for (std::size_t k = 0; k < sequences_[s].size(); ++k) {
                 // About the middle: a constant part is the dead path.
                 const double value = (times[s][k] - times[s].front()) / duration - 0.5;
@@ -1257,8 +925,8 @@ private:
     /// What there is to know of drifts before anything is taken away.
     void estimate_drifts() {
         const Drifts all = drifts();
-        const auto add = [this](const Visits::Column& column, std::size_t station, std::size_t count) {
-            const Visits::Projection projection = visits_.projection({column});
+        const auto add = [this](const VisitEffects::Column& column, std::size_t station, std::size_t count) {
+            const VisitEffects::Projection projection = visits_.projection({column});
             const double spread = projection.spread(0, 0);
             // An estimate without a test, for the documents: a drift that is not suspicious is stated with what would
             // have been found.
@@ -1285,7 +953,7 @@ private:
         const Drifts all = drifts();
         const std::size_t count = all.each.size() > 1 ? all.each.size() + 2 : 1;
         std::optional<Candidate> best;
-        const auto consider = [&](std::optional<GroupTest> test, const std::vector<Visits::Column>& columns) {
+        const auto consider = [&](std::optional<GroupTest> test, const std::vector<VisitEffects::Column>& columns) {
             if (test) {
                 test->family = count;
                 take(best, {*test, [this, columns] { visits_.take_away(columns); }});
@@ -1305,8 +973,8 @@ private:
         return best;
     }
 
-    [[nodiscard]] GroupTest joint_drift(const std::vector<Visits::Column>& columns, std::size_t count) const {
-        const Visits::Projection projection = visits_.projection(columns);
+    [[nodiscard]] GroupTest joint_drift(const std::vector<VisitEffects::Column>& columns, std::size_t count) const {
+        const VisitEffects::Projection projection = visits_.projection(columns);
         const Inverted inverted = pseudo_inverse(projection.spread, k_controlled * projection.weight);
         const VectorXd drifts = inverted.inverse * projection.weighted;
         GroupTest test = judged(GroupKind::drift, projection.weighted.dot(drifts) / (used_scale_ * used_scale_),
@@ -1366,7 +1034,7 @@ private:
     struct IndexMisfit {
         int steps = 0;  ///< 0: nothing controls it
         double chi_square = 0.0;
-        Visits::Effect effect;
+        VisitEffects::Effect effect;
     };
     static void keep_worse(IndexMisfit& worst, IndexMisfit other) {
         if (other.steps != 0 && (worst.steps == 0 || other.chi_square > worst.chi_square)) {
@@ -1379,7 +1047,7 @@ private:
         const std::size_t angles = measurement.angles.size();
         const Eigen::Matrix3d turn =
             Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axial_coordinate(measurement.axis))).toRotationMatrix();
-        Visits::Effect effect(visits_.size());
+        VisitEffects::Effect effect(visits_.size());
         for (std::size_t g = 0; g < visits_.size(); ++g) {
             const Visit& visit = adjustment_.visits()[g];
             if (visit.station != station) {
@@ -1398,7 +1066,7 @@ private:
         if (spread.weight > 0.0) {
             spread.value -= visits_.taken_from(effect, 1, spread.left_out)(0, 0);
         } else {
-            const Visits::Projection projection = visits_.projection(effect, 1);
+            const VisitEffects::Projection projection = visits_.projection(effect, 1);
             spread.value = projection.spread(0, 0);
             spread.weight = projection.weight;
         }
@@ -1610,7 +1278,7 @@ private:
 
     const JointAdjustment& adjustment_;
     const GroupTestOptions& options_;
-    Visits visits_;
+    VisitEffects visits_;
     std::vector<MatrixXd> poses_;
     std::vector<VisitTest> tests_;
     std::vector<std::vector<std::size_t>> sequences_;
@@ -1662,8 +1330,8 @@ double share_of_level(GroupKind kind) {
 
 double scale_error_of_station(const JointAdjustment& adjustment, const NormalEquations& normal,
                               const BorderedCovariance& covariance, std::size_t station) {
-    const Visits visits(adjustment, normal, covariance);
-    const Visits::Projection projection = visits.projection(effect_of_scale(adjustment, visits, station), 1);
+    const VisitEffects visits(adjustment, normal, covariance);
+    const VisitEffects::Projection projection = visits.projection(effect_of_scale(adjustment, visits, station), 1);
     const double spread = projection.spread(0, 0);
     return spread > k_controlled * projection.weight ? projection.weighted[0] / spread : 0.0;
 }

@@ -11,9 +11,15 @@
 #include "engine/adjustment.h"
 #include "engine/rotary_table/rotary_table_measurement.h"
 #include "engine/rotary_table/rotation.h"
-#include "engine/rotary_table/start_values.h"
 
 namespace gumcert::engine {
+
+/// Start values of the adjustment, in T.
+struct StartValues {
+    std::vector<Eigen::Vector3d> stations;  ///< [m]
+    Eigen::VectorXd dead_paths;             ///< [m]
+    RigidMotion set_up = {};                ///< T_s that was found with them; the positions do not contain it
+};
 
 /// Variances of the observations: what the weights of the adjustment are made of.
 struct StochasticModel {

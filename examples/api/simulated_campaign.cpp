@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/studies/campaign_layout.h"
 #include "engine/rotary_table/studies/campaign_simulation.h"
 #include "gum/propagation.h"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/rotary_table/contact_point_model.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 #include "engine/rotary_table/rotary_table_contributions.h"
-#include "engine/rotary_table/sequential_evaluation.h"
 #include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/analysis_of_variance.h"
 #include "gum/coverage.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/rotary_table/anglewise_covariance.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/table_parameters.h"
 #include "gum/monte_carlo/monte_carlo.h"
 #include "gum/propagation.h"

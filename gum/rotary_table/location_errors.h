@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/rotary_table/anglewise_covariance.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/machine_frame.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
 #include "gum/propagation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/rotary_table/rotary_table_request.h"

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/planted_blunders.h"
 

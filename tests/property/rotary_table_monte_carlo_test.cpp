@@ -5,7 +5,7 @@
 #include <limits>
 #include <memory>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/monte_carlo/monte_carlo.h"
 #include "tests/support/synthetic_campaign.h"

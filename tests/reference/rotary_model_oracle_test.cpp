@@ -12,6 +12,7 @@
 #include <string>
 
 #include "engine/rotary_table/joint_adjustment.h"
+#include "engine/rotary_table/start/start_values.h"
 
 namespace gumcert::engine {
 namespace {

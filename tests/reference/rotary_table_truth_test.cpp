@@ -11,8 +11,8 @@
 #include <set>
 #include <string>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
-#include "engine/rotary_table/sequential_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 #include "gum/coverage.h"
 #include "gum/propagation.h"
 #include "gum/quantity/units.h"

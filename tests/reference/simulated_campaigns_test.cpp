@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/monte_carlo/worker_threads.h"
 #include "gum/propagation.h"

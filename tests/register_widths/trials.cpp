@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/trials/rotary_table_trials.h"
 #include "gum/monte_carlo/random_draws.h"
 #include "tests/support/synthetic_campaign.h"

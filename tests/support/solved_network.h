@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/rotary_table/joint_adjustment.h"
-#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/start/start_values.h"
 #include "engine/rotary_table/trials/trial_lanes.h"
 #include "engine/rotary_table/trials/trial_network.h"
 #include "engine/rotary_table/variance_components.h"

@@ -10,8 +10,8 @@
 
 #include "engine/rotary_table/anglewise_covariance.h"
 #include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/joint_adjustment.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
 #include "engine/rotary_table/rotary_table_model.h"
 
 namespace gumcert::engine {

@@ -6,7 +6,7 @@
 
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/rotary_table_contributions.h"
-#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/start/start_values.h"
 #include "engine/rotary_table/studies/campaign_layout.h"
 #include "engine/rotary_table/variance_components.h"
 #include "gum/coverage.h"

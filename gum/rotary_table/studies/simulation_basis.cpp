@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/studies/campaign_layout.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 #include "engine/rotary_table/joint_adjustment.h"
 #include "engine/rotary_table/rotary_table_contributions.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
-#include "engine/rotary_table/sequential_evaluation.h"
 #include "engine/rotary_table/studies/campaign_simulation.h"
 #include "gum/propagation.h"
 #include "gum/rotary_table/evaluate_rotary_table.h"

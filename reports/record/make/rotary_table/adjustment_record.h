@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "gum/propagation.h"
 #include "reports/record/evaluation_record.h"
 

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "engine/rotary_table/contact_point_model.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/studies/measurement_plan.h"
 #include "engine/rotary_table/table_parameters.h"
 #include "engine/rotary_table/variance_components.h"

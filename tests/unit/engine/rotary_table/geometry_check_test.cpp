@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/rotary_table/datum.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/joint_adjustment.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "tests/support/planted_blunders.h"
 #include "tests/support/synthetic_campaign.h"
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
-#include "engine/rotary_table/sequential_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/units.h"
 #include "tests/support/synthetic_campaign.h"

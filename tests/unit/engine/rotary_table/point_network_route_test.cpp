@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "engine/distance_network.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/joint_adjustment.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/start_values.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

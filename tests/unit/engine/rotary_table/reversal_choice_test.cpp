@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "engine/rotary_table/anglewise_map.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "engine/rotary_table/rotary_table_contributions.h"
-#include "engine/rotary_table/rotary_table_evaluation.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/synthetic_campaign.h"
 

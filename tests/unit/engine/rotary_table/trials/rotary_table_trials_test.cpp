@@ -13,7 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/start_values.h"
 #include "tests/support/synthetic_campaign.h"
 
 namespace gumcert::engine {

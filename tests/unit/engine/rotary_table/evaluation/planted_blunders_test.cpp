@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 #include "gum/quantity/diagnostic.h"
 #include "tests/support/planted_blunders.h"
 #include "tests/support/weak_layout.h"

@@ -1,4 +1,4 @@
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 
 #include <Eigen/Cholesky>
 
@@ -17,6 +17,11 @@
 #include "engine/rotary_table/anglewise_map.h"
 #include "engine/rotary_table/geometry_check.h"
 #include "engine/rotary_table/group_notes.h"
+#include "engine/rotary_table/start/gross_errors.h"
+#include "engine/rotary_table/start/interrupted_beams.h"
+#include "engine/rotary_table/start/no_rigid_table.h"
+#include "engine/rotary_table/start/start_values.h"
+#include "engine/rotary_table/start/wrong_labels.h"
 #include "engine/rotary_table/station_covariance.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"

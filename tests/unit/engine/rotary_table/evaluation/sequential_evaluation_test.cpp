@@ -1,4 +1,4 @@
-#include "engine/rotary_table/sequential_evaluation.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 
 #include <gtest/gtest.h>
 

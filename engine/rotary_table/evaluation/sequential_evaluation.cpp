@@ -1,10 +1,11 @@
-#include "engine/rotary_table/sequential_evaluation.h"
+#include "engine/rotary_table/evaluation/sequential_evaluation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "engine/rotary_table/start/start_values.h"
 #include "gum/quantity/dense_factors.h"
 #include "gum/quantity/units.h"
 #include "text/numbers.h"

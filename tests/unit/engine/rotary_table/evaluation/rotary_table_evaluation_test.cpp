@@ -1,4 +1,4 @@
-#include "engine/rotary_table/rotary_table_evaluation.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Start values without an operator: whatever the dead paths, the turn, the set-up and the outliers, the joint
 // adjustment converges from them to the truth.
-#include "engine/rotary_table/start_values.h"
+#include "engine/rotary_table/start/start_values.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/rotary_table/rotary_table_evaluation.h"
-#include "gum/quantity/diagnostic.h"
+#include "engine/rotary_table/evaluation/rotary_table_evaluation.h"
+#include "engine/rotary_table/start/gross_errors.h"
 #include "tests/support/synthetic_campaign.h"
-#include "tests/support/weak_layout.h"
 
 namespace gumcert::engine {
 namespace {
@@ -180,95 +179,6 @@ INSTANTIATE_TEST_SUITE_P(ScenariosAndAxes, StartValuesWithoutOperator,
                                     std::string(1, "ABC"[axial_coordinate(std::get<1>(tested.param))]);
                          });
 
-CampaignPlan coplanar_across(double tilt_factor) {
-    CampaignPlan plan;
-    plan.angles_deg = synthetic::full_turn(12);
-    plan.tilt *= tilt_factor;
-    for (Eigen::Vector3d& reflector : plan.reflectors) {
-        reflector[0] = 0.1;
-    }
-    return plan;
-}
-
-TEST(StartValues, MirrorImageInAPlaneAcrossTheAxisIsRefusedWithBothPositions) {
-    for (const double tilt_factor : {0.0, 1.0}) {
-        try {
-            (void)find_start_values(simulate(coplanar_across(tilt_factor)).measurement);
-            FAIL() << "one of two sides was taken";
-        } catch (const gum::NoResultError& error) {
-            const gum::Diagnostic& diagnostic = error.diagnostics().front();
-            EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
-            EXPECT_EQ(diagnostic.where, "station P1");
-            EXPECT_NE(diagnostic.what.find("(700, 450, 100) mm"), std::string::npos) << diagnostic.what;
-            EXPECT_NE(diagnostic.what.find("(-500, 450, 100) mm"), std::string::npos) << diagnostic.what;
-            EXPECT_NE(diagnostic.what.find("P2, P3, P4, P5, P6"), std::string::npos) << diagnostic.what;
-            EXPECT_NE(diagnostic.rule.find("mirror image"), std::string::npos) << diagnostic.rule;
-            EXPECT_NE(diagnostic.action.find("stations file"), std::string::npos) << diagnostic.action;
-            EXPECT_NE(diagnostic.action.find("raise alternate holders by 50 mm along x"), std::string::npos);
-        }
-    }
-}
-
-TEST(StartValues, StatedPositionsTellTheSide) {
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-        for (const double tilt_factor : {0.0, 1.0}) {
-            CampaignPlan plan = coplanar_across(tilt_factor);
-            plan.seed = seed;
-            Campaign campaign = simulate(plan);
-            for (std::size_t j = 0; j < 6; ++j) {
-                campaign.measurement.station_start[j] = campaign.truth.stations[j] + Eigen::Vector3d(0.08, -0.05, 0.05);
-            }
-            const StartValues start = find_start_values(campaign.measurement);
-            for (std::size_t j = 0; j < 6; ++j) {
-                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
-                    << "seed " << seed << ", " << j;
-            }
-        }
-    }
-}
-
-TEST(StartValues, OneStatedPositionGivesTheRightSideOfAllOrARefusal) {
-    // A tilt of the fixture holds all stations on one side of the plane: never a mixture, never the wrong side.
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        CampaignPlan plan = coplanar_across(1.0);
-        plan.seed = seed;
-        Campaign campaign = simulate(plan);
-        campaign.measurement.station_start[3] = campaign.truth.stations[3] + Eigen::Vector3d(0.08, -0.05, 0.05);
-        try {
-            const StartValues start = find_start_values(campaign.measurement);
-            for (std::size_t j = 0; j < 6; ++j) {
-                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
-                    << "seed " << seed << ", " << j;
-            }
-        } catch (const gum::NoResultError& error) {
-            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
-            EXPECT_EQ(error.diagnostics().front().what.find("P4"), std::string::npos) << error.what();
-        }
-    }
-}
-
-TEST(StartValues, StationOnTheAxisWithADeadPathOfEachReflectorIsRefused) {
-    CampaignPlan plan;
-    plan.angles_deg = synthetic::full_turn(12);
-    plan.dead_paths = DeadPaths::per_station_and_reflector;
-    plan.offset.setZero();
-    plan.tilt.setZero();
-    plan.error_factor = 0.0;
-    plan.noise = 0.0;
-    plan.stations[2] = {1.0, 0.0, 0.0};
-    try {
-        (void)find_start_values(simulate(plan).measurement);
-        FAIL() << "a position that nothing determines";
-    } catch (const gum::NoResultError& error) {
-        const gum::Diagnostic& diagnostic = error.diagnostics().front();
-        EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
-        EXPECT_EQ(diagnostic.where, "station P3");
-        EXPECT_NE(diagnostic.what.find("0.0 mm off the rotary axis"), std::string::npos) << diagnostic.what;
-        EXPECT_NE(diagnostic.what.find("dead path P3-R6"), std::string::npos) << diagnostic.what;
-        EXPECT_NE(diagnostic.action.find("move the station off the rotary axis"), std::string::npos);
-    }
-}
-
 TEST(StartValues, SameInputSameBytes) {
     CampaignPlan plan;
     plan.dead_paths = DeadPaths::per_station_and_reflector;
@@ -334,38 +244,6 @@ TEST(StartValues, SoundCampaignsOfWeakLayoutsAreNotAccused) {
             }
         }
     }
-}
-
-// Of a sound campaign no cause is told, whatever its layout: with few distances or a station that sees all reflectors near a
-// cone wrong labels, or a dead path more, leave next to nothing.
-TEST(StartValues, NoCauseIsToldOfSoundCampaigns) {
-    constexpr std::uint64_t k_campaigns = 500;
-    constexpr std::uint64_t k_with_all_labels = 20;  // they take longer
-    std::size_t evaluated = 0;
-    for (std::uint64_t seed = 1; seed <= k_campaigns; ++seed) {
-        const Campaign campaign = simulate(synthetic::weak_layout(seed));
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        try {
-            EXPECT_TRUE(find_gross_errors(campaign.measurement).empty());
-            ++evaluated;
-        } catch (const gum::NoResultError& error) {
-            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001") << error.what();
-        }
-        EXPECT_NO_THROW(refuse_interrupted_beams(campaign.measurement));
-        if (seed <= k_with_all_labels) {
-            EXPECT_NO_THROW(refuse_wrong_labels(campaign.measurement));
-        }
-    }
-    EXPECT_GT(evaluated, k_campaigns * 3 / 4);
-}
-
-TEST(StartValues, GrossErrorsComeLargestFirstAndSoundDistancesStay) {
-    Campaign campaign = simulate(CampaignPlan{});
-    campaign.measurement.lengths[100].length += 0.05;
-    campaign.measurement.lengths[700].length -= 0.4;
-    campaign.measurement.lengths[701].length += 0.005;  // left to the test of the adjustment
-    EXPECT_EQ(find_gross_errors(campaign.measurement), (std::vector<std::size_t>{700, 100}));
-    EXPECT_TRUE(find_gross_errors(simulate(CampaignPlan{}).measurement).empty());
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+#include "engine/rotary_table/start/labels_of_station.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/rotary_table/start/fit_limits.h"
+#include "engine/rotary_table/start/place_search.h"
+#include "engine/rotary_table/start/selected_lengths.h"
+#include "gum/quantity/golden_section.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+/// What the hypothesis leaves of the distances as they were stated: half of all lengths leaves half of any misfit.
+double misfit_with(const RotaryTableMeasurement& measurement, const LabelHypothesis& hypothesis, std::size_t station,
+                   const std::vector<bool>& active, bool closely) {
+    const RotaryTableMeasurement other = relabelled(measurement, station, hypothesis);
+    const double left =
+        PlaceSearch(other, active).fit_of(station, closely).upright_misfit() / std::abs(hypothesis.lengths);
+    if (hypothesis.fixture == 1.0) {
+        return left;
+    }
+    // Only the ratio counts, but a place is looked for at distances that stations have: whether it is the fixture that
+    // has its size or the lengths is not known.
+    return std::min(left, misfit_with(measurement, {.lengths = 1.0 / hypothesis.fixture}, station, active, closely));
+}
+
+}  // namespace
+
+std::optional<LabelHypothesis> labels_of_station(const RotaryTableMeasurement& measurement, std::size_t station,
+                                                 double misfit, const std::optional<LabelHypothesis>& known) {
+    const std::vector<bool> active = lengths_of_station(measurement, station);
+    if (!PlaceSearch(measurement, active).tells_causes(station)) {
+        return std::nullopt;
+    }
+    // A wrong guess of labels lowers the misfit by chance, and that of a station that fits very badly a good deal. The
+    // right one removes nearly all of it, and leaves what error motions do.
+    double least = std::min(k_share_with_right_labels * misfit, k_good_misfit);
+    if (known && misfit_with(measurement, *known, station, active, true) < least) {
+        return known;
+    }
+    // Some visits tell the labels of all: the time does not grow with the measurement.
+    const std::vector<bool> some = lengths_of_some_visits(measurement, active);
+    const std::vector<LabelHypothesis> hypotheses = label_hypotheses(measurement);
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+        order.emplace_back(misfit_with(measurement, hypotheses[k], station, some, false), k);
+    }
+    std::ranges::sort(order);
+    std::optional<LabelHypothesis> best;
+    constexpr std::size_t k_looked_at_closely = 3;
+    for (std::size_t k = 0; k < std::min(k_looked_at_closely, order.size()) && order[k].first < least; ++k) {
+        const LabelHypothesis& hypothesis = hypotheses[order[k].second];
+        const double reached =
+            some == active ? order[k].first : misfit_with(measurement, hypothesis, station, active, true);
+        if (reached < least) {
+            least = reached;
+            best = hypothesis;
+        }
+    }
+    return best;
+}
+
+std::optional<LabelHypothesis> scale_of_station(const RotaryTableMeasurement& measurement, std::size_t station,
+                                                const StationFit& fit) {
+    constexpr double k_most = 1.25;
+    constexpr double k_least = 5e-4;  // below it the tests of groups tell it, and what it is beside its u
+    constexpr int k_steps = 40;       // of a golden section: to 2e-9 of the factor
+    const std::vector<bool> active = lengths_of_station(measurement, station);
+    if (!PlaceSearch(measurement, active).tells_causes(station)) {
+        return std::nullopt;
+    }
+    const double misfit = fit.upright_misfit();
+    const std::vector<bool> some = lengths_of_some_visits(measurement, active);
+    StationFit best = fit;
+    const auto misfit_at = [&](double logarithm) {
+        const LabelHypothesis hypothesis{.lengths = std::exp(logarithm), .scale = true};
+        const RotaryTableMeasurement other = relabelled(measurement, station, hypothesis);
+        const StationFit found = PlaceSearch(other, some).fit_near(station, best);
+        if (found.upright_misfit() < best.upright_misfit()) {
+            best = found;
+        }
+        return found.upright_misfit();
+    };
+    // What is left grows with the distance of the factor from the right one, on both sides.
+    const double logarithm = gum::least_by_golden_section(misfit_at, -std::log(k_most), std::log(k_most), k_steps);
+    const LabelHypothesis found{.lengths = std::exp(logarithm), .scale = true};
+    if (std::abs(found.lengths - 1.0) > k_least && misfit_with(measurement, found, station, active, true) <
+                                                       std::min(k_share_with_right_labels * misfit, k_good_misfit)) {
+        return found;
+    }
+    return std::nullopt;
+}
+
+}  // namespace gumcert::engine

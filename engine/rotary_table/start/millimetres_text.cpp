@@ -1,0 +1,17 @@
+#include "engine/rotary_table/start/millimetres_text.h"
+
+#include <cmath>
+
+#include "gum/quantity/units.h"
+#include "text/numbers.h"
+
+namespace gumcert::engine {
+
+std::string millimetres(double value, int decimals) {
+    const double unit = std::pow(10.0, -decimals);
+    value = std::round(value / gum::k_millimetre / unit) * unit;
+    value = value == 0.0 ? 0.0 : value;  // no minus sign on a zero
+    return text::fixed(value, decimals);
+}
+
+}  // namespace gumcert::engine

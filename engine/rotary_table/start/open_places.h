@@ -1,0 +1,17 @@
+#pragma once
+
+#include "engine/rotary_table/start/common_set_up.h"
+
+namespace gumcert::engine {
+
+/// Places that the distances leave open, where no stated position decides.
+///
+/// A direction n with n·u the same for every reflector and angle of a dead path: nothing tells how far along n the station
+/// stands. All reflectors in one plane across the axis: every station has a mirror image that sees the same distances;
+/// stated positions tell the sides apart, and a tilt of the fixture holds the stations together on one side.
+///
+/// \param found  stations and set-up are those of the other side where stated positions are nearer to it
+/// \throws gum::NoResultError  GC-RANK-0001
+void settle_open_places(const ObservedStations& observed, CommonFit& found);
+
+}  // namespace gumcert::engine

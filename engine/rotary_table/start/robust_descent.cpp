@@ -1,0 +1,239 @@
+#include "engine/rotary_table/start/robust_descent.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/median.h"
+#include "engine/rotary_table/start/fit_limits.h"
+#include "gum/quantity/units.h"
+
+namespace gumcert::engine {
+
+namespace {
+
+// Set-up errors are of millimetres and a degree at most; this prior only keeps what a short turn leaves open near zero.
+constexpr double k_set_up_offset = 5.0 * gum::k_millimetre;
+constexpr double k_set_up_tilt = gum::k_degree;
+constexpr double k_typical_deviation = gum::k_micrometre;  // against which the prior is weighed
+
+/// Deviations with weights of Cauchy's function for the scale c, centred by their weighted means.
+struct Weighted {
+    Eigen::VectorXd deviation;
+    Eigen::VectorXd weight;
+    double cost = 0.0;
+};
+
+Weighted weigh(const StationDistances& data, Eigen::VectorXd deviation, double c) {
+    Weighted result;
+    result.weight.resize(deviation.size());
+    // Weights of Cauchy fall with the square of a deviation: a length that is wrong by a metre has no pull left.
+    // Weights and weighted centres depend on each other, so that both are made three times.
+    for (int round = 0; round < 3; ++round) {
+        for (const std::vector<Eigen::Index>& members : data.members) {
+            double sum = 0.0;
+            double weights = 0.0;
+            for (const Eigen::Index i : members) {
+                const double ratio = deviation[i] / c;
+                result.weight[i] = 1.0 / (1.0 + ratio * ratio);
+                sum += result.weight[i] * deviation[i];
+                weights += result.weight[i];
+            }
+            if (round < 2) {
+                for (const Eigen::Index i : members) {
+                    deviation[i] -= sum / weights;
+                }
+            }
+        }
+    }
+    for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+        const double ratio = deviation[i] / c;
+        result.cost += std::log1p(ratio * ratio);
+    }
+    result.deviation = std::move(deviation);
+    return result;
+}
+
+/// Steps that a set-up and stations take before they are near, in units of which plain least squares are damped
+/// (Levenberg–Marquardt): damping in units of the distances leaves a narrow valley for another one.
+Eigen::VectorXd usual_steps(std::size_t stations) {
+    Eigen::VectorXd steps = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(4 + 3 * stations), 0.1);  // [m]
+    steps.head<4>() << 0.001, 0.001, 0.01, 0.01;  // [m], [m], [rad], [rad]
+    return steps;
+}
+
+}  // namespace
+
+double StationFit::upright_misfit() const {
+    constexpr double k_overturned = 0.5;  // [rad]
+    constexpr double k_hopeless = 1.0;    // [m]
+    return set_up.tail<2>().norm() > k_overturned ? k_hopeless : misfit;
+}
+
+bool StationFit::is_settled() const {
+    return upright_misfit() <= k_good_misfit;
+}
+
+void descend(const ObservedStations& observed, const std::vector<std::size_t>& of, Eigen::Vector4d& set_up,
+             std::vector<StationFit>& fits, bool free_set_up, double step_tolerance, Pull pull) {
+    constexpr int k_steps = 60;
+    constexpr double k_most_usual_steps = 6.0;  // at once
+    const std::vector<StationDistances>& stations = observed.stations();
+    const bool plain = pull == Pull::of_all;
+    const auto size = static_cast<Eigen::Index>(4 + 3 * of.size());
+    double damping = 1e-6;
+    std::vector<PointPositions> at(of.size());
+    std::vector<Eigen::VectorXd> raw(of.size());
+    std::vector<double> values;
+    const auto evaluate = [&](const Eigen::Vector4d& with, const std::vector<StationFit>& where, bool derivatives) {
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            if (free_set_up || derivatives) {
+                at[k] = observed.positions(of[k], with, derivatives);
+            }
+            raw[k] = deviations_from(stations[of[k]], at[k].point, where[of[k]].position).each;
+        }
+    };
+    // The scale follows the deviations down: far from the solution all lengths pull, near it only those that agree.
+    // At exact data it ends at a nanometre.
+    const auto scale_of = [&] {
+        values.clear();
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            collect_sizes(stations[of[k]], raw[k], values);
+        }
+        if (values.empty()) {
+            return 1e-9;
+        }
+        if (plain) {
+            constexpr double k_far_above_all = 1e3;
+            return std::max(k_far_above_all * *std::ranges::max_element(values), 1e-6);
+        }
+        return std::max(2.5 * k_mad_to_deviation * median(values), 1e-9);
+    };
+    // Weak beside any distance: it only decides what they leave open (k_set_up_offset).
+    const auto prior = [&](const Eigen::Vector4d& with, double c) {
+        return std::pow(k_typical_deviation / c, 2) *
+               (with.head<2>().squaredNorm() / (k_set_up_offset * k_set_up_offset) +
+                with.tail<2>().squaredNorm() / (k_set_up_tilt * k_set_up_tilt));
+    };
+    Eigen::MatrixXd normal(size, size);
+    Eigen::VectorXd right(size);
+    std::vector<StationFit> trial = fits;
+    for (int step = 0; step < k_steps; ++step) {
+        evaluate(set_up, fits, true);
+        const double c = scale_of();
+        normal.setZero();
+        right.setZero();
+        double cost = prior(set_up, c);
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            const StationDistances& data = stations[of[k]];
+            const Weighted weighted = weigh(data, raw[k], c);
+            cost += weighted.cost;
+            Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor> rows(weighted.deviation.size(), 7);
+            for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+                const auto index = static_cast<std::size_t>(i);
+                const Eigen::Vector3d direction = (at[k].point[index] - fits[of[k]].position).normalized();
+                rows.row(i).head<4>() = direction.transpose() * at[k].by_set_up[index];
+                rows.row(i).tail<3>() = -direction.transpose();
+            }
+            // A dead path is eliminated by taking off the weighted means of its rows, as its constant was taken off
+            // the deviations.
+            for (const std::vector<Eigen::Index>& members : data.members) {
+                Eigen::Matrix<double, 1, 7> mean = Eigen::Matrix<double, 1, 7>::Zero();
+                double weights = 0.0;
+                for (const Eigen::Index i : members) {
+                    mean += weighted.weight[i] * rows.row(i);
+                    weights += weighted.weight[i];
+                }
+                mean /= weights;
+                for (const Eigen::Index i : members) {
+                    rows.row(i) -= mean;
+                }
+            }
+            const auto from = static_cast<Eigen::Index>(4 + 3 * k);
+            const Eigen::Matrix<double, 7, 7> part = rows.transpose() * weighted.weight.asDiagonal() * rows / (c * c);
+            const Eigen::Matrix<double, 7, 1> gradient =
+                rows.transpose() * weighted.weight.cwiseProduct(weighted.deviation) / (c * c);
+            normal.topLeftCorner<4, 4>() += part.topLeftCorner<4, 4>();
+            normal.block<3, 3>(from, from) = part.bottomRightCorner<3, 3>();
+            normal.block<3, 4>(from, 0) = part.bottomLeftCorner<3, 4>();
+            normal.block<4, 3>(0, from) = part.topRightCorner<4, 3>();
+            right.head<4>() -= gradient.head<4>();
+            right.segment<3>(from) = -gradient.tail<3>();
+        }
+        for (Eigen::Index z = 0; z < 4; ++z) {
+            const double width = z < 2 ? k_set_up_offset : k_set_up_tilt;
+            const double weight = std::pow(k_typical_deviation / (c * width), 2);
+            normal(z, z) += weight;
+            right[z] -= weight * set_up[z];
+            // Rows and columns of a held set-up become those of the identity: the system keeps its size.
+            if (!free_set_up) {
+                normal.row(z).setZero();
+                normal.col(z).setZero();
+                normal(z, z) = 1.0;
+                right[z] = 0.0;
+            }
+        }
+        const Eigen::VectorXd scale =
+            plain ? usual_steps(of.size())
+                  : normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse().eval();
+        const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+        const double unit = plain ? scaled.trace() : 1.0;
+        bool better = false;
+        double largest = 0.0;
+        while (damping < 1e8) {
+            Eigen::MatrixXd damped = scaled;
+            damped.diagonal().array() += damping * unit;
+            const Eigen::VectorXd change = scale.asDiagonal() * damped.ldlt().solve(scale.asDiagonal() * right);
+            const Eigen::Vector4d next = set_up + change.head<4>();
+            largest = change.cwiseAbs().maxCoeff();
+            for (std::size_t k = 0; k < of.size(); ++k) {
+                trial[of[k]].position = fits[of[k]].position + change.segment<3>(static_cast<Eigen::Index>(4 + 3 * k));
+            }
+            double after = std::numeric_limits<double>::infinity();
+            // A step of many metres or radians leads nowhere: it is damped before anything is evaluated.
+            if (change.allFinite() && largest < 5.0 &&
+                (!plain || change.cwiseQuotient(scale).norm() < k_most_usual_steps)) {
+                evaluate(next, trial, false);
+                after = prior(next, c);
+                for (std::size_t k = 0; k < of.size(); ++k) {
+                    after += weigh(stations[of[k]], raw[k], c).cost;
+                }
+            }
+            // At exact data the cost is rounding, and rounding must not look like a step in the wrong direction.
+            if (after <= cost * (1.0 + 1e-9)) {
+                better = true;
+                set_up = next;
+                for (const std::size_t j : of) {
+                    fits[j].position = trial[j].position;
+                }
+                damping = std::max(0.1 * damping, 1e-12);
+                break;
+            }
+            damping = std::max(10.0 * damping, 1e-9);
+        }
+        if (!better || largest < step_tolerance) {
+            break;
+        }
+    }
+    for (const std::size_t j : of) {
+        fits[j].misfit = misfit_of(stations[j], observed.deviations(j, set_up, fits[j].position).each);
+    }
+}
+
+StationFit refined(const ObservedStations& observed, std::size_t station, const Eigen::Vector3d& from,
+                   const Eigen::Vector4d& set_up, bool free_set_up, Pull pull) {
+    std::vector<StationFit> fits(observed.stations().size());
+    fits[station].position = from;
+    Eigen::Vector4d own = set_up;
+    const double tolerance = free_set_up ? k_coarse_step : k_fine_step;
+    if (pull == Pull::of_all) {
+        descend(observed, {station}, own, fits, free_set_up, tolerance, Pull::of_all);
+    }
+    descend(observed, {station}, own, fits, free_set_up, tolerance);
+    fits[station].set_up = own;
+    return fits[station];
+}
+
+}  // namespace gumcert::engine

@@ -1,0 +1,41 @@
+#include "engine/rotary_table/start/common_set_up.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/rotary_table/start/candidate_places.h"
+#include "engine/rotary_table/start/place_search.h"
+#include "tests/support/small_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+TEST(CommonSetUp, IsThatOfTheFixture) {
+    synthetic::CampaignPlan plan = synthetic::small_plan();
+    plan.offset = {2e-3, -1e-3};
+    plan.tilt = {3e-3, 5e-3};
+    const synthetic::Campaign campaign = simulate(plan);
+    const PlaceSearch search(campaign.measurement);
+    const CommonFit found = fit_together(search.observed(), search.fit_each());
+    // What is left are error motions of micrometres and some 10 µrad.
+    EXPECT_LT((found.set_up - Eigen::Vector4d(2e-3, -1e-3, 3e-3, 5e-3)).norm(), 1e-4) << found.set_up.transpose();
+    for (std::size_t j = 0; j < 6; ++j) {
+        EXPECT_LT((found.stations[j].position - campaign.truth.stations[j]).norm(), 1e-3) << j;
+    }
+}
+
+TEST(CommonSetUp, AStationOnTheWrongSideStandsOutAndIsLookedForAgain) {
+    const synthetic::Campaign campaign = simulate(synthetic::small_plan());
+    const PlaceSearch search(campaign.measurement);
+    std::vector<StationFit> alone = search.fit_each();
+    const std::vector<Eigen::Vector3d> points = search.observed().positions(3, Eigen::Vector4d::Zero(), false).point;
+    alone[3].position = mirror_image(points, alone[3].position);
+    const CommonFit found = fit_together(search.observed(), alone);
+    EXPECT_LT((found.stations[3].position - campaign.truth.stations[3]).norm(), 1e-3)
+        << found.stations[3].position.transpose();
+}
+
+}  // namespace
+}  // namespace gumcert::engine

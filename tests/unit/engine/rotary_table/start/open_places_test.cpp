@@ -1,0 +1,123 @@
+// Places that distances leave open: stated positions decide, and without them there is no result.
+#include "engine/rotary_table/start/open_places.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "engine/rotary_table/start/place_search.h"
+#include "engine/rotary_table/start/start_values.h"
+#include "gum/quantity/diagnostic.h"
+#include "tests/support/small_campaign.h"
+
+namespace gumcert::engine {
+namespace {
+
+using synthetic::Campaign;
+using synthetic::CampaignPlan;
+using synthetic::DeadPaths;
+
+CampaignPlan coplanar_across(double tilt_factor) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.tilt *= tilt_factor;
+    for (Eigen::Vector3d& reflector : plan.reflectors) {
+        reflector[0] = 0.1;
+    }
+    return plan;
+}
+
+TEST(OpenPlaces, MirrorImageInAPlaneAcrossTheAxisIsRefusedWithBothPositions) {
+    for (const double tilt_factor : {0.0, 1.0}) {
+        try {
+            (void)find_start_values(simulate(coplanar_across(tilt_factor)).measurement);
+            FAIL() << "one of two sides was taken";
+        } catch (const gum::NoResultError& error) {
+            const gum::Diagnostic& diagnostic = error.diagnostics().front();
+            EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
+            EXPECT_EQ(diagnostic.where, "station P1");
+            EXPECT_NE(diagnostic.what.find("(700, 450, 100) mm"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.what.find("(-500, 450, 100) mm"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.what.find("P2, P3, P4, P5, P6"), std::string::npos) << diagnostic.what;
+            EXPECT_NE(diagnostic.rule.find("mirror image"), std::string::npos) << diagnostic.rule;
+            EXPECT_NE(diagnostic.action.find("stations file"), std::string::npos) << diagnostic.action;
+            EXPECT_NE(diagnostic.action.find("raise alternate holders by 50 mm along x"), std::string::npos);
+        }
+    }
+}
+
+TEST(OpenPlaces, StatedPositionsTellTheSide) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        for (const double tilt_factor : {0.0, 1.0}) {
+            CampaignPlan plan = coplanar_across(tilt_factor);
+            plan.seed = seed;
+            Campaign campaign = simulate(plan);
+            for (std::size_t j = 0; j < 6; ++j) {
+                campaign.measurement.station_start[j] = campaign.truth.stations[j] + Eigen::Vector3d(0.08, -0.05, 0.05);
+            }
+            const StartValues start = find_start_values(campaign.measurement);
+            for (std::size_t j = 0; j < 6; ++j) {
+                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
+                    << "seed " << seed << ", " << j;
+            }
+        }
+    }
+}
+
+TEST(OpenPlaces, OneStatedPositionGivesTheRightSideOfAllOrARefusal) {
+    // A tilt of the fixture holds all stations on one side of the plane: never a mixture, never the wrong side.
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        CampaignPlan plan = coplanar_across(1.0);
+        plan.seed = seed;
+        Campaign campaign = simulate(plan);
+        campaign.measurement.station_start[3] = campaign.truth.stations[3] + Eigen::Vector3d(0.08, -0.05, 0.05);
+        try {
+            const StartValues start = find_start_values(campaign.measurement);
+            for (std::size_t j = 0; j < 6; ++j) {
+                EXPECT_LT((start.stations[j] - campaign.truth.stations[j]).norm(), 3e-3)
+                    << "seed " << seed << ", " << j;
+            }
+        } catch (const gum::NoResultError& error) {
+            EXPECT_EQ(error.diagnostics().front().code, "GC-RANK-0001");
+            EXPECT_EQ(error.diagnostics().front().what.find("P4"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(OpenPlaces, StationOnTheAxisWithADeadPathOfEachReflectorIsRefused) {
+    CampaignPlan plan;
+    plan.angles_deg = synthetic::full_turn(12);
+    plan.dead_paths = DeadPaths::per_station_and_reflector;
+    plan.offset.setZero();
+    plan.tilt.setZero();
+    plan.error_factor = 0.0;
+    plan.noise = 0.0;
+    plan.stations[2] = {1.0, 0.0, 0.0};
+    try {
+        (void)find_start_values(simulate(plan).measurement);
+        FAIL() << "a position that nothing determines";
+    } catch (const gum::NoResultError& error) {
+        const gum::Diagnostic& diagnostic = error.diagnostics().front();
+        EXPECT_EQ(diagnostic.code, "GC-RANK-0001");
+        EXPECT_EQ(diagnostic.where, "station P3");
+        EXPECT_NE(diagnostic.what.find("0.0 mm off the rotary axis"), std::string::npos) << diagnostic.what;
+        EXPECT_NE(diagnostic.what.find("dead path P3-R6"), std::string::npos) << diagnostic.what;
+        EXPECT_NE(diagnostic.action.find("move the station off the rotary axis"), std::string::npos);
+    }
+}
+
+TEST(OpenPlaces, AUsualLayoutHasNone) {
+    const Campaign campaign = simulate(synthetic::small_plan());
+    const PlaceSearch search(campaign.measurement);
+    CommonFit found = fit_together(search.observed(), search.fit_each());
+    const CommonFit before = found;
+    settle_open_places(search.observed(), found);
+    EXPECT_EQ(found.set_up, before.set_up);
+    for (std::size_t j = 0; j < 6; ++j) {
+        EXPECT_EQ(found.stations[j].position, before.stations[j].position) << j;
+    }
+}
+
+}  // namespace
+}  // namespace gumcert::engine
