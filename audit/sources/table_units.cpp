@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -118,6 +119,32 @@ std::string unit_of_contributions(const std::vector<AuditedRow>& rows, const std
         }
     }
     return result_unit;
+}
+
+/// The unit that most contributions state; "" where none does.
+std::string unit_of_most(const std::vector<RowUnits>& units) {
+    std::map<std::string, std::size_t> counts;
+    for (const RowUnits& of : units) {
+        if (!of.contribution.empty()) {
+            ++counts[of.contribution];
+        }
+    }
+    const auto most = std::max_element(counts.begin(), counts.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == counts.end() ? "" : most->first;
+}
+
+/// The unit of a contribution that states none beside others that do: theirs, unless |c| u is nearer to it in that of the others
+/// without one.
+const std::string& unit_beside_others(const AuditedRow& row, const RowUnits& own, const std::string& of_others,
+                                      const std::string& of_bare, const std::string& result_unit) {
+    const std::optional<double> in_others = factor_between(of_others, result_unit),
+                                in_bare = factor_between(of_bare, result_unit),
+                                of_row = factor_between(row.unit, result_unit);
+    const bool is_bare = own.sensitivity.empty() && of_row && in_others && in_bare && row.contribution;
+    const double c = row.sensitivity ? std::abs(row.sensitivity->value) : 1.0;
+    return is_bare && is_nearer(*of_row / *in_bare, *of_row / *in_others, *row.contribution, c * u_of(row)) ? of_bare
+                                                                                                            : of_others;
 }
 
 /// The factor of a coefficient whose unit is stated; nothing where the unit is of another kind, which is a matter of S01.
@@ -324,7 +351,8 @@ bool settle_units(std::vector<AuditedRow>& rows, const std::vector<RowUnits>& un
     bool is_usable = true;
     const auto has_uncertainty = [](const AuditedRow& row) { return row.u || row.stated || row.contribution; };
     Conversions conversions(not_read);
-    const std::string of_contributions = unit_of_contributions(rows, units, result_unit);
+    const std::string of_contributions = unit_of_contributions(rows, units, result_unit),
+                      of_others = unit_of_most(units);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         AuditedRow& row = rows[i];
         const RowUnits& own = units[i];
@@ -332,7 +360,10 @@ bool settle_units(std::vector<AuditedRow>& rows, const std::vector<RowUnits>& un
         conversions.bring(row.estimate, own.estimate, row.unit);
         conversions.bring(row.stated, own.stated, row.unit);
         conversions.bring(row.u, own.u, row.unit);
-        const std::string& of_contribution = own.contribution.empty() ? of_contributions : own.contribution;
+        const std::string& of_contribution =
+            !own.contribution.empty() ? own.contribution
+            : of_others.empty()       ? of_contributions
+                                      : unit_beside_others(row, own, of_others, of_contributions, result_unit);
         conversions.bring(row.contribution, of_contribution, result_unit);
         settle_coefficient(row, own.sensitivity, result_unit,
                            factor_between(of_contribution, result_unit).value_or(1.0), not_read);

@@ -52,6 +52,35 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(shared_unit("µm", "mm"), "µm");
 }
 
+TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {
+    // The law: one contribution that lost its unit changes nothing, in whatever units u and the result are.
+    const std::vector<std::pair<std::string, double>> rows = {{"Reference (certificate; U = 3.0 µV; k = 2)", 1.5},
+                                                              {"Drift of the reference", 1.27},
+                                                              {"Thermal EMF", 0.64},
+                                                              {"Repeatability", 0.8}};
+    for (const auto& [of_u, in_u] : std::map<std::string, double>{{"µV", 1.0}, {"mV", 1e-3}, {"nV", 1e3}}) {
+        for (const auto& [of_u_c, in_u_c] :
+             std::map<std::string, double>{{"µV", 1.0}, {"mV", 1e-3}, {"V", 1e-6}, {"", 1.0}}) {
+            for (std::size_t without = 0; without < rows.size(); ++without) {
+                std::string table = "Voltage 1 V\nQuantity,u,c,Contribution\n";
+                for (std::size_t i = 0; i < rows.size(); ++i) {
+                    const auto& [name, u] = rows[i];
+                    table += name + "," + text::significant(u * in_u, 3) + " " + of_u + ",1," +
+                             text::significant(u, 3) + (i == without ? "" : " µV") + "\n";
+                }
+                table += "u_c,,," + text::significant(2.22 * in_u_c, 3) + " " + of_u_c + "\nU (k = 2),,," +
+                         text::significant(4.44 * in_u_c, 3) + " " + of_u_c + "\n";
+                const AuditReport report = report_of(table);
+                SCOPED_TRACE(table);
+                ASSERT_EQ(report.results.size(), 1U);
+                for (const AuditFinding& finding : report.findings) {
+                    EXPECT_TRUE(finding.rule != "K01" && finding.rule != "S01") << finding.what.english();
+                }
+            }
+        }
+    }
+}
+
 TEST(TableUnits, TurnIntoEachOtherWhereTheyAreOfOneKind) {
     EXPECT_DOUBLE_EQ(factor_between("mm", "µm").value_or(0.0), 1000.0);
     EXPECT_DOUBLE_EQ(factor_between("\u03BCm", "um").value_or(0.0), 1.0);
