@@ -1067,6 +1067,16 @@ SumName sum_name(std::string_view name) {
     return has_sum ? SumName::whole : SumName::none;
 }
 
+bool is_called_part(std::string_view name) {
+    constexpr std::size_t k_longest = 20;  // bytes of the words that say so
+    const std::string lower = text::in_small_letters(cut(trimmed(name), k_longest));
+    constexpr std::string_view k_words[] = {"of which ",  "of which:", "thereof ",       "thereof:", "davon ",
+                                            "davon:",     "darin ",    "darunter ",      "hiervon ", "incl. ",
+                                            "including ", "de ello ",  "de los cuales ", "其中"};
+    return std::any_of(std::begin(k_words), std::end(k_words),
+                       [&lower](std::string_view word) { return lower.starts_with(word); });
+}
+
 bool are_u_and_U(std::string_view u_c, std::string_view U) {
     u_c = trimmed(u_c);
     U = trimmed(U);

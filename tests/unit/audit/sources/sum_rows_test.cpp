@@ -148,6 +148,94 @@ TEST(SumsBetweenRows, AreFoundWhereTheyWereAddedTwice) {
     EXPECT_EQ(critical_of(sum), "");
 }
 
+TEST(SumsBetweenRows, StandAboveTheirPartsAsWell) {
+    // The law: a total and what it is made of are one contribution, wherever the total stands.
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> size(0.1, 0.9);
+    const std::vector<std::array<std::string, 3>> names = {
+        {"Temperature (total)", "of which sensor", "of which gradient"},
+        {"Temperature, total", "Sensor", "Gradient"},
+        {"Summe Temperatur", "davon Fühler", "davon Gradient"},
+        {"Temperature", "Sensor", "Gradient"},
+        {"Subtotal temperature", "Sensor", "Gradient"}};
+    for (const auto& [total, first, second] : names) {
+        for (int layout = 0; layout < 2; ++layout) {
+            std::vector<double> all;
+            const auto next = [&all, &random, &size] {
+                all.push_back(std::round(1000.0 * size(random)) / 1000.0);
+                return text::fixed(all.back(), 3);
+            };
+            const auto row = [layout](const std::string& name, const std::string& u) {
+                return '"' + name + (layout == 0 ? "\",mg," + u + ",1," + u : "\",mg," + u + ",1,normal," + u) + "\n";
+            };
+            const auto alone = [layout](const std::string& name, double u) {
+                return '"' + name + (layout == 0 ? "\",mg,,," : "\",mg,,,,") + text::fixed(u, 3) + "\n";
+            };
+            const std::string parts = row(first, next()) + row(second, next());
+            const double of_parts = root_of_squares(all);
+            const std::string others = row("Balance", next()) + row("Timer", next());
+            const double u_c = root_of_squares(all);
+            for (const bool is_first : {true, false}) {
+                const std::string table = std::string(layout == 0 ? "Component,Unit,u,c,Contribution\n"
+                                                                  : "Component,Unit,a,Divisor,Distribution,u\n") +
+                                          (is_first ? "" : others) + alone(total, of_parts) + parts +
+                                          (is_first ? others : "") + alone("u_c", u_c) + alone("U (k = 2)", 2.0 * u_c);
+                SCOPED_TRACE(table);
+                const AuditReport report = audit_of_sums(table);
+                ASSERT_EQ(report.results.size(), 1U);
+                EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+                EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
+                EXPECT_TRUE(tells(report, "is taken for a sum of rows"));
+                EXPECT_EQ(first_of(report, "K01"), nullptr);
+                EXPECT_EQ(critical_of(report), "");
+            }
+        }
+    }
+}
+
+TEST(SumsBetweenRows, AboveTheirPartsAreFoundWhereTheyWereAddedTwice) {
+    const std::string rows =
+        "Component,Unit,u,c,Contribution\nTemperature,mg,,,0.36\nof which sensor,mg,0.3,1,0.3\n"
+        "of which gradient,mg,0.2,1,0.2\nBalance,mg,0.4,1,0.4\nTimer,mg,0.1,1,0.1\n";
+    const AuditReport twice = audit_of_sums(rows + "u_c,mg,,,0.66\nk,,,,2\nU,mg,,,1.31\n");
+    ASSERT_EQ(twice.results.size(), 1U);
+    EXPECT_NEAR(twice.results[0].audited.u_c, root_of_squares({0.3, 0.2, 0.4, 0.1}), 1e-9);
+    EXPECT_NE(first_of(twice, "K01"), nullptr);
+    // A row that has the size of those below it by chance, and is needed for what is stated, is one.
+    const AuditReport row = audit_of_sums(
+        "Component,Unit,u,c,Contribution\nFixture total,mg,,,5.0\nBalance,mg,3.0,1,3.0\nTimer,mg,4.0,1,4.0\n"
+        "Buoyancy,mg,1.0,1,1.0\nu_c,mg,,,7.14\nk,,,,2\nU,mg,,,14.3\n");
+    ASSERT_EQ(row.results.size(), 1U);
+    EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(critical_of(row), "");
+    // So is one that u_c leaves out: no other row is a sum of those beside it.
+    const AuditReport left_out = audit_of_sums(
+        "Component,Unit,a,Divisor,u,c,Contribution\nBalance,mg,0.6,2,0.30,1,0.30\nTimer,mg,0.7,√3,0.40,1,0.40\n"
+        "Drift,mg,0.87,√3,0.50,1,0.50\nSensor,mg,0.52,√3,0.30,1,0.30\nGradient,mg,0.8,2,0.40,1,0.40\n"
+        "u_c,mg,,,,,0.71\nk,,,,,,2\nU,mg,,,,,1.42\n");
+    ASSERT_EQ(left_out.results.size(), 1U);
+    EXPECT_EQ(left_out.subject.budgets[0].rows.size(), 5U);
+    EXPECT_NE(first_of(left_out, "K01"), nullptr);
+}
+
+TEST(SumsBetweenRows, PartsOfAQuantityAreInItsContribution) {
+    const std::string heads = "Component,Unit,a,Divisor,u,c,Contribution / nm\n",
+                      parts = "Sensor,K,0.06,2,0.0300,,\nGradient,K,0.09,√3,0.0520,,\n",
+                      total = "Temperature,K,,,0.0600,575 nm/K,34.5\n",
+                      others = "Standard,nm,30,2,15.0,1,15.0\nDrift of the standard,nm,20,√3,11.5,1,11.5\n",
+                      claims = "u_c,nm,,,,,39.3\nk,,,,,,2\nU,nm,,,,,79\n";
+    for (const std::string& table : {heads + total + parts + others + claims, heads + parts + total + others + claims,
+                                     heads + others + total + parts + claims}) {
+        const AuditReport report = audit_of_sums(table);
+        SCOPED_TRACE(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, root_of_squares({34.5, 15.0, 11.547}), 0.05);
+        EXPECT_TRUE(tells(report, "is taken for a part of \"Temperature\""));
+        EXPECT_EQ(critical_of(report), "");
+    }
+}
+
 TEST(SumsBetweenRows, OfATypeMayBeContributionsOfTheSizeOfARow) {
     const std::string plain = "Quantity,u / mK\n";
     for (const std::string& table :
