@@ -19,6 +19,7 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
 #include "audit/sources/correlation_words.h"
+#include "audit/sources/parts_of_value.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
 #include "audit/sources/sum_rows.h"
@@ -990,11 +991,12 @@ private:
                         text::shortest(*p)));
                 budget_.claims.coverage_probability.reset();
             }
-            state_coverage(budget_);
             if (checklist_of(budget_.method) == nullptr) {
                 budget_.method = method_in_title(budget_.method + " " + budget_.name);
             }
             settle_contributions(budget_);
+            take_parts_of_value(budget_, statements_, tables_.not_read);
+            state_coverage(budget_);
             note_unexplained(budget_);
             budget_.name += point_.empty() ? "" : ", " + point_;
             tables_.budgets.push_back(std::move(budget_));
@@ -1094,6 +1096,7 @@ private:
                 result.unit = of_head->second;
             }
         }
+        settle_parts_of_value(of_contributions);
         const bool has_no_units = std::all_of(units_.begin(), units_.end(), [](const RowUnits& units) {
             return units.stated.empty() && units.u.empty() && units.contribution.empty() && units.sensitivity.empty();
         });
@@ -1112,6 +1115,30 @@ private:
             note_row_facts(row);
             if (row.source.empty() && row.origin == Origin::certificate) {
                 row.source = certificate_in(row.comment);
+            }
+        }
+    }
+
+    /// Rows that are parts of the value, "w (%)", make up its relative u_c and U: those are what the rows are held against, whatever
+    /// stands beside them in the unit of the value.
+    void settle_parts_of_value(const std::string& of_contributions) {
+        const bool are_parts = std::all_of(budget_.rows.begin(), budget_.rows.end(),
+                                           [](const AuditedRow& row) { return is_unit_of_part(row.unit); });
+        const bool are_added = std::all_of(budget_.rows.begin(), budget_.rows.end(), [](const AuditedRow& row) {
+            return !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
+        });
+        const bool have_units_of_coefficients = std::any_of(units_.begin(), units_.end(), [](const RowUnits& units) {
+            return !says_nothing(units.sensitivity) && units.sensitivity != "1";
+        });
+        const bool is_sum_of_parts = is_unit_of_part(of_contributions) || (of_contributions.empty() && are_added);
+        if (budget_.rows.empty() || !are_parts || have_units_of_coefficients || !is_sum_of_parts) {
+            return;
+        }
+        statements_.unit_of_parts = of_contributions.empty() ? budget_.rows.front().unit : of_contributions;
+        for (const Statement statement : {Statement::u_c, Statement::U, Statement::reported_U}) {
+            const auto number = statements_.numbers.find(statement), part = statements_.parts.find(statement);
+            if (number != statements_.numbers.end() && part != statements_.parts.end()) {
+                std::swap(number->second, part->second);
             }
         }
     }
