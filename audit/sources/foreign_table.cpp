@@ -221,7 +221,7 @@ public:
         std::uint32_t last = 0;
         for (const auto& [number, row] : rows) {
             if (number > last + 2) {
-                in_rows_ = is_near_ = false;
+                in_rows_ = is_near_ = is_behind_results_ = false;
             }
             is_next_ = number == last + 1;
             last = number;
@@ -277,6 +277,7 @@ private:
             const std::size_t taken = take_results_below(sheet_, row, below, statements_, tables_.not_read);
             if (taken > 0) {
                 in_rows_ = is_near_ = false;
+                is_behind_results_ = true;
                 skip_until_ = number + static_cast<std::uint32_t>(taken);
                 return;
             }
@@ -306,6 +307,8 @@ private:
         }
         if (heads_ && is_near_ && !in_rows_) {
             note_line_behind(row);
+        } else if (heads_ && is_behind_results_) {
+            note_unread(row);
         }
         if (!in_rows_ || !heads_ || is_too_long_) {
             return;
@@ -1010,7 +1013,7 @@ private:
         unit_in_words_.clear();
         statements_ = {};
         heads_.reset();
-        in_rows_ = is_near_ = false;
+        in_rows_ = is_near_ = is_behind_results_ = false;
         is_too_long_ = is_unusable_ = is_open_ = is_told_ = lost_a_row_ = false;
         result_line_.reset();
         last_unread_.reset();
@@ -1186,12 +1189,13 @@ private:
     ForeignTables& tables_;
     std::optional<Heads> heads_;
     bool in_rows_ = false;
-    bool is_near_ = false;          ///< no two empty lines since the heads
-    std::uint32_t skip_until_ = 0;  ///< line up to which all was taken together
-    bool is_next_ = false;          ///< no empty line before this one
-    bool is_open_ = false;          ///< nobody can know what the result is, and it was said
-    bool lost_a_row_ = false;       ///< its uncertainty has digits, and was not read
-    bool is_told_ = false;          ///< why the table is not looked at
+    bool is_near_ = false;            ///< no two empty lines since the heads
+    bool is_behind_results_ = false;  ///< no two empty lines since results that stand beside each other
+    std::uint32_t skip_until_ = 0;    ///< line up to which all was taken together
+    bool is_next_ = false;            ///< no empty line before this one
+    bool is_open_ = false;            ///< nobody can know what the result is, and it was said
+    bool lost_a_row_ = false;         ///< its uncertainty has digits, and was not read
+    bool is_told_ = false;            ///< why the table is not looked at
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;

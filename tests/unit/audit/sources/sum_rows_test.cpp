@@ -383,6 +383,10 @@ TEST(ResultsBesideEachOther, AreWhatTheirHeadsSay) {
             EXPECT_EQ(first_of(report, "K01") != nullptr, U == "0.20");
         }
     }
+    // What stands behind them, and nobody understands, is named.
+    const AuditReport behind =
+        audit_of_sums(rows + "\nResult,Unit,u_c,k,U\nDeviation,mN·m,0.186,2,0.37\nSafety margin,mN·m,,,0.5\n");
+    EXPECT_TRUE(tells(behind, "\"Safety margin\" has a number, and is no row and no statement that is known"));
     // Of several points nobody knows which one the rows are of.
     const AuditReport points = audit_of_sums(rows + "\nPoint,u_c,k,U\n10,0.186,2,0.37\n20,0.190,2,0.38\n");
     ASSERT_EQ(points.results.size(), 1U);
