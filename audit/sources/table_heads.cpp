@@ -73,6 +73,59 @@ std::string unit_below(const SheetView& sheet, const SheetView::Row& row, const 
     return "";
 }
 
+/// Whether the cells below a head have words, and no numbers.
+bool has_words_below(const SheetView& sheet, const SheetView::Row& row, const Cell& head) {
+    constexpr std::size_t k_most = 5;  // lines
+    std::uint32_t last = 0;
+    for (const Cell* cell : row) {
+        last = std::max(last, cell->address.row);
+    }
+    std::size_t words = 0, numbers = 0, looked = 0;
+    for (auto at = sheet.rows().upper_bound(last); at != sheet.rows().end() && looked < k_most; ++at, ++looked) {
+        if (const Cell* cell = cell_in(at->second, head.address.column)) {
+            const bool is_number = sheet.number_with_unit(*cell).has_value();
+            numbers += is_number ? 1U : 0U;
+            words += !is_number && !sheet.words(*cell).empty() ? 1U : 0U;
+        }
+    }
+    return words > numbers;
+}
+
+/// "Uncertainty contribution | … | Contribution / nm": the first one heads the names of contributions, where words stand below it.
+void take_first_contribution_for_quantity(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
+    const auto contribution = heads.columns.find(Column::contribution);
+    if (heads.columns.contains(Column::quantity) || contribution == heads.columns.end()) {
+        return;
+    }
+    const auto head = std::find_if(row.begin(), row.end(), [&contribution](const Cell* cell) {
+        return cell->address.column == contribution->second;
+    });
+    // "u_c | 0.5 | mg" is a statement, and its symbol that of contributions.
+    const bool has_number = std::any_of(
+        row.begin(), row.end(), [&sheet](const Cell* cell) { return sheet.number_with_unit(*cell).has_value(); });
+    const bool is_first =
+        !has_number && heads.columns.size() > 1 && std::all_of(row.begin(), head, [&sheet](const Cell* cell) {
+            return is_unused_column(sheet.words(*cell)) || sheet.words(*cell).empty();
+        });
+    if (head == row.end() || !is_first || !has_words_below(sheet, row, **head)) {
+        return;
+    }
+    heads.columns.erase(contribution);
+    heads.units.erase(Column::contribution);
+    heads.columns.emplace(Column::quantity, (*head)->address.column);
+    heads.units[Column::quantity] = "";
+    const auto second = std::find_if(heads.second.begin(), heads.second.end(), [&sheet](const Cell* cell) {
+        return column_of(sheet.words(*cell)) == Column::contribution;
+    });
+    if (second != heads.second.end()) {
+        const std::uint32_t column = (*second)->address.column;
+        heads.columns.emplace(Column::contribution, column);
+        heads.units[Column::contribution] = unit_in_head(sheet.words(**second));
+        heads.all_units[column] = heads.units[Column::contribution];
+        heads.second.erase(second);
+    }
+}
+
 /// What is taken for a head where no other one is: relative uncertainties in place of u, and the first column of the table as
 /// its quantities, where u or contributions and what they come from are headed beside it.
 void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
@@ -100,6 +153,7 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
             take(Column::u, cell, "");
         }
     }
+    take_first_contribution_for_quantity(sheet, row, heads);
     const bool is_budget = (has(Column::u) || has(Column::contribution)) &&
                            (has(Column::divisor) || has(Column::distribution) || has(Column::sensitivity));
     if (has(Column::quantity) || !is_budget) {

@@ -230,7 +230,9 @@ std::string text_of_unit_in_head(const std::string& head) {
         return std::string(bare_unit(std::string_view(head).substr(open + 1, close - open - 1)));
     }
     if (const std::size_t slash = head.rfind(" / "); slash != std::string::npos) {
-        return head.substr(slash + 3);
+        const std::string behind = head.substr(slash + 3), unit = behind.substr(0, behind.find_first_of(" ,;:="));
+        const bool is_number = unit.find_first_not_of("0123456789.,") == std::string::npos;
+        return !known_unit(behind) && !is_number && known_unit(unit) ? unit : behind;  // "U / dB, k = 2"
     }
     if (const std::size_t in = head.rfind(" in "); in != std::string::npos && known_unit(head.substr(in + 4))) {
         return head.substr(in + 4);

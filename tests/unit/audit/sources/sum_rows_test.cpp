@@ -452,6 +452,27 @@ TEST(Heads, MayStandInTwoLines) {
     EXPECT_EQ(merged.subject.budgets[0].rows.size(), 4U);
     EXPECT_NEAR(merged.results[0].recomputed.u_c, root_of_squares({0.02, 0.0173, 0.0029, 0.006}), 1e-4);
     EXPECT_EQ(critical_of(merged), "");
+    // A head that is cut, or whose words stand below each other, is one head.
+    for (const char* heads : {"Größe,Grenzwert,Ver-,Teiler,Standard-,Sensitivitäts-,Unsicherheits-,Freiheits-\n"
+                              ",,teilung,,unsicherheit,koeffizient,beitrag,grade\n",
+                              "Component,Half-width,Probability,Divisor,Standard,Sensitivity,Uncertainty,Degrees of\n"
+                              ",,distribution,,uncertainty,coefficient,contribution,freedom\n",
+                              "Component,Half-width,Distribution,Divisor,Standard,Sensitivity,Contribution,Degrees of\n"
+                              ",(Ω),,,uncertainty (Ω),coefficient,(Ω),freedom\n"}) {
+        const AuditReport cut = audit_of_sums(
+            "Resistance\n" + std::string(heads) +
+            "Reference (certificate; U = 0.04 Ω; k = 2),0.04 Ω,normal,2,0.0200 Ω,1,0.0200 Ω,50\nDrift of the reference,"
+            "0.03 Ω,rectangular,√3,0.0173 Ω,1,0.0173 Ω,∞\nRepeatability,0.006 Ω,normal,1,0.0060 Ω,1,0.0060 Ω,9\n"
+            "u_c,,,,,,0.0271 Ω,\nU (k = 2),,,,,,0.054 Ω,\n");
+        SCOPED_TRACE(heads);
+        ASSERT_EQ(cut.results.size(), 1U);
+        ASSERT_EQ(cut.subject.budgets[0].rows.size(), 3U);
+        EXPECT_TRUE(cut.subject.budgets[0].unread_columns.empty());
+        const AuditedRow& row = cut.subject.budgets[0].rows[0];
+        EXPECT_TRUE(row.u && row.divisor && row.sensitivity && row.contribution && row.nu);
+        EXPECT_EQ(row.shape, Shape::normal);
+        EXPECT_EQ(critical_of(cut), "");
+    }
     // Symbols below heads are no numbers that could not be read.
     const AuditReport symbols = audit_of_sums(
         "quantity,estimate,standard uncertainty,distribution,sensitivity coefficient,uncertainty contribution\n"
@@ -562,6 +583,43 @@ TEST(Units, MayStandInACellOfTheTitle) {
         EXPECT_EQ(report.subject.budgets[0].unit, unit);
         EXPECT_EQ(critical_of(report).empty(), !unit.empty());
     }
+}
+
+TEST(Heads, MayStandAgainAboveFurtherRows) {
+    // The law: rows below heads that stand twice before any result are one budget where the result is that of all of them.
+    const std::string heads = "Component,Unit,u,c,Contribution\n",
+                      a = "Handling,mg,0.30,1,0.30\nReadings,mg,0.20,1,0.20\n",
+                      b = "Balance,mg,0.40,1,0.40\nDrift of the balance,mg,0.10,1,0.10\n";
+    for (const char* between : {"", "Type B\n", "Page 2\n", "\n", "\nType B components\n"}) {
+        const AuditReport one =
+            audit_of_sums("Type A\n" + heads + a + between + heads + b + "u_c,mg,,,0.548\nk,,,,2\nU,mg,,,1.10\n");
+        SCOPED_TRACE(between);
+        ASSERT_EQ(one.results.size(), 1U);
+        EXPECT_EQ(one.subject.budgets[0].rows.size(), 4U);
+        EXPECT_NEAR(one.results[0].recomputed.u_c, root_of_squares({0.3, 0.2, 0.4, 0.1}), 1e-9);
+        EXPECT_EQ(critical_of(one), "");
+        EXPECT_EQ(first_of(one, "K01"), nullptr);
+        // Where the result is that of the rows directly above it, the others are a budget of their own.
+        const AuditReport two =
+            audit_of_sums("Point 1\n" + heads + a + between + heads + b + "u_c,mg,,,0.412\nk,,,,2\nU,mg,,,0.82\n");
+        ASSERT_EQ(two.results.size(), 2U);
+        EXPECT_EQ(two.subject.budgets[0].rows.size(), 2U);
+        EXPECT_FALSE(two.subject.budgets[0].claims.U);
+        ASSERT_TRUE(two.subject.budgets[1].claims.U);
+        EXPECT_EQ(two.subject.budgets[1].claims.U->text, "0.82");
+        EXPECT_EQ(critical_of(two), "");
+    }
+}
+
+TEST(Heads, MayNameContributionsTwice) {
+    const AuditReport report = audit_of_sums(
+        "Micrometer\nUnsicherheitsbeitrag,Verteilung,Grenzwert / µm,Divisor,Unsicherheitsbeitrag u_i / µm,Anteil\n"
+        "Normal (KS 12; U = 0.8 µm; k = 2),Normal,0.8,2,0.400,64 %\nDrift des Normals,Rechteck,0.3,√3,0.173,12 %\n"
+        "Auflösung,Rechteck,0.5,√3,0.289,33 %\nu_c,,,,0.523,\nErweiterte Messunsicherheit U / µm (k = 2),,,,1.05,\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+    EXPECT_EQ(report.subject.budgets[0].unit, "µm");
+    EXPECT_EQ(critical_of(report), "");
 }
 
 TEST(Heads, OfBothTypesBesideEachOther) {
