@@ -24,8 +24,7 @@ std::vector<std::uint32_t> further_tables(const SheetView& sheet, const SheetVie
     std::vector<std::uint32_t> columns;
     auto begin = row.begin();
     for (auto at = row.begin(); at != row.end(); ++at) {
-        const CellValue held = sheet.value(**at);
-        const bool is_quantity = held.kind == CellKind::text && column_of(held.text) == Column::quantity;
+        const bool is_quantity = sheet.head(**at).column == Column::quantity;
         // A symbol beside a description are two columns of one table: what stands on each side has to be heads by itself.
         if (is_quantity && heads_of(sheet, {begin, at}) && heads_of(sheet, {at, row.end()})) {
             columns.push_back((*at)->address.column);
@@ -286,8 +285,7 @@ struct PointColumns {
 PointColumns points_beside(const SheetView& sheet, const SheetView::Row& row) {
     std::map<Column, std::vector<const Cell*>> heads;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        const std::optional<Column> column = held.kind == CellKind::text ? column_of(held.text) : std::nullopt;
+        const std::optional<Column> column = sheet.head(*cell).column;
         if (column && (*column == Column::u || *column == Column::contribution || *column == Column::stated)) {
             heads[*column].push_back(cell);
         }
@@ -344,16 +342,25 @@ bool has_numbers_with_units(Column column) {
 std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row) {
     Heads heads;
     std::vector<std::pair<std::optional<Column>, std::uint32_t>> owned;  // unit columns, and the column before each
+    const auto names = [&sheet, &row](Column column) {
+        return std::any_of(row.begin(), row.end(),
+                           [&](const Cell* cell) { return sheet.head(*cell).column == column; });
+    };
+    // Without one of these no line is one of heads, whatever else it has; most lines are none.
+    if (!names(Column::quantity) && !names(Column::divisor) && !names(Column::distribution) &&
+        !names(Column::sensitivity) && !names(Column::contribution)) {
+        return std::nullopt;
+    }
     std::optional<Column> before;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        if (held.kind != CellKind::text) {
+        const auto& [is_text, column] = sheet.head(*cell);
+        if (!is_text) {
             continue;
         }
-        const std::optional<Column> column = column_of(held.text);
+        const std::string held = sheet.words(*cell);
         if (!column) {
             before.reset();
-            if (!is_unused_column(held.text)) {
+            if (!is_unused_column(held)) {
                 heads.unknown.push_back(cell);
             }
             continue;
@@ -362,7 +369,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
             owned.emplace_back(before, cell->address.column);
         }
         if (heads.columns.emplace(*column, cell->address.column).second) {
-            heads.units[*column] = unit_in_head(held.text);
+            heads.units[*column] = unit_in_head(held);
             heads.all_units[cell->address.column] = heads.units[*column];
         } else if (*column == Column::quantity && !heads.description) {
             heads.description = cell->address.column;
@@ -401,12 +408,11 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
 bool heads_results(const SheetView& sheet, const SheetView::Row& row) {
     std::set<Column> columns;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        if (held.kind == CellKind::text && !held.text.empty()) {
-            if (const std::optional<Column> column = column_of(held.text)) {
+        if (sheet.head(*cell).is_text) {
+            if (const std::optional<Column> column = sheet.head(*cell).column) {
                 columns.insert(*column);
             }
-        } else if (held.kind == CellKind::number) {
+        } else if (sheet.value(*cell).kind == CellKind::number) {
             return false;
         }
     }
