@@ -325,7 +325,7 @@ private:
             if (!sum || !as_rounded(amount.number, 1.0).meets(*sum) || is_named_as_influence(table_.rows[i])) {
                 continue;
             }
-            if (table_.stated_of_sum() && !table_.gives_statements(*sum).value_or(false)) {
+            if (table_.stated_of_sum() && !table_.gives_statements(*sum, &amount).value_or(false)) {
                 continue;
             }
             const auto is_U = [&](std::size_t row) {
@@ -392,8 +392,9 @@ private:
         if (first == count || count < k_least) {
             return;
         }
-        const std::optional<Interval> all = table_.sum_of_first(table_.amount_of(count - 1), count);
-        if (all && table_.gives_statements(*all).value_or(false)) {
+        const StatedResult last = table_.amount_of(count - 1);
+        const std::optional<Interval> all = table_.sum_of_first(last, count);
+        if (all && table_.gives_statements(*all, &last).value_or(false)) {
             return;
         }
         if (first == 0 && settle_plain_last_lines()) {
@@ -552,7 +553,8 @@ private:
                 return is_called_normal ? row.stated || row.divisor || row.sensitivity : has_columns_of_a_row(row);
             });
         const bool is_sum = as_rounded(*amount, 1.0).meets(*above);
-        const std::optional<bool> with = table_.gives_statements(*all), without = table_.gives_statements(*above);
+        const std::optional<bool> with = table_.gives_statements(*all, &result),
+                                  without = table_.gives_statements(*above, &result);
         const bool is_stated = with.has_value();
         if (is_stated && *with) {
             return;
@@ -593,10 +595,10 @@ private:
         const StatedResult number{
             .number = *last.stated, .unit = table_.units.back().stated, .column = table_.column_of(Column::stated)};
         const std::optional<Interval> above = table_.sum_above(number, true), all = table_.sum_above(number);
-        if (all && table_.gives_statements(*all).value_or(false)) {
+        if (all && table_.gives_statements(*all, &number).value_or(false)) {
             return false;
         }
-        return (above && table_.gives_statements(*above).value_or(false)) || !is_named_as_influence(last);
+        return (above && table_.gives_statements(*above, &number).value_or(false)) || !is_named_as_influence(last);
     }
     void drop_last_row() {
         const AuditedRow& last = table_.rows.back();

@@ -66,7 +66,8 @@ std::string unit_below(const SheetView& sheet, const SheetView::Row& row, const 
         if (number) {
             const auto units = heads.columns.find(Column::unit);
             const Cell* of_row = units == heads.columns.end() ? nullptr : cell_in(at->second, units->second);
-            return number->unit.empty() && of_row != nullptr ? sheet.words(*of_row) : number->unit;
+            const std::string shown = sheet.as_shown(*number, *cell).unit;  // "%" of a format is one
+            return shown.empty() && of_row != nullptr ? sheet.words(*of_row) : shown;
         }
     }
     return "";

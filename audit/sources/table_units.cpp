@@ -224,6 +224,14 @@ std::optional<gum::Unit> known_unit(const std::string& text) {
 
 namespace {
 
+/// Units that this program does not know and that stand in brackets, as scales of hardness and turbidity: "HRC", "NTU". Other words in
+/// capitals are none.
+bool is_named_in_capitals(std::string_view inside) {
+    constexpr std::string_view k_units[] = {"HRA",  "HRB", "HRC", "HRD", "HV",  "HB", "HBW", "HK",  "HL", "HLD",
+                                            "IRHD", "NTU", "FNU", "FTU", "FAU", "GU", "pH",  "mpH", "BU", "EBC"};
+    return std::find(std::begin(k_units), std::end(k_units), inside) != std::end(k_units);
+}
+
 std::string text_of_unit_in_head(const std::string& head) {
     const std::size_t open = head.find('['), close = head.find(']');
     if (open != std::string::npos && close != std::string::npos && close > open + 1) {
@@ -247,7 +255,7 @@ std::string text_of_unit_in_head(const std::string& head) {
         // "(y)", "(k = 2)" and "(A)" say what the head is of.
         constexpr std::string_view k_units_of_one_letter = "mgKVNJW%";
         const bool one_letter = inside.size() == 1 && k_units_of_one_letter.find(inside) == std::string_view::npos;
-        return !one_letter && known_unit(inside) ? inside : "";
+        return !one_letter && (known_unit(inside) || is_named_in_capitals(inside)) ? inside : "";
     }
     return "";
 }

@@ -585,6 +585,25 @@ TEST(Units, MayStandInACellOfTheTitle) {
     }
 }
 
+TEST(Values, BelowTheRowsMayBeInAnotherUnitThanU) {
+    // The law: a value in kN is no row of a table in N, whatever it is called and wherever it stands.
+    const std::string rows =
+        "Force 10 kN\nSource,u (N),c,c·u (N)\nReference transducer (certificate; W = 0.06 %; k = 2),3.0,1,3.0\n"
+        "Drift of the reference,1.7,1,1.7\nRepeatability,1.1,1,1.1\nAlignment,0.9,1,0.9\n";
+    for (const char* value :
+         {"Force,10.003 kN\n", "Force,10003 N\n", "Force,,,10.003 kN\n", "Measured value,10.003 kN\n", ""}) {
+        const AuditReport report = audit_of_sums(rows + value +
+                                                 "Combined standard uncertainty,,,3.73 N\nExpanded uncertainty "
+                                                 "(k = 2),,,7.5 N\nRelative expanded uncertainty (k = 2),,,0.075 %\n");
+        SCOPED_TRACE(value);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+        EXPECT_EQ(report.subject.budgets[0].unit, "N");
+        EXPECT_EQ(critical_of(report), "");
+        EXPECT_EQ(first_of(report, "K01"), nullptr);
+    }
+}
+
 TEST(Heads, MayStandAgainAboveFurtherRows) {
     // The law: rows below heads that stand twice before any result are one budget where the result is that of all of them.
     const std::string heads = "Component,Unit,u,c,Contribution\n",

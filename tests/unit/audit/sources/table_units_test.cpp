@@ -41,6 +41,8 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_head("Value ± kPa"), "kPa");
     EXPECT_EQ(unit_in_head("u / nm"), "nm");
     EXPECT_EQ(unit_in_head("result (mm)"), "mm");
+    EXPECT_EQ(unit_in_head("u (HRC)"), "HRC");
+    EXPECT_EQ(unit_in_head("u (UUT)"), "");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
     EXPECT_EQ(unit_in_head("type (A)"), "");
     EXPECT_EQ(unit_in_head("U95 (k = 2)"), "");
@@ -180,15 +182,20 @@ TEST(TableUnits, ANumberThatASheetShowsInPercentIsInPercent) {
                                                      {"A5", "k"},
                                                      {"B5", "2"}});
     workbook.number_formats.push_back("0.000%");
-    for (workbook::Cell& cell : workbook.sheets[0].cells) {
-        cell.number_format = cell.value.kind == workbook::CellKind::number && cell.value.number < 1.0 ? 1 : 0;
+    for (const char* const head : {"u", "w_i"}) {  // the symbol of a relative u, and its unit is that of the format
+        workbook::Workbook shown = workbook;
+        for (workbook::Cell& cell : shown.sheets[0].cells) {
+            cell.number_format = cell.value.kind == workbook::CellKind::number && cell.value.number < 1.0 ? 1 : 0;
+            cell.value.text = cell.value.text == "u" ? head : cell.value.text;
+        }
+        const AuditSubject subject = subject_of(std::move(shown), "budget.xlsx");
+        ASSERT_EQ(subject.budgets.size(), 1U);
+        EXPECT_EQ(subject.budgets[0].unit, "%");
+        EXPECT_DOUBLE_EQ(subject.budgets[0].claims.U->value, 0.1);
+        EXPECT_DOUBLE_EQ(subject.budgets[0].rows[1].used_u, 0.04);
+        EXPECT_EQ(subject.budgets[0].U_over_k_u_c, 1.0);
+        EXPECT_TRUE(subject.budgets[0].unread_columns.empty());
     }
-    const AuditSubject subject = subject_of(std::move(workbook), "budget.xlsx");
-    ASSERT_EQ(subject.budgets.size(), 1U);
-    EXPECT_EQ(subject.budgets[0].unit, "%");
-    EXPECT_DOUBLE_EQ(subject.budgets[0].claims.U->value, 0.1);
-    EXPECT_DOUBLE_EQ(subject.budgets[0].rows[1].used_u, 0.04);
-    EXPECT_EQ(subject.budgets[0].U_over_k_u_c, 1.0);
 }
 
 // ---- the law: units, layout and language change nothing
