@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -215,11 +216,27 @@ std::optional<gum::Unit> known_unit(const std::string& text) {
     if (bare.empty()) {
         return std::nullopt;
     }
-    try {
-        return gum::Unit::parse(bare == "-" || bare == "–" ? "1" : bare);
-    } catch (const gum::DiagnosedError&) {
-        return std::nullopt;
+    // Tables have few different words, each of them many times, and a word that is no unit costs most.
+    constexpr std::size_t k_most_kept = 1'000, k_longest_kept = 40;
+    thread_local std::unordered_map<std::string, std::optional<gum::Unit>> known;
+    const auto parsed = [](std::string_view unit) -> std::optional<gum::Unit> {
+        try {
+            return gum::Unit::parse(unit == "-" || unit == "–" ? "1" : unit);
+        } catch (const gum::DiagnosedError&) {
+            return std::nullopt;
+        }
+    };
+    if (bare.size() > k_longest_kept) {
+        return parsed(bare);
     }
+    std::string key(bare);
+    if (const auto found = known.find(key); found != known.end()) {
+        return found->second;
+    }
+    if (known.size() == k_most_kept) {
+        known.clear();
+    }
+    return known.emplace(std::move(key), parsed(bare)).first->second;
 }
 
 namespace {

@@ -83,6 +83,18 @@ TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {
     }
 }
 
+TEST(TableUnits, AreTheSameHoweverOftenTheyAreAskedFor) {
+    for (int i = 0; i < 3'000; ++i) {
+        ASSERT_FALSE(known_unit("no unit " + std::to_string(i)));
+        ASSERT_FALSE(known_unit("normal"));
+        ASSERT_TRUE(known_unit("-"));
+        ASSERT_TRUE(known_unit("[mV]") && known_unit(" mV "));
+        ASSERT_DOUBLE_EQ(factor_between("mV", "µV").value_or(0.0), 1000.0);
+    }
+    EXPECT_TRUE(known_unit(std::string(60, ' ') + "mm"));
+    EXPECT_FALSE(known_unit(std::string(60, 'x')));
+}
+
 TEST(TableUnits, TurnIntoEachOtherWhereTheyAreOfOneKind) {
     EXPECT_DOUBLE_EQ(factor_between("mm", "µm").value_or(0.0), 1000.0);
     EXPECT_DOUBLE_EQ(factor_between("\u03BCm", "um").value_or(0.0), 1.0);
