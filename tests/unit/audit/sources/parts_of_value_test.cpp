@@ -42,7 +42,7 @@ const std::string k_rows_of_parts =
 
 TEST(PartsOfAValue, AreHeldAgainstTheRows) {
     // u_c = 2.18 mN·m, U = 4.37 mN·m; the value is 10.0023 N·m.
-    for (const std::string& line :
+    for (const std::string line :
          {"Relative expanded uncertainty,%,,,0.044\n", "U,%,,,0.044\n", "U,ppm,,,437\n", "U,ppm,,,440\n",
           "U,mN·m/(N·m),,,0.437\n", "U (k = 2),,,,0.044 %\n", "Relative expanded uncertainty,%,,,0.0437\n"}) {
         const AuditReport report =
@@ -78,9 +78,9 @@ TEST(PartsOfAValue, ThatAreTooSmallAreFoundWhereTheyAreCalledRelative) {
 
 TEST(PartsOfAValue, OfSomethingElseAccuseNobody) {
     // Of a full scale, of the nominal value beside a deviation, of no value at all.
-    for (const std::string& value :
+    for (const std::string value :
          {"Measured value,N·m,,,2.5006\n", "Deviation,mN·m,,,2.3\n", "Value,mN·m,,,0\n", ""}) {
-        for (const std::string& U : {"U,%,,,0.044\n", "Relative expanded uncertainty,%,,,0.044\n"}) {
+        for (const std::string U : {"U,%,,,0.044\n", "Relative expanded uncertainty,%,,,0.044\n"}) {
             const AuditReport report = audit_of_parts(k_rows_of_parts + value + "u_c,mN·m,,,2.18\nk,,,2\n" + U);
             SCOPED_TRACE(value + U + said_of_parts(report));
             ASSERT_EQ(report.results.size(), 1U);
