@@ -27,6 +27,7 @@
 #include "reports/printable_text.h"
 #include "reports/record/make/certificate/evaluation_findings.h"
 #include "signing/verify.h"
+#include "text/file_guess.h"
 #include "text/small_letters.h"
 #include "workbook/read_csv.h"
 #include "workbook/read_xlsx.h"
@@ -189,10 +190,28 @@ bool has_certificate_beside(const fs::path& file) {
            fs::exists(fs::path(file).replace_extension(".xml"), error);
 }
 
+/// Whether JSON is that of another part of the program: certificate data, a laboratory's register, an audit, the list of a set of outputs.
+/// What is damaged, or says that it is a job, is looked at, and refused with what is wrong.
+bool is_other_json(const std::string& bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first != std::string::npos && bytes[first] == '[') {
+        return true;  // waivers
+    }
+    const std::string schema = text::outermost_string(bytes, "schema").value_or("");
+    if (!schema.empty()) {
+        return !schema.starts_with("gumcert/job/") && !schema.starts_with("gumcert/record/");
+    }
+    const std::size_t last = bytes.find_last_not_of(" \t\r\n");
+    return last != std::string::npos && bytes[last] == '}' && !text::outermost_string(bytes, "kind");
+}
+
 /// Whether a file of a folder is one that an audit looks at. A PDF is one where a digital certificate is attached that
 /// does not lie beside it.
 bool is_audited(const fs::path& file) {
     const std::string ending = text::in_small_letters(file.extension().string());
+    if (ending == ".json") {
+        return !is_hidden(file) && !is_other_json(read_file(file));
+    }
     if (ending != ".pdf") {
         return std::find(k_endings.begin(), k_endings.end(), ending) != k_endings.end();
     }

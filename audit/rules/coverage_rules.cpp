@@ -380,27 +380,33 @@ std::optional<double> rest_of_rectangular(const AuditedBudget& budget) {
 }
 
 /// The smallest k that p can have by the rows: that of the distribution of their sum, where a row that states no distribution
-/// is taken as a rectangular one. Nothing where the rows are correlated, so that nobody knows it.
+/// is taken as a rectangular one, and the largest of them as an arcsine one. Nothing where the rows are correlated, so that nobody knows it.
 std::optional<double> least_k_of_rows(const AuditedBudget& budget, double p) {
     if (!budget.correlations.empty() || budget.correlation_variance != 0.0) {
         return std::nullopt;
     }
     AuditedBudget narrow = budget;
+    AuditedRow* largest = nullptr;
+    const auto size_of = [](const AuditedRow& row) { return std::abs(row.used_sensitivity) * row.used_u; };
     for (AuditedRow& row : narrow.rows) {
         const bool is_open = row.shape == Shape::not_stated && !row.type_a.value_or(false);
         if ((is_open && !std::isfinite(row.used_nu)) || row.shape == Shape::trapezoidal || row.shape == Shape::other) {
             row.shape = Shape::rectangular;
+            largest = largest == nullptr || size_of(row) > size_of(*largest) ? &row : largest;
         }
         row.used_nu = std::numeric_limits<double>::infinity();  // fewer degrees of freedom make k larger
     }
     narrow.k_over_rows = 1.0;
-    if (rest_of_rectangular(narrow)) {
-        return std::numbers::sqrt3 * p;  // 1.65 is taken where one rectangular row dominates (EA-4/02, S9)
+    const bool is_dominated = rest_of_rectangular(narrow).has_value();
+    if (largest != nullptr) {
+        largest->shape = Shape::arcsine;  // as a mismatch (EA-4/02, S7)
     }
     try {
-        return evaluate(narrow, {.kind = CoverageRule::Kind::convolution, .probability = p}).k;
+        const double k = evaluate(narrow, {.kind = CoverageRule::Kind::convolution, .probability = p}).k;
+        // 1.65 is taken where one rectangular row dominates (EA-4/02, S9)
+        return is_dominated ? std::min(k, std::numbers::sqrt3 * p) : k;
     } catch (const gum::DiagnosedError&) {
-        return std::nullopt;
+        return is_dominated ? std::optional(std::numbers::sqrt3 * p) : std::nullopt;
     }
 }
 

@@ -23,10 +23,6 @@ constexpr Clause k_customer_data{.text = "ISO/IEC 17025:2017, 7.8.2.1 p and 7.8.
 constexpr Clause k_clear_reports{.text = "ISO/IEC 17025:2017, 7.8.1.2", .verified = true};
 constexpr Clause k_amendments{.text = "ISO/IEC 17025:2017, 7.8.8", .verified = true};
 
-/// Cells of a workbook have all digits; how they are printed is not known.
-bool is_printed(const AuditSubject& subject, const std::optional<StatedNumber>& number) {
-    return subject.kind != AuditSubject::Kind::workbook && number && !number->text.empty();
-}
 bool is_ascii_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -49,6 +45,13 @@ int digits_in(const StatedNumber& number) {
         digits.pop_back();
     }
     return static_cast<int>(digits.size());
+}
+
+/// Cells of a workbook have all digits; how they are printed is not known. Nor is it of one whose formulas were replaced by their numbers.
+bool is_printed(const AuditSubject& subject, const std::optional<StatedNumber>& number) {
+    constexpr int k_most_printed = 9;  // significant digits of a number that somebody wrote
+    return subject.kind != AuditSubject::Kind::workbook && number && !number->text.empty() &&
+           digits_in(*number) <= k_most_printed;
 }
 
 /// Unit of the last digit of a printed number.

@@ -1062,8 +1062,29 @@ CellsOfTables cells_of_tables(const WorksheetView& view, const AuditSubject& sub
     return cells;
 }
 
+/// Cells of the results that a subject claims.
+std::set<CellPlace> cells_of_claims(const WorksheetView& view, const AuditSubject& subject) {
+    std::set<CellPlace> cells;
+    for (const AuditedBudget& budget : subject.budgets) {
+        for (const std::optional<StatedNumber>* claim :
+             {&budget.claims.value, &budget.claims.u_c, &budget.claims.k, &budget.claims.U}) {
+            if (const std::optional<CellPlace> cell = view.cell_at(place_of(*claim))) {
+                cells.insert(*cell);
+            }
+        }
+    }
+    return cells;
+}
+
 void computed_and_not_used(const AuditSubject& subject, FindingCollector& findings) {
     const std::optional<WorksheetView> view = worksheet_of(subject);
+    const std::set<CellPlace> claims = cells_of_claims(*view, subject);
+    // What a page of results shows of U is made of U, and nobody has to read it.
+    const auto shows_result = [&](const CellPlace& cell) {
+        constexpr std::size_t k_most = 50;
+        const std::vector<CellPlace> read = view->cells_read(cell, k_most);
+        return std::any_of(read.begin(), read.end(), [&claims](const CellPlace& one) { return claims.contains(one); });
+    };
     const std::vector<CellPlace> unread = view->unread_cells();
     const CellsOfTables tables = cells_of_tables(*view, subject);
     for (const SheetFormula& formula : view->formulas()) {
@@ -1083,6 +1104,11 @@ void computed_and_not_used(const AuditSubject& subject, FindingCollector& findin
                              {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung"})
                       : says(label, {"correction", "korrektion", "korrektur", "drift", "deviation", "abweichung",
                                      "uncertainty", "unsicherheit"})) {
+            const bool is_of_result = !is_beside && !says(label, {"correction", "korrektion", "korrektur", "drift",
+                                                                  "deviation", "abweichung"});
+            if (is_of_result && shows_result(formula.cell)) {
+                continue;
+            }
             AuditFinding finding =
                 finding_in(view->place(formula.cell), say("computed, and never used: \"{label}\"", label));
             finding.kind = finding.what.english();

@@ -38,6 +38,10 @@ public:
     [[nodiscard]] const SheetFormula* maker_of(const std::string& place) const;
     /// The one cell that a formula reads; nothing where it reads none or several.
     [[nodiscard]] std::optional<workbook::CellPlace> only_cell_read(const workbook::CellPlace& cell) const;
+    /// The cells that a formula reads, blank ones too, each once.
+    [[nodiscard]] std::vector<workbook::CellPlace> cells_read(const workbook::CellPlace& cell, std::size_t most) const {
+        return held_.graph.precedents(cell, most);
+    }
     /// How many cells a formula reads, blank ones too, each once.
     [[nodiscard]] std::size_t count_of_read(const workbook::CellPlace& cell, std::size_t most) const {
         return held_.graph.precedents(cell, most).size();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <unordered_map>
 
 #include "audit/sources/table_units.h"
 #include "audit/stated_number.h"
@@ -144,6 +145,10 @@ constexpr std::array k_column_words = {
     Word{U"senscoeff", sensitivity},
     Word{U"sens", sensitivity},
     Word{U"senscoef", sensitivity},
+    Word{U"senskoeff", sensitivity},
+    Word{U"senskoeffizient", sensitivity},
+    Word{U"sensitivitatskoeff", sensitivity},
+    Word{U"empfindlichkeitskoeff", sensitivity},
     Word{U"sensitivityfactor", sensitivity},
     Word{U"empfindlichkeitsfaktor", sensitivity},
     Word{U"c", sensitivity},
@@ -171,6 +176,7 @@ constexpr std::array k_column_words = {
     Word{U"uiy", contribution},
     Word{U"beitrag", contribution},
     Word{U"unsicherheitsbeitrag", contribution},
+    Word{U"unsichbeitrag", contribution},
     Word{U"unsicherheitsbeitraguiy", contribution},
     Word{U"nu", Column::nu},
     Word{U"nui", Column::nu},
@@ -423,12 +429,23 @@ constexpr std::array k_result_words = {
     Word{U"messergebnis", Statement::value},
 };
 
+template <typename Meaning>
+using Dictionary = std::unordered_map<std::u32string_view, Meaning>;
 template <typename Meaning, std::size_t N>
-std::optional<Meaning> meaning_of(const std::array<Word<Meaning>, N>& words, std::string_view text) {
+Dictionary<Meaning> dictionary_of(const std::array<Word<Meaning>, N>& words) {
+    Dictionary<Meaning> meanings;
+    for (const Word<Meaning>& word : words) {
+        meanings.emplace(word.letters, word.meaning);  // the first one of a word
+    }
+    return meanings;
+}
+
+template <const auto& words>
+auto meaning_of(std::string_view text) -> std::optional<decltype(words[0].meaning)> {
+    static const auto meanings = dictionary_of(words);
     const std::u32string letters = certificate::letters_of(text);
-    const auto word =
-        std::find_if(words.begin(), words.end(), [&letters](const Word<Meaning>& w) { return w.letters == letters; });
-    return word == words.end() ? std::nullopt : std::optional(word->meaning);
+    const auto word = meanings.find(letters);
+    return word == meanings.end() ? std::nullopt : std::optional(word->second);
 }
 
 /// What stands before a unit or explanation in brackets: "u(xi) [µm]" and "U95 (k=2)" begin with what they are.
@@ -532,7 +549,7 @@ bool may_be_quantity(Statement statement, std::string_view text) {
         case Statement::k:
             return text.size() <= 3;
         case Statement::value:
-            return !meaning_of(k_result_words, text);
+            return !meaning_of<k_result_words>(text);
         default:
             return true;
     }
@@ -573,7 +590,7 @@ std::string_view without_unit(std::string_view head) {
         const std::string rest(trimmed(head.substr(at + sign.size())));
         const bool is_unit = known_unit(rest).has_value();
         const bool may_be = sign == " / " && rest.find(' ') == std::string::npos &&
-                            (rest == "U" || rest == "a" || !meaning_of(k_column_words, rest));
+                            (rest == "U" || rest == "a" || !meaning_of<k_column_words>(rest));
         if (is_unit || may_be) {
             return trimmed(head.substr(0, at));
         }
@@ -588,7 +605,31 @@ std::optional<Column> meaning_of_head(std::string_view text) {
     if (text == "U" || text == "±" || text == "+/-") {
         return Column::stated;
     }
-    return meaning_of(k_column_words, text);
+    return meaning_of<k_column_words>(text);
+}
+
+}  // namespace
+
+namespace {
+
+/// "(c·u)²", "u_i²(y)", "c²u²": squares of u or of contributions, by their symbols.
+bool is_square(std::string_view head) {
+    std::string bare;
+    bool has_power = false;
+    for (std::size_t at = 0; at < head.size();) {
+        std::size_t power = 0;
+        for (const std::string_view sign : {"²", "^2"}) {
+            power = head.substr(at).starts_with(sign) ? sign.size() : power;
+        }
+        has_power = has_power || power > 0;
+        bare += power > 0 ? "" : std::string(head.substr(at, 1));
+        at += std::max<std::size_t>(power, 1);
+    }
+    if (!has_power) {
+        return false;
+    }
+    const std::optional<Column> column = meaning_of_head(trimmed(bare));
+    return column == Column::u || column == Column::contribution;
 }
 
 }  // namespace
@@ -602,7 +643,7 @@ bool is_unused_column(std::string_view head) {
     for (const std::string_view text : {head, trimmed(without_brackets(head)), without_unit(head)}) {
         const std::size_t end = text.find_last_not_of("% ");
         const bool is_share = end + 1 < text.size() && meaning_of_head(text.substr(0, end + 1)) == Column::contribution;
-        if (is_share || meaning_of(k_unused_columns, text)) {
+        if (is_share || is_square(text) || meaning_of<k_unused_columns>(text)) {
             return true;
         }
     }
@@ -687,15 +728,29 @@ std::optional<Column> column_of(std::string_view head) {
         const std::optional<Column> column = column_of(name);
         return column == Column::estimate ? std::optional(Column::stated) : column;
     }
+    // "ui(V)" of any V that is no input: u_i(y) of the result.
+    for (const std::string_view symbol : {"ui(", "u_i("}) {
+        const std::size_t close = head.find(')');
+        if (head.starts_with(symbol) && close != std::string_view::npos && close > symbol.size()) {
+            const std::string_view of = head.substr(symbol.size(), close - symbol.size());
+            const bool is_whole = close + 1 == head.size() || without_unit(head).size() == close + 1 ||
+                                  trimmed(without_brackets(head)).size() == close + 1;
+            if (is_whole && !of.starts_with('x') && !of.starts_with('X') && is_symbol(of)) {
+                return Column::contribution;
+            }
+        }
+    }
     const std::string_view bare = without_unit(head);
     const std::string_view texts[] = {head, trimmed(without_brackets(head)), bare, trimmed(without_brackets(bare))};
-    for (const std::string_view text : texts) {
-        if (const std::optional<Column> column = meaning_of_head(text)) {
+    for (const std::string_view& text : texts) {
+        // Most heads have neither unit nor brackets, and are four times the same.
+        const bool is_again = &text != &texts[0] && text.size() == (&text - 1)->size();
+        if (const std::optional<Column> column = is_again ? std::nullopt : meaning_of_head(text)) {
             return column;
         }
     }
     for (const std::string_view text : texts) {  // "Half-width a or U": both are what is divided
-        for (const std::string_view word : {" or ", " oder "}) {
+        for (const std::string_view word : {" or ", " oder ", " bzw. "}) {
             const std::size_t at = text.find(word);
             if (at == std::string_view::npos || at == 0 || text.find(word, at + 1) != std::string_view::npos) {
                 continue;
@@ -849,16 +904,16 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
             named = NamedStatement{.statement = Statement::u_c, .may_be_quantity = text == "u"};
         } else if (text.starts_with("u_c(") || text.starts_with("uc(")) {
             named = NamedStatement{.statement = Statement::u_c};
-        } else if (const std::optional<Statement> statement = meaning_of(k_statement_words, text)) {
+        } else if (const std::optional<Statement> statement = meaning_of<k_statement_words>(text)) {
             named = NamedStatement{.statement = *statement, .may_be_quantity = may_be_quantity(*statement, text)};
-        } else if (meaning_of(k_deviation_words, text)) {
+        } else if (meaning_of<k_deviation_words>(text)) {
             named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
         }
         if (const std::size_t at = text.rfind(' '); !named && at != std::string_view::npos && at > 0) {
             // "Error of indication E", "Result c"
             const std::string_view word = trimmed(text.substr(0, at));
             if (is_symbol(text.substr(at + 1)) &&
-                (meaning_of(k_deviation_words, word) || meaning_of(k_result_words, word))) {
+                (meaning_of<k_deviation_words>(word) || meaning_of<k_result_words>(word))) {
                 named = NamedStatement{.statement = Statement::value, .may_be_quantity = true, .may_be_constant = true};
             }
         }
@@ -901,6 +956,21 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
     constexpr std::size_t k_longest = 200;
     if (name.size() > k_longest) {
         return std::nullopt;
+    }
+    // "Expanded uncertainty / dB, k = 2": the unit stands behind the name.
+    for (const std::string_view sign : {" / ", " in "}) {
+        const std::size_t at = name.find(sign);
+        if (at == std::string_view::npos || at == 0) {
+            continue;
+        }
+        const std::string_view behind = name.substr(at + sign.size());
+        const std::size_t end = std::min(behind.find_first_of(" ,;:="), behind.size());
+        if (known_unit(std::string(behind.substr(0, end)))) {
+            const std::string without = std::string(name.substr(0, at)) + std::string(behind.substr(end));
+            if (std::optional<NamedStatement> named = named_statement(without)) {
+                return named;
+            }
+        }
     }
     if (const std::size_t sign = name.find_first_of("=:"); sign != std::string_view::npos) {
         const std::string_view behind = trimmed(name.substr(sign + 1));
@@ -1065,6 +1135,16 @@ SumName sum_name(std::string_view name) {
         return SumName::of_type;
     }
     return has_sum ? SumName::whole : SumName::none;
+}
+
+bool is_called_part(std::string_view name) {
+    constexpr std::size_t k_longest = 20;  // bytes of the words that say so
+    const std::string lower = text::in_small_letters(cut(trimmed(name), k_longest));
+    constexpr std::string_view k_words[] = {"of which ",  "of which:", "thereof ",       "thereof:", "davon ",
+                                            "davon:",     "darin ",    "darunter ",      "hiervon ", "incl. ",
+                                            "including ", "de ello ",  "de los cuales ", "其中"};
+    return std::any_of(std::begin(k_words), std::end(k_words),
+                       [&lower](std::string_view word) { return lower.starts_with(word); });
 }
 
 bool are_u_and_U(std::string_view u_c, std::string_view U) {

@@ -97,6 +97,8 @@ enum class SumName {
     of_squares,   ///< "Sum of squares", "u_c²"
 };
 [[nodiscard]] SumName sum_name(std::string_view name);
+/// Whether a name says that its row is a part of the one above it: "of which sensor", "davon Fühler".
+[[nodiscard]] bool is_called_part(std::string_view name);
 /// Whether two names are those of u_c and U: the same but for their first letter, as "u(f)" and "U(f) (k = 2)".
 [[nodiscard]] bool are_u_and_U(std::string_view u_c, std::string_view U);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -19,6 +20,7 @@
 #include "audit/row_meaning.h"
 #include "audit/sources/budget_words.h"
 #include "audit/sources/correlation_words.h"
+#include "audit/sources/parts_of_value.h"
 #include "audit/sources/result_lines.h"
 #include "audit/sources/sheet_view.h"
 #include "audit/sources/sum_rows.h"
@@ -220,11 +222,11 @@ public:
         std::uint32_t last = 0;
         for (const auto& [number, row] : rows) {
             if (number > last + 2) {
-                in_rows_ = is_near_ = false;
+                in_rows_ = is_near_ = is_behind_results_ = false;
             }
             is_next_ = number == last + 1;
             last = number;
-            if (tables_.budgets.size() >= k_most_tables) {
+            if (tables_.budgets.size() + apart_.size() >= k_most_tables) {
                 tables_.not_read.push_back(
                     say("{cell}: what follows is not looked at; an audit takes up to {most:number} tables",
                         sheet_.place({.row = number, .column = row.front()->address.column}),
@@ -242,12 +244,20 @@ private:
             return;
         }
         std::optional<Heads> heads = heads_of(sheet_, row);
-        if (!heads && (heads = heads_in_two_lines(number, row))) {
+        if (std::optional<Heads> joined = heads_in_two_lines(number, row);
+            joined && (!heads || joined->columns.size() > heads->columns.size())) {
+            heads = std::move(joined);
             skip_until_ = number + 1;
         }
         if (heads) {
-            Statements above = heads_ ? Statements{} : std::move(statements_);
-            finish();
+            Statements above;
+            if (may_go_on(*heads)) {
+                set_apart();
+                above = apart_.back().statements;
+            } else {
+                above = heads_ ? Statements{} : std::move(statements_);
+                finish();
+            }
             statements_ = std::move(above);
             heads_ = std::move(heads);
             take_value_for_stated(number);
@@ -276,6 +286,7 @@ private:
             const std::size_t taken = take_results_below(sheet_, row, below, statements_, tables_.not_read);
             if (taken > 0) {
                 in_rows_ = is_near_ = false;
+                is_behind_results_ = true;
                 skip_until_ = number + static_cast<std::uint32_t>(taken);
                 return;
             }
@@ -305,6 +316,8 @@ private:
         }
         if (heads_ && is_near_ && !in_rows_) {
             note_line_behind(row);
+        } else if (heads_ && is_behind_results_) {
+            note_unread(row);
         }
         if (!in_rows_ || !heads_ || is_too_long_) {
             return;
@@ -416,8 +429,8 @@ private:
                });
     }
     /// Heads of a line together with those of the next one, as of merged cells: in each column the one that is known, the lower
-    /// before the upper one.
-    [[nodiscard]] std::optional<Heads> heads_in_two_lines(std::uint32_t number, const SheetView::Row& row) const {
+    /// before the upper one, or both as one: "Standard-" above "unsicherheit", "Standard" above "uncertainty".
+    [[nodiscard]] std::optional<Heads> heads_in_two_lines(std::uint32_t number, const SheetView::Row& row) {
         const auto next = rows_->find(number + 1);
         if (next == rows_->end() || !is_words_alone(row) || !is_words_alone(next->second) ||
             heads_of(sheet_, next->second)) {
@@ -427,9 +440,19 @@ private:
         for (const SheetView::Row* line : {&row, &next->second}) {
             for (const Cell* cell : *line) {
                 const Cell*& kept = columns[cell->address.column];
-                const bool is_better = kept == nullptr || column_of(sheet_.words(*cell)) ||
-                                       (!column_of(sheet_.words(*kept)) && !sheet_.words(*cell).empty());
-                kept = is_better ? cell : kept;
+                const std::string lower = sheet_.words(*cell);
+                const std::optional<std::string> both =
+                    kept == nullptr ? std::nullopt : head_of_both(sheet_.words(*kept), lower);
+                const bool is_better =
+                    kept == nullptr || column_of(lower) || (!column_of(sheet_.words(*kept)) && !lower.empty());
+                if (both) {
+                    joined_.push_back(*cell);
+                    joined_.back().value = {.kind = CellKind::text, .text = *both};
+                    joined_.back().formula_kind = workbook::FormulaKind::none;
+                    kept = &joined_.back();
+                } else {
+                    kept = is_better ? cell : kept;
+                }
             }
         }
         SheetView::Row joined;
@@ -437,6 +460,26 @@ private:
             joined.push_back(cell);
         }
         return heads_of(sheet_, joined);
+    }
+    /// The head that two lines have together, where the upper one is a part of a word, or means nothing by itself, or where the lower one is
+    /// its unit.
+    [[nodiscard]] static std::optional<std::string> head_of_both(std::string upper, const std::string& lower) {
+        if (upper.empty() || lower.empty()) {
+            return std::nullopt;
+        }
+        bool is_cut = false;
+        for (const std::string_view hyphen : {"-", "\u2010", "\u00AD"}) {
+            if (upper.ends_with(hyphen)) {
+                upper.resize(upper.size() - hyphen.size());
+                is_cut = true;
+            }
+        }
+        const bool is_unit = (lower.front() == '(' || lower.front() == '[') && column_of(upper) && !column_of(lower);
+        if (!is_cut && !is_unit && column_of(upper)) {
+            return std::nullopt;
+        }
+        std::string both = upper + (is_cut ? "" : " ") + lower;
+        return column_of(both) ? std::optional(std::move(both)) : std::nullopt;
     }
     /// Whether a line below heads has their symbols: "x_i | u(x_i) | c_i" (EA-4/02).
     [[nodiscard]] bool repeats_heads(const SheetView::Row& row) const {
@@ -943,7 +986,120 @@ private:
         return false;
     }
 
+    /// Rows below heads that are headed again before any result: "Type A" and "Type B", the next page.
+    struct RowsApart {
+        AuditedBudget budget;
+        std::vector<RowUnits> units;
+        Heads heads;
+        Statements statements;
+        std::set<const Cell*> with_numbers;
+        std::string title, unit_in_words;
+    };
+    /// Whether heads are those of the table above them, which has rows, and has stated no uncertainty so far.
+    [[nodiscard]] bool may_go_on(const Heads& heads) const {
+        constexpr std::size_t k_most = 20;  // parts
+        const auto states = [this](Statement statement) { return statements_.numbers.contains(statement); };
+        const bool is_plain = !is_too_long_ && !is_unusable_ && !is_open_ && !is_told_ && !lost_a_row_ &&
+                              !result_line_ && correlation_lines_.empty() && covariance_line_ == nullptr &&
+                              heads.type_b.empty();
+        return heads_ && is_plain && !budget_.rows.empty() && apart_.size() < k_most &&
+               heads.columns == heads_->columns && heads.units == heads_->units && !states(Statement::u_c) &&
+               !states(Statement::U) && !states(Statement::reported_U) && !states(Statement::value);
+    }
+    void set_apart() {
+        apart_.push_back({.budget = std::move(budget_),
+                          .units = std::move(units_),
+                          .heads = *heads_,
+                          .statements = statements_,
+                          .with_numbers = std::move(with_numbers_),
+                          .title = title_,
+                          .unit_in_words = unit_in_words_});
+        budget_ = {};
+        units_.clear();
+        with_numbers_.clear();
+        last_constants_.clear();
+    }
+    /// Rows that were set apart belong to the table below them where what that one states follows with them only; else they are a table
+    /// of their own.
+    void join_or_finish_rows_apart() {
+        std::vector<RowsApart> apart;
+        apart.swap(apart_);
+        if (apart.empty()) {
+            return;
+        }
+        std::vector<AuditedRow> rows;
+        std::vector<RowUnits> units;
+        for (const RowsApart& part : apart) {
+            rows.insert(rows.end(), part.budget.rows.begin(), part.budget.rows.end());
+            units.insert(units.end(), part.units.begin(), part.units.end());
+        }
+        const std::size_t before = rows.size();
+        rows.insert(rows.end(), budget_.rows.begin(), budget_.rows.end());
+        units.insert(units.end(), units_.begin(), units_.end());
+        bool is_one = false;
+        if (heads_ && rows.size() > before && rows.size() <= k_most_rows) {
+            TableSums all{rows, units, *heads_, statements_};
+            const std::optional<StatedResult> of = all.stated_of_sum();
+            const std::optional<Interval> of_all = of ? all.sum_above(*of) : std::nullopt;
+            const std::optional<Interval> of_last = of ? sums().sum_above(*of) : std::nullopt;
+            is_one = of_all && all.gives_statements(*of_all).value_or(false) &&
+                     !(of_last && all.gives_statements(*of_last).value_or(false));
+        }
+        if (is_one) {
+            budget_.rows = std::move(rows);
+            units_ = std::move(units);
+            budget_.place = apart.front().budget.place;
+            title_ = apart.front().title;
+            unit_in_words_ = unit_in_words_.empty() ? apart.front().unit_in_words : unit_in_words_;
+            for (const RowsApart& part : apart) {
+                with_numbers_.insert(part.with_numbers.begin(), part.with_numbers.end());
+            }
+            return;
+        }
+        RowsApart last{.budget = std::move(budget_),
+                       .units = std::move(units_),
+                       .heads = heads_ ? *heads_ : Heads{},
+                       .statements = std::move(statements_),
+                       .with_numbers = std::move(with_numbers_),
+                       .title = title_,
+                       .unit_in_words = unit_in_words_};
+        const bool has_heads = heads_.has_value();
+        const auto take = [this](RowsApart& part) {
+            budget_ = std::move(part.budget);
+            units_ = std::move(part.units);
+            heads_ = std::move(part.heads);
+            statements_ = std::move(part.statements);
+            with_numbers_ = std::move(part.with_numbers);
+            title_ = std::move(part.title);
+            unit_in_words_ = std::move(part.unit_in_words);
+        };
+        const bool flags[] = {is_too_long_, is_unusable_, is_open_, is_told_, lost_a_row_};
+        const std::optional<NumbersUnderHeads> result_line = result_line_;
+        const std::vector<const SheetView::Row*> constants = last_constants_;
+        const std::vector<CorrelationLine> correlations = correlation_lines_;
+        const SheetView::Row* const covariance = covariance_line_;
+        for (RowsApart& part : apart) {
+            clear();
+            take(part);
+            finish_one();
+        }
+        clear();
+        take(last);
+        if (!has_heads) {
+            heads_.reset();
+        }
+        is_too_long_ = flags[0], is_unusable_ = flags[1], is_open_ = flags[2], is_told_ = flags[3],
+        lost_a_row_ = flags[4];
+        result_line_ = result_line;
+        last_constants_ = constants;
+        correlation_lines_ = correlations;
+        covariance_line_ = covariance;
+    }
     void finish() {
+        join_or_finish_rows_apart();
+        finish_one();
+    }
+    void finish_one() {
         if (is_too_long_) {  // a part of its rows would give another u_c
             tables_.not_read.push_back(
                 say("{table}: the table is not looked at; it has more than the {most:number} rows that an audit takes",
@@ -990,11 +1146,12 @@ private:
                         text::shortest(*p)));
                 budget_.claims.coverage_probability.reset();
             }
-            state_coverage(budget_);
             if (checklist_of(budget_.method) == nullptr) {
                 budget_.method = method_in_title(budget_.method + " " + budget_.name);
             }
             settle_contributions(budget_);
+            take_parts_of_value(budget_, statements_, tables_.not_read);
+            state_coverage(budget_);
             note_unexplained(budget_);
             budget_.name += point_.empty() ? "" : ", " + point_;
             tables_.budgets.push_back(std::move(budget_));
@@ -1008,7 +1165,7 @@ private:
         unit_in_words_.clear();
         statements_ = {};
         heads_.reset();
-        in_rows_ = is_near_ = false;
+        in_rows_ = is_near_ = is_behind_results_ = false;
         is_too_long_ = is_unusable_ = is_open_ = is_told_ = lost_a_row_ = false;
         result_line_.reset();
         last_unread_.reset();
@@ -1094,6 +1251,7 @@ private:
                 result.unit = of_head->second;
             }
         }
+        settle_parts_of_value(of_contributions);
         const bool has_no_units = std::all_of(units_.begin(), units_.end(), [](const RowUnits& units) {
             return units.stated.empty() && units.u.empty() && units.contribution.empty() && units.sensitivity.empty();
         });
@@ -1112,6 +1270,30 @@ private:
             note_row_facts(row);
             if (row.source.empty() && row.origin == Origin::certificate) {
                 row.source = certificate_in(row.comment);
+            }
+        }
+    }
+
+    /// Rows that are parts of the value, "w (%)", make up its relative u_c and U: those are what the rows are held against, whatever
+    /// stands beside them in the unit of the value.
+    void settle_parts_of_value(const std::string& of_contributions) {
+        const bool are_parts = std::all_of(budget_.rows.begin(), budget_.rows.end(),
+                                           [](const AuditedRow& row) { return is_unit_of_part(row.unit); });
+        const bool are_added = std::all_of(budget_.rows.begin(), budget_.rows.end(), [](const AuditedRow& row) {
+            return !row.sensitivity || std::abs(row.sensitivity->value) == 1.0;
+        });
+        const bool have_units_of_coefficients = std::any_of(units_.begin(), units_.end(), [](const RowUnits& units) {
+            return !says_nothing(units.sensitivity) && units.sensitivity != "1";
+        });
+        const bool is_sum_of_parts = is_unit_of_part(of_contributions) || (of_contributions.empty() && are_added);
+        if (budget_.rows.empty() || !are_parts || have_units_of_coefficients || !is_sum_of_parts) {
+            return;
+        }
+        statements_.unit_of_parts = of_contributions.empty() ? budget_.rows.front().unit : of_contributions;
+        for (const Statement statement : {Statement::u_c, Statement::U, Statement::reported_U}) {
+            const auto number = statements_.numbers.find(statement), part = statements_.parts.find(statement);
+            if (number != statements_.numbers.end() && part != statements_.parts.end()) {
+                std::swap(number->second, part->second);
             }
         }
     }
@@ -1159,16 +1341,19 @@ private:
     ForeignTables& tables_;
     std::optional<Heads> heads_;
     bool in_rows_ = false;
-    bool is_near_ = false;          ///< no two empty lines since the heads
-    std::uint32_t skip_until_ = 0;  ///< line up to which all was taken together
-    bool is_next_ = false;          ///< no empty line before this one
-    bool is_open_ = false;          ///< nobody can know what the result is, and it was said
-    bool lost_a_row_ = false;       ///< its uncertainty has digits, and was not read
-    bool is_told_ = false;          ///< why the table is not looked at
+    bool is_near_ = false;            ///< no two empty lines since the heads
+    bool is_behind_results_ = false;  ///< no two empty lines since results that stand beside each other
+    std::uint32_t skip_until_ = 0;    ///< line up to which all was taken together
+    bool is_next_ = false;            ///< no empty line before this one
+    bool is_open_ = false;            ///< nobody can know what the result is, and it was said
+    bool lost_a_row_ = false;         ///< its uncertainty has digits, and was not read
+    bool is_told_ = false;            ///< why the table is not looked at
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;
-    std::vector<RowUnits> units_;  ///< of its rows
+    std::vector<RowUnits> units_;   ///< of its rows
+    std::deque<Cell> joined_;       ///< heads that stand in two lines
+    std::vector<RowsApart> apart_;  ///< rows above it, below the same heads
     Statements statements_;
     std::optional<NumbersUnderHeads> result_line_;       ///< states the value, and more
     std::size_t looks_ = 0;                              ///< at sums of the rows, for lines that look like rows

@@ -8,6 +8,7 @@
 
 #include "audit/claims.h"
 #include "audit/row_meaning.h"
+#include "audit/sources/parts_of_value.h"
 #include "audit/sources/stated_rule.h"
 #include "audit/sources/table_units.h"
 #include "text/small_letters.h"
@@ -255,6 +256,15 @@ public:
         for (const std::string& unit : {own(Statement::u_c), of_contributions, of_rows}) {
             of_sum_ = of_sum_.empty() ? unit : of_sum_;
         }
+        if (!statements.unit_of_parts.empty()) {  // and U in volts below rows in percent is their U times the value
+            of_sum_.clear();
+            for (const Statement statement : {Statement::reported_U, Statement::U, Statement::u_c}) {
+                const std::string unit = own(statement);
+                unit_ = unit_.empty() && is_unit_of_part(unit) ? unit : unit_;
+            }
+            unit_ = of_sum_ = unit_.empty() ? statements.unit_of_parts : unit_;
+            return;
+        }
         for (const std::string& unit :
              {own(Statement::reported_U), own(Statement::U), own(Statement::u_c), of_contributions, of_value,
               own(Statement::capability), own(Statement::lower_limit), own(Statement::upper_limit),
@@ -288,6 +298,12 @@ public:
             return std::nullopt;
         }
         const std::optional<double> factor = factor_between(from, unit_);
+        const bool is_of_whole = !statements_.unit_of_parts.empty() && is_part_beside(unit_, from);
+        const bool may_be_held = may_be_part(statement) && statement != Statement::capability && has_parts_of_value();
+        if (!factor && ((is_of_whole && statement == Statement::value) ||
+                        (may_be_held && (is_of_whole || is_part_beside(from, unit_))))) {
+            return std::nullopt;  // take_parts_of_value() looks at it
+        }
         if (!factor) {
             not_read_.push_back(
                 say("{cell}: a number in {from} beside a result in {to}; it is not used, as one unit cannot "
@@ -307,6 +323,17 @@ public:
     }
 
 private:
+    [[nodiscard]] const std::string& value_unit() const {
+        static const std::string none;
+        const auto value = statements_.numbers.find(Statement::value);
+        return value == statements_.numbers.end() ? none : value->second.unit;
+    }
+    [[nodiscard]] bool has_parts_of_value() const {
+        const auto value = statements_.numbers.find(Statement::value);
+        const std::string& of = statements_.unit_of_parts.empty() ? unit_ : value_unit();
+        return value != statements_.numbers.end() && factor_between(value->second.unit, of) &&
+               has_parts(value->second.number, of);
+    }
     /// The unit of a statement; "" where it has none, or is a part of a result whose rows are added in a unit.
     [[nodiscard]] std::string own(Statement statement) const {
         const auto found = statements_.numbers.find(statement);
@@ -746,9 +773,14 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
         if (line->named.is_relative && !is_unit_of_part(unit_under(heads, *result))) {
             return std::nullopt;  // a part, in a unit that nobody states
         }
-        if (may_be_part(statement) && held != statements.numbers.end() &&
-            is_part_beside(held->second.unit, result->unit)) {
-            statements.numbers.erase(held);  // "U | 0.004 | %" before "U | 0.4 | mV"
+        result->is_relative = line->named.is_relative;
+        if (may_be_part(statement) && held != statements.numbers.end()) {
+            if (is_part_beside(held->second.unit, result->unit)) {  // "U | 0.004 | %" before "U | 0.4 | mV"
+                statements.parts.emplace(statement, std::move(held->second));
+                statements.numbers.erase(held);
+            } else if (is_part_beside(unit_under(heads, *result), unit_under(heads, held->second))) {
+                statements.parts.emplace(statement, *result);
+            }
         }
         replace_U_of_one(*line, statement, statements);
         tell_second(statement, *result, name, heads, statements, not_read);

@@ -20,13 +20,17 @@ struct StatedResult {
     StatedNumber number;
     std::string unit;          ///< "" where none stands beside it
     std::uint32_t column = 0;  ///< where the number stands
+    bool is_relative = false;  ///< its name calls it so: a part of the value
 };
 
 /// Statements on a result, from the lines above and below its table.
 struct Statements {
     std::map<Statement, StatedResult> numbers;
+    std::map<Statement, StatedResult>
+        parts;  ///< of the value, beside numbers in its unit: "U | 0.4 | mV" and "U | 0.004 | %"
     std::map<Statement, std::string> words;
-    std::string coverage;  ///< what stands beside U of it: "k = 2, 95 %"
+    std::string unit_of_parts;  ///< "%": that of all rows, which are parts of the value; "" where they are not
+    std::string coverage;       ///< what stands beside U of it: "k = 2, 95 %"
     std::string coverage_place;
 };
 

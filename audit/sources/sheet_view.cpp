@@ -218,6 +218,21 @@ NumberWithUnit SheetView::as_shown(NumberWithUnit read, const Cell& cell) const 
                : std::move(read);
 }
 
+const SheetView::HeadCell& SheetView::head(const Cell& cell) const {
+    static const HeadCell none;
+    if (cell.formula_kind == workbook::FormulaKind::none && cell.value.kind != CellKind::text) {
+        return none;
+    }
+    const auto [known, is_new] = heads_.try_emplace(&cell);
+    if (is_new) {
+        const CellValue held = value(cell);
+        if (held.kind == CellKind::text) {
+            known->second = {.is_text = true, .column = column_of(held.text)};
+        }
+    }
+    return known->second;
+}
+
 std::string SheetView::words(const Cell& cell) const {
     const CellValue held = value(cell);
     if (held.kind == CellKind::text) {

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "audit/sentence.h"
+#include "audit/sources/budget_words.h"
 #include "audit/stated_number.h"
 #include "workbook/evaluate.h"
 #include "workbook/workbook.h"
@@ -67,6 +69,13 @@ public:
     [[nodiscard]] NumberWithUnit as_shown(NumberWithUnit read, const workbook::Cell& cell) const;
     [[nodiscard]] DecimalSign decimal_sign() const { return sign_; }
     [[nodiscard]] std::string words(const workbook::Cell& cell) const;
+    /// Whether a cell has a text, and which column it heads, if it is a head.
+    struct HeadCell {
+        bool is_text = false;
+        std::optional<Column> column;
+    };
+    /// Each cell is looked at once, however often its row is.
+    [[nodiscard]] const HeadCell& head(const workbook::Cell& cell) const;
     /// A table of values alone was computed elsewhere and rounded.
     [[nodiscard]] bool has_formulas() const { return !evaluation_.cells.empty(); }
 
@@ -84,6 +93,7 @@ private:
     DecimalSign sign_;
     std::string name_;  ///< of the sheet, as formulas write it
     Rows rows_;
+    mutable std::unordered_map<const workbook::Cell*, HeadCell> heads_;  ///< that were asked for
 };
 
 /// The cell of a row in a column; nullptr where it holds nothing.

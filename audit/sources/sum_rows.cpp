@@ -37,6 +37,8 @@ public:
 
     bool settle() {
         settle_sums_between();
+        settle_parts_of_amounts();
+        settle_totals_of_parts();
         settle_last_lines();
         settle_last_row();
         return is_open_;
@@ -130,13 +132,141 @@ private:
             drop_sums(holds_by(certain, true) ? parts : certain);
         }
     }
+    /// Rows without coefficients and contributions beside one that has them, whose u is the root of the sum of their squares: that one has
+    /// them in it, and they are in the unit of its quantity, not of the result. They stand below it, or above it.
+    void settle_parts_of_amounts() {
+        constexpr std::size_t k_most_parts = 20;
+        const auto is_part = [this](std::size_t i) {
+            const AuditedRow& row = table_.rows[i];
+            return !row.contribution && !row.sensitivity && u_of(row).has_value();
+        };
+        for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+            if (!table_.rows[i].contribution || !table_.rows[i].u) {
+                continue;
+            }
+            for (const bool are_below : {true, false}) {
+                std::size_t first = are_below ? i + 1 : i, end = first;
+                while (are_below && end < table_.rows.size() && end - first < k_most_parts && is_part(end)) {
+                    ++end;
+                }
+                while (!are_below && first > 0 && end - first < k_most_parts && is_part(first - 1)) {
+                    --first;
+                }
+                if (end - first > 1 && is_u_of(i, first, end)) {
+                    std::vector<std::size_t> parts(end - first);
+                    std::iota(parts.begin(), parts.end(), first);
+                    if (!holds_by(parts, true)) {
+                        drop_parts(parts, table_.rows[i].quantity);
+                        i = are_below ? i : first;
+                        break;
+                    }
+                }
+            }
+        }
+    }
+    [[nodiscard]] static std::optional<Interval> u_of(const AuditedRow& row) {
+        if (row.u) {
+            return as_rounded(*row.u, 1.0);
+        }
+        const bool is_divided = row.stated && row.divisor && row.divisor->value > 0.0;
+        return is_divided ? std::optional(as_rounded(*row.stated, row.divisor->value)) : std::nullopt;
+    }
+    /// Whether u of a row is the root of the sum of squares of those of some others, in one unit.
+    [[nodiscard]] bool is_u_of(std::size_t row, std::size_t first, std::size_t end) const {
+        double low = 0.0, high = 0.0;
+        for (std::size_t i = first; i < end; ++i) {
+            const Interval u = *u_of(table_.rows[i]);
+            if (table_.units[i].u != table_.units[row].u) {
+                return false;
+            }
+            low += std::max(0.0, u.low) * std::max(0.0, u.low);
+            high += u.high * u.high;
+        }
+        return as_rounded(*table_.rows[row].u, 1.0).meets({std::sqrt(low), std::sqrt(high)});
+    }
+    void drop_parts(const std::vector<std::size_t>& parts, const std::string& of) {
+        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+            const AuditedRow& row = table_.rows[*part];
+            not_read_.push_back(say("{cell}: {text} is taken for a part of {other}, and is not added again", row.place,
+                                    text::in_quotes(row.quantity), text::in_quotes(of)));
+            drop_row(*part);
+        }
+    }
+
+    /// A number alone above the rows that make it up, "Temperature, total" and below it what it is made of: it is no contribution of its own.
+    /// Rows that are called parts say so, as do two such numbers with names of sums; else what is stated has to follow without it only.
+    void settle_totals_of_parts() {
+        constexpr std::size_t k_least_parts = 2, k_most_parts = 20, k_most_looks = 200;
+        std::vector<std::size_t> totals, named, certain;
+        std::size_t looks = 0;
+        for (std::size_t i = 0; i + k_least_parts < table_.rows.size() && looks < k_most_looks; ++i) {
+            const AuditedRow& row = table_.rows[i];
+            const SumName name = sum_name(row.quantity);
+            if (!may_be_total(row)) {
+                continue;
+            }
+            const StatedResult amount = table_.amount_of(i);
+            std::vector<std::size_t> parts;
+            bool are_called_so = true;
+            for (std::size_t part = i + 1; part < table_.rows.size() && parts.size() < k_most_parts; ++part) {
+                const AuditedRow& next = table_.rows[part];
+                are_called_so = are_called_so && is_called_part(next.quantity);
+                if (!are_called_so && name == SumName::none && !has_more_than(next, row)) {
+                    break;
+                }
+                parts.push_back(part);
+                if (parts.size() < k_least_parts) {
+                    continue;
+                }
+                ++looks;
+                const std::optional<Interval> sum = table_.sum_of(amount, parts);
+                if (!sum || !as_rounded(amount.number, 1.0).meets(*sum)) {
+                    continue;
+                }
+                totals.push_back(i);
+                if (name != SumName::none) {
+                    named.push_back(i);
+                }
+                if (are_called_so) {
+                    certain.push_back(i);
+                }
+                i = part;
+                break;
+            }
+        }
+        if (totals.empty()) {
+            return;
+        }
+        if (holds_by(totals, false)) {
+            drop_sums(totals, true);
+        } else if (named.size() > 1 && !holds_by(named, true)) {
+            drop_sums(named, true);
+        } else if (!certain.empty()) {
+            drop_sums(certain, true);
+        } else if (named.size() > 1 && !has_types_alone(named)) {
+            drop_sums(named, true);
+        }
+    }
+    /// A number of a row without what it was divided from.
+    [[nodiscard]] static bool may_be_total(const AuditedRow& row) {
+        const bool is_normal = row.shape == Shape::normal || row.shape_text.empty();
+        return (row.u || row.contribution) && !row.stated && !row.divisor && is_normal && !row.nu;
+    }
+    /// Whether a row says more of what it comes from than a total does.
+    [[nodiscard]] static bool has_more_than(const AuditedRow& part, const AuditedRow& total) {
+        const bool is_divided = part.stated || part.divisor || (!part.shape_text.empty() && total.shape_text.empty());
+        return is_divided || (part.sensitivity && !total.sensitivity) || (part.u && !total.u);
+    }
     /// Whether what is stated follows only with sums of other rows added once more (`with`), or only without them.
     [[nodiscard]] bool holds_by(const std::vector<std::size_t>& sums, bool with) const {
+        const std::optional<StatedResult> of = table_.stated_of_sum();
+        if (!of) {
+            return false;
+        }
         std::vector<std::size_t> all(table_.rows.size()), others;
         std::iota(all.begin(), all.end(), std::size_t{0});
         std::set_difference(all.begin(), all.end(), sums.begin(), sums.end(), std::back_inserter(others));
-        const StatedResult of = table_.stated_of_sum().value_or(table_.amount_of(sums.front()));
-        const std::optional<Interval> sum_of_all = table_.sum_of(of, all), of_others = table_.sum_of(of, others);
+        const std::optional<Interval> sum_of_all = table_.sum_of(*of, all), of_others = table_.sum_of(*of, others);
         const bool holds_with = sum_of_all && table_.gives_statements(*sum_of_all).value_or(false);
         const bool holds_without = of_others && table_.gives_statements(*of_others).value_or(false);
         return with ? holds_with && !holds_without : holds_without && !holds_with;
@@ -145,10 +275,14 @@ private:
         return std::all_of(sums.begin(), sums.end(),
                            [this](std::size_t row) { return sum_name(table_.rows[row].quantity) == SumName::of_type; });
     }
-    void drop_sums(const std::vector<std::size_t>& sums) {
+    /// \param of_rows_below  and not of rows above them
+    void drop_sums(const std::vector<std::size_t>& sums, bool of_rows_below = false) {
         for (auto sum = sums.rbegin(); sum != sums.rend(); ++sum) {
             const AuditedRow& row = table_.rows[*sum];
-            not_read_.push_back(taken_for_a_sum(row.place, row.quantity));
+            not_read_.push_back(of_rows_below
+                                    ? say("{cell}: {text} is taken for a sum of rows below it, and is not added again",
+                                          row.place, text::in_quotes(row.quantity))
+                                    : taken_for_a_sum(row.place, row.quantity));
             drop_row(*sum);
         }
     }
@@ -191,7 +325,7 @@ private:
             if (!sum || !as_rounded(amount.number, 1.0).meets(*sum) || is_named_as_influence(table_.rows[i])) {
                 continue;
             }
-            if (table_.stated_of_sum() && !table_.gives_statements(*sum).value_or(false)) {
+            if (table_.stated_of_sum() && !table_.gives_statements(*sum, &amount).value_or(false)) {
                 continue;
             }
             const auto is_U = [&](std::size_t row) {
@@ -258,8 +392,9 @@ private:
         if (first == count || count < k_least) {
             return;
         }
-        const std::optional<Interval> all = table_.sum_of_first(table_.amount_of(count - 1), count);
-        if (all && table_.gives_statements(*all).value_or(false)) {
+        const StatedResult last = table_.amount_of(count - 1);
+        const std::optional<Interval> all = table_.sum_of_first(last, count);
+        if (all && table_.gives_statements(*all, &last).value_or(false)) {
             return;
         }
         if (first == 0 && settle_plain_last_lines()) {
@@ -418,7 +553,8 @@ private:
                 return is_called_normal ? row.stated || row.divisor || row.sensitivity : has_columns_of_a_row(row);
             });
         const bool is_sum = as_rounded(*amount, 1.0).meets(*above);
-        const std::optional<bool> with = table_.gives_statements(*all), without = table_.gives_statements(*above);
+        const std::optional<bool> with = table_.gives_statements(*all, &result),
+                                  without = table_.gives_statements(*above, &result);
         const bool is_stated = with.has_value();
         if (is_stated && *with) {
             return;
@@ -459,10 +595,10 @@ private:
         const StatedResult number{
             .number = *last.stated, .unit = table_.units.back().stated, .column = table_.column_of(Column::stated)};
         const std::optional<Interval> above = table_.sum_above(number, true), all = table_.sum_above(number);
-        if (all && table_.gives_statements(*all).value_or(false)) {
+        if (all && table_.gives_statements(*all, &number).value_or(false)) {
             return false;
         }
-        return (above && table_.gives_statements(*above).value_or(false)) || !is_named_as_influence(last);
+        return (above && table_.gives_statements(*above, &number).value_or(false)) || !is_named_as_influence(last);
     }
     void drop_last_row() {
         const AuditedRow& last = table_.rows.back();

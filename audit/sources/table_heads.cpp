@@ -24,8 +24,7 @@ std::vector<std::uint32_t> further_tables(const SheetView& sheet, const SheetVie
     std::vector<std::uint32_t> columns;
     auto begin = row.begin();
     for (auto at = row.begin(); at != row.end(); ++at) {
-        const CellValue held = sheet.value(**at);
-        const bool is_quantity = held.kind == CellKind::text && column_of(held.text) == Column::quantity;
+        const bool is_quantity = sheet.head(**at).column == Column::quantity;
         // A symbol beside a description are two columns of one table: what stands on each side has to be heads by itself.
         if (is_quantity && heads_of(sheet, {begin, at}) && heads_of(sheet, {at, row.end()})) {
             columns.push_back((*at)->address.column);
@@ -67,10 +66,64 @@ std::string unit_below(const SheetView& sheet, const SheetView::Row& row, const 
         if (number) {
             const auto units = heads.columns.find(Column::unit);
             const Cell* of_row = units == heads.columns.end() ? nullptr : cell_in(at->second, units->second);
-            return number->unit.empty() && of_row != nullptr ? sheet.words(*of_row) : number->unit;
+            const std::string shown = sheet.as_shown(*number, *cell).unit;  // "%" of a format is one
+            return shown.empty() && of_row != nullptr ? sheet.words(*of_row) : shown;
         }
     }
     return "";
+}
+
+/// Whether the cells below a head have words, and no numbers.
+bool has_words_below(const SheetView& sheet, const SheetView::Row& row, const Cell& head) {
+    constexpr std::size_t k_most = 5;  // lines
+    std::uint32_t last = 0;
+    for (const Cell* cell : row) {
+        last = std::max(last, cell->address.row);
+    }
+    std::size_t words = 0, numbers = 0, looked = 0;
+    for (auto at = sheet.rows().upper_bound(last); at != sheet.rows().end() && looked < k_most; ++at, ++looked) {
+        if (const Cell* cell = cell_in(at->second, head.address.column)) {
+            const bool is_number = sheet.number_with_unit(*cell).has_value();
+            numbers += is_number ? 1U : 0U;
+            words += !is_number && !sheet.words(*cell).empty() ? 1U : 0U;
+        }
+    }
+    return words > numbers;
+}
+
+/// "Uncertainty contribution | … | Contribution / nm": the first one heads the names of contributions, where words stand below it.
+void take_first_contribution_for_quantity(const SheetView& sheet, const SheetView::Row& row, Heads& heads) {
+    const auto contribution = heads.columns.find(Column::contribution);
+    if (heads.columns.contains(Column::quantity) || contribution == heads.columns.end()) {
+        return;
+    }
+    const auto head = std::find_if(row.begin(), row.end(), [&contribution](const Cell* cell) {
+        return cell->address.column == contribution->second;
+    });
+    // "u_c | 0.5 | mg" is a statement, and its symbol that of contributions.
+    const bool has_number = std::any_of(
+        row.begin(), row.end(), [&sheet](const Cell* cell) { return sheet.number_with_unit(*cell).has_value(); });
+    const bool is_first =
+        !has_number && heads.columns.size() > 1 && std::all_of(row.begin(), head, [&sheet](const Cell* cell) {
+            return is_unused_column(sheet.words(*cell)) || sheet.words(*cell).empty();
+        });
+    if (head == row.end() || !is_first || !has_words_below(sheet, row, **head)) {
+        return;
+    }
+    heads.columns.erase(contribution);
+    heads.units.erase(Column::contribution);
+    heads.columns.emplace(Column::quantity, (*head)->address.column);
+    heads.units[Column::quantity] = "";
+    const auto second = std::find_if(heads.second.begin(), heads.second.end(), [&sheet](const Cell* cell) {
+        return column_of(sheet.words(*cell)) == Column::contribution;
+    });
+    if (second != heads.second.end()) {
+        const std::uint32_t column = (*second)->address.column;
+        heads.columns.emplace(Column::contribution, column);
+        heads.units[Column::contribution] = unit_in_head(sheet.words(**second));
+        heads.all_units[column] = heads.units[Column::contribution];
+        heads.second.erase(second);
+    }
 }
 
 /// What is taken for a head where no other one is: relative uncertainties in place of u, and the first column of the table as
@@ -100,6 +153,7 @@ void take_relative_and_first(const SheetView& sheet, const SheetView::Row& row, 
             take(Column::u, cell, "");
         }
     }
+    take_first_contribution_for_quantity(sheet, row, heads);
     const bool is_budget = (has(Column::u) || has(Column::contribution)) &&
                            (has(Column::divisor) || has(Column::distribution) || has(Column::sensitivity));
     if (has(Column::quantity) || !is_budget) {
@@ -232,8 +286,7 @@ struct PointColumns {
 PointColumns points_beside(const SheetView& sheet, const SheetView::Row& row) {
     std::map<Column, std::vector<const Cell*>> heads;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        const std::optional<Column> column = held.kind == CellKind::text ? column_of(held.text) : std::nullopt;
+        const std::optional<Column> column = sheet.head(*cell).column;
         if (column && (*column == Column::u || *column == Column::contribution || *column == Column::stated)) {
             heads[*column].push_back(cell);
         }
@@ -290,16 +343,25 @@ bool has_numbers_with_units(Column column) {
 std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row) {
     Heads heads;
     std::vector<std::pair<std::optional<Column>, std::uint32_t>> owned;  // unit columns, and the column before each
+    const auto names = [&sheet, &row](Column column) {
+        return std::any_of(row.begin(), row.end(),
+                           [&](const Cell* cell) { return sheet.head(*cell).column == column; });
+    };
+    // Without one of these no line is one of heads, whatever else it has; most lines are none.
+    if (!names(Column::quantity) && !names(Column::divisor) && !names(Column::distribution) &&
+        !names(Column::sensitivity) && !names(Column::contribution)) {
+        return std::nullopt;
+    }
     std::optional<Column> before;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        if (held.kind != CellKind::text) {
+        const auto& [is_text, column] = sheet.head(*cell);
+        if (!is_text) {
             continue;
         }
-        const std::optional<Column> column = column_of(held.text);
+        const std::string held = sheet.words(*cell);
         if (!column) {
             before.reset();
-            if (!is_unused_column(held.text)) {
+            if (!is_unused_column(held)) {
                 heads.unknown.push_back(cell);
             }
             continue;
@@ -308,7 +370,7 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
             owned.emplace_back(before, cell->address.column);
         }
         if (heads.columns.emplace(*column, cell->address.column).second) {
-            heads.units[*column] = unit_in_head(held.text);
+            heads.units[*column] = unit_in_head(held);
             heads.all_units[cell->address.column] = heads.units[*column];
         } else if (*column == Column::quantity && !heads.description) {
             heads.description = cell->address.column;
@@ -347,12 +409,11 @@ std::optional<Heads> heads_of(const SheetView& sheet, const SheetView::Row& row)
 bool heads_results(const SheetView& sheet, const SheetView::Row& row) {
     std::set<Column> columns;
     for (const Cell* cell : row) {
-        const CellValue held = sheet.value(*cell);
-        if (held.kind == CellKind::text && !held.text.empty()) {
-            if (const std::optional<Column> column = column_of(held.text)) {
+        if (sheet.head(*cell).is_text) {
+            if (const std::optional<Column> column = sheet.head(*cell).column) {
                 columns.insert(*column);
             }
-        } else if (held.kind == CellKind::number) {
+        } else if (sheet.value(*cell).kind == CellKind::number) {
             return false;
         }
     }

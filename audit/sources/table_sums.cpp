@@ -30,6 +30,11 @@ std::uint32_t TableSums::column_of(Column column) const {
     return found == heads.columns.end() ? 0 : found->second;
 }
 
+std::string TableSums::unit_of(const StatedResult& of) const {
+    const auto head = heads.all_units.find(of.column);
+    return of.unit.empty() && head != heads.all_units.end() ? head->second : of.unit;
+}
+
 std::optional<Interval> TableSums::sum_above(const StatedResult& of, bool without_last) const {
     return sum_of_first(of, rows.size() - (without_last ? 1U : 0U));
 }
@@ -41,10 +46,7 @@ std::optional<Interval> TableSums::sum_of_first(const StatedResult& of, std::siz
 }
 
 std::optional<Interval> TableSums::sum_of(const StatedResult& of, const std::vector<std::size_t>& which) const {
-    std::string unit = of.unit;
-    if (const auto head = heads.all_units.find(of.column); unit.empty() && head != heads.all_units.end()) {
-        unit = head->second;
-    }
+    const std::string unit = unit_of(of);
     std::vector<AuditedRow> added;
     std::vector<RowUnits> added_units;
     for (const std::size_t row : which) {
@@ -87,16 +89,21 @@ std::optional<StatedResult> TableSums::stated_of_sum() const {
     return std::nullopt;
 }
 
-std::optional<bool> TableSums::gives_statements(const Interval& sum) const {
-    if (const std::optional<StatedNumber> u_c = stated(Statement::u_c)) {
-        return as_rounded(*u_c, 1.0).meets(sum);
+std::optional<bool> TableSums::gives_statements(const Interval& sum, const StatedResult* of) const {
+    const auto is_given = [&](Statement statement, double k) {
+        const StatedResult& stated = statements.numbers.at(statement);
+        const double factor = of == nullptr ? 1.0 : factor_between(unit_of(*of), unit_of(stated)).value_or(1.0);
+        return as_rounded(stated.number, k).meets({factor * sum.low, factor * sum.high});
+    };
+    if (stated(Statement::u_c)) {
+        return is_given(Statement::u_c, 1.0);
     }
-    const std::optional<StatedNumber> U = stated(Statement::U), of_line = stated(Statement::k);
+    const std::optional<StatedNumber> of_line = stated(Statement::k);
     const std::optional<LeadingNumber> of_words =
         read_leading_number(coverage_in(statements.coverage).k, "", Percent::unit);
     const double k = of_line ? of_line->value : of_words ? of_words->number.value : 0.0;
-    if (U && k > 0.0) {
-        return as_rounded(*U, k).meets(sum);
+    if (stated(Statement::U) && k > 0.0) {
+        return is_given(Statement::U, k);
     }
     return std::nullopt;
 }

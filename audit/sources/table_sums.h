@@ -26,6 +26,8 @@ struct TableSums {
     const Heads& heads;
     Statements& statements;
 
+    /// The unit of a number, or that of its head; "" where neither states one.
+    [[nodiscard]] std::string unit_of(const StatedResult& of) const;
     /// The column of the sheet under a head; 0 where there is none.
     [[nodiscard]] std::uint32_t column_of(Column column) const;
 
@@ -44,7 +46,8 @@ struct TableSums {
     /// The number that rows are held against: u_c, else U.
     [[nodiscard]] std::optional<StatedResult> stated_of_sum() const;
     /// Whether rows that add up to this have the u_c or the U that is stated; nothing where neither is.
-    [[nodiscard]] std::optional<bool> gives_statements(const Interval& sum) const;
+    /// \param of  the number in whose unit the sum is; the stated one itself where none is given
+    [[nodiscard]] std::optional<bool> gives_statements(const Interval& sum, const StatedResult* of = nullptr) const;
 
     /// Whether a number is the u_c, or the U over k, that is stated elsewhere, within the digits of both.
     [[nodiscard]] bool is_stated_u_c(const StatedResult& of) const;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "gum/quantity/diagnostic.h"
@@ -120,6 +122,32 @@ std::string unit_of_contributions(const std::vector<AuditedRow>& rows, const std
     return result_unit;
 }
 
+/// The unit that most contributions state; "" where none does.
+std::string unit_of_most(const std::vector<RowUnits>& units) {
+    std::map<std::string, std::size_t> counts;
+    for (const RowUnits& of : units) {
+        if (!of.contribution.empty()) {
+            ++counts[of.contribution];
+        }
+    }
+    const auto most = std::max_element(counts.begin(), counts.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == counts.end() ? "" : most->first;
+}
+
+/// The unit of a contribution that states none beside others that do: theirs, unless |c| u is nearer to it in that of the others
+/// without one.
+const std::string& unit_beside_others(const AuditedRow& row, const RowUnits& own, const std::string& of_others,
+                                      const std::string& of_bare, const std::string& result_unit) {
+    const std::optional<double> in_others = factor_between(of_others, result_unit),
+                                in_bare = factor_between(of_bare, result_unit),
+                                of_row = factor_between(row.unit, result_unit);
+    const bool is_bare = own.sensitivity.empty() && of_row && in_others && in_bare && row.contribution;
+    const double c = row.sensitivity ? std::abs(row.sensitivity->value) : 1.0;
+    return is_bare && is_nearer(*of_row / *in_bare, *of_row / *in_others, *row.contribution, c * u_of(row)) ? of_bare
+                                                                                                            : of_others;
+}
+
 /// The factor of a coefficient whose unit is stated; nothing where the unit is of another kind, which is a matter of S01.
 std::optional<double> factor_of_stated(const gum::Unit& c, const gum::Unit& row, const gum::Unit& result) {
     if (c.dimension() == result.dimension() / row.dimension()) {
@@ -188,14 +216,38 @@ std::optional<gum::Unit> known_unit(const std::string& text) {
     if (bare.empty()) {
         return std::nullopt;
     }
-    try {
-        return gum::Unit::parse(bare == "-" || bare == "–" ? "1" : bare);
-    } catch (const gum::DiagnosedError&) {
-        return std::nullopt;
+    // Tables have few different words, each of them many times, and a word that is no unit costs most.
+    constexpr std::size_t k_most_kept = 1'000, k_longest_kept = 40;
+    thread_local std::unordered_map<std::string, std::optional<gum::Unit>> known;
+    const auto parsed = [](std::string_view unit) -> std::optional<gum::Unit> {
+        try {
+            return gum::Unit::parse(unit == "-" || unit == "–" ? "1" : unit);
+        } catch (const gum::DiagnosedError&) {
+            return std::nullopt;
+        }
+    };
+    if (bare.size() > k_longest_kept) {
+        return parsed(bare);
     }
+    std::string key(bare);
+    if (const auto found = known.find(key); found != known.end()) {
+        return found->second;
+    }
+    if (known.size() == k_most_kept) {
+        known.clear();
+    }
+    return known.emplace(std::move(key), parsed(bare)).first->second;
 }
 
 namespace {
+
+/// Units that this program does not know and that stand in brackets, as scales of hardness and turbidity: "HRC", "NTU". Other words in
+/// capitals are none.
+bool is_named_in_capitals(std::string_view inside) {
+    constexpr std::string_view k_units[] = {"HRA",  "HRB", "HRC", "HRD", "HV",  "HB", "HBW", "HK",  "HL", "HLD",
+                                            "IRHD", "NTU", "FNU", "FTU", "FAU", "GU", "pH",  "mpH", "BU", "EBC"};
+    return std::find(std::begin(k_units), std::end(k_units), inside) != std::end(k_units);
+}
 
 std::string text_of_unit_in_head(const std::string& head) {
     const std::size_t open = head.find('['), close = head.find(']');
@@ -203,7 +255,9 @@ std::string text_of_unit_in_head(const std::string& head) {
         return std::string(bare_unit(std::string_view(head).substr(open + 1, close - open - 1)));
     }
     if (const std::size_t slash = head.rfind(" / "); slash != std::string::npos) {
-        return head.substr(slash + 3);
+        const std::string behind = head.substr(slash + 3), unit = behind.substr(0, behind.find_first_of(" ,;:="));
+        const bool is_number = unit.find_first_not_of("0123456789.,") == std::string::npos;
+        return !known_unit(behind) && !is_number && known_unit(unit) ? unit : behind;  // "U / dB, k = 2"
     }
     if (const std::size_t in = head.rfind(" in "); in != std::string::npos && known_unit(head.substr(in + 4))) {
         return head.substr(in + 4);
@@ -218,7 +272,7 @@ std::string text_of_unit_in_head(const std::string& head) {
         // "(y)", "(k = 2)" and "(A)" say what the head is of.
         constexpr std::string_view k_units_of_one_letter = "mgKVNJW%";
         const bool one_letter = inside.size() == 1 && k_units_of_one_letter.find(inside) == std::string_view::npos;
-        return !one_letter && known_unit(inside) ? inside : "";
+        return !one_letter && (known_unit(inside) || is_named_in_capitals(inside)) ? inside : "";
     }
     return "";
 }
@@ -324,7 +378,8 @@ bool settle_units(std::vector<AuditedRow>& rows, const std::vector<RowUnits>& un
     bool is_usable = true;
     const auto has_uncertainty = [](const AuditedRow& row) { return row.u || row.stated || row.contribution; };
     Conversions conversions(not_read);
-    const std::string of_contributions = unit_of_contributions(rows, units, result_unit);
+    const std::string of_contributions = unit_of_contributions(rows, units, result_unit),
+                      of_others = unit_of_most(units);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         AuditedRow& row = rows[i];
         const RowUnits& own = units[i];
@@ -332,7 +387,10 @@ bool settle_units(std::vector<AuditedRow>& rows, const std::vector<RowUnits>& un
         conversions.bring(row.estimate, own.estimate, row.unit);
         conversions.bring(row.stated, own.stated, row.unit);
         conversions.bring(row.u, own.u, row.unit);
-        const std::string& of_contribution = own.contribution.empty() ? of_contributions : own.contribution;
+        const std::string& of_contribution =
+            !own.contribution.empty() ? own.contribution
+            : of_others.empty()       ? of_contributions
+                                      : unit_beside_others(row, own, of_others, of_contributions, result_unit);
         conversions.bring(row.contribution, of_contribution, result_unit);
         settle_coefficient(row, own.sensitivity, result_unit,
                            factor_between(of_contribution, result_unit).value_or(1.0), not_read);

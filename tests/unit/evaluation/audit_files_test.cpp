@@ -69,6 +69,29 @@ TEST(AuditFiles, HaveNamesThatLeadToThem) {
     EXPECT_THAT(two[1], HasSubstr("one/budget.csv"));
 }
 
+TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
+    // The law: what a laboratory keeps beside a job is named, and is no job that is wrong; a job that is damaged still is.
+    const fs::path all = fs::path(::testing::TempDir()) / "audit_files_of_others";
+    fs::create_directories(all);
+    for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
+             {"budget.csv", table_of_gauge(true)},
+             {"certificate.json", R"({"schema": "gumcert/certificate/1", "title": "x"})"},
+             {"waivers.json", R"([{"finding": "U10"}])"},
+             {"customer.json", R"({"id": "CUST-3", "name": "x"})"},
+             {"audit.json", R"({"schema": "gumcert/audit/1"})"},
+             {".gumcert-set.json", R"({"schema": "gumcert/set/1"})"}}) {
+        std::ofstream(all / name) << bytes;
+    }
+    const FilesToAudit sound = files_to_audit({all});
+    EXPECT_EQ(sound.files.size(), 1U);
+    EXPECT_EQ(sound.of_other_kinds.size(), 4U) << "what is hidden is not named";
+    std::ofstream(all / "job.json") << R"({"schema": "gumcert/job/1", "kind": )";
+    std::ofstream(all / "kind.json") << R"({"kind": "budget"})";
+    std::ofstream(all / "cut.json") << R"({"title": "x", )";
+    EXPECT_EQ(files_to_audit({all}).files.size(), 4U);
+    fs::remove_all(all);
+}
+
 TEST(AuditFiles, TellAWaiverThatNoneOfThemTakes) {
     const FilesToAudit files = files_to_audit({folder_of_tables()});
     const auto waiver_of = [](const std::string& rule) {

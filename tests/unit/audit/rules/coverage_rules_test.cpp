@@ -112,6 +112,22 @@ TEST(CoverageRules, K03DoesNotAccuseTheRoundingOfRows) {
     EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
 }
 
+TEST(CoverageRules, K03DoesNotAccuseAMismatchThatStatesNoDistribution) {
+    // EA-4/02, S7, in a table without distributions: the U-shaped mismatch makes k of 95.45 % smaller than rectangular ones do.
+    AuditedBudget budget = budget_of({row("mismatch", 0.020), row("standard", 0.009), row("drift", 0.004)});
+    budget.coverage.kind = CoverageRule::Kind::fixed;
+    budget.coverage.k = 1.77;
+    budget.coverage.probability = 0.9545;
+    budget.claims.k = printed("1.77");
+    budget.claims.coverage_probability = 0.9545;
+    budget.claims.U = exact_number(1.77 * std::sqrt(0.020 * 0.020 + 0.009 * 0.009 + 0.004 * 0.004), "");
+    EXPECT_TRUE(findings_of("K03", subject_of(budget)).empty());
+    for (AuditedRow& one : budget.rows) {
+        one.shape = Shape::normal;
+    }
+    EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
+}
+
 TEST(CoverageRules, K04ConvolvesARectangularRow) {
     AuditedBudget budget = budget_of({row("limit", 1.0), row("rest", 0.2)});
     budget.coverage.kind = CoverageRule::Kind::fixed;

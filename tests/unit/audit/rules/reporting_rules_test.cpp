@@ -33,6 +33,9 @@ TEST(ReportingRules, R01_counts_significant_digits) {
     EXPECT_EQ(found_by(reporting_rules(), "R01", printed_as("10.000", "0.031")), "");
     EXPECT_EQ(found_by(reporting_rules(), "R01", printed_as("12340", "1200")), "");
     EXPECT_NE(found_by(reporting_rules(), "R01", printed_as("12340", "1230")), "");
+    // Nobody prints all digits of a double: formulas were replaced by their numbers, and a format shows fewer.
+    EXPECT_EQ(found_by(reporting_rules(), "R01", printed_as("12.345678901234567", "0.31234567890123456")), "");
+    EXPECT_EQ(found_by(reporting_rules(), "R02", printed_as("12.345678901234567", "0.31234567890123456")), "");
     AuditSubject workbook = printed_as("10.000", "0.312");
     workbook.kind = AuditSubject::Kind::workbook;
     EXPECT_EQ(found_by(reporting_rules(), "R01", workbook), "");

@@ -36,6 +36,46 @@ TEST(ColumnOf, KnowsHeadsOfTheContractAndTheirSynonyms) {
     EXPECT_FALSE(column_of(""));
 }
 
+TEST(ColumnOf, TakesACutWordForTheWord) {
+    for (const char* head : {"Standard-unsicherheit", "Standard-\nunsicherheit", "Standard- unsicherheit u(xi)",
+                             "Std.-Unsicherheit [µV]", "Standard-Messunsicherheit"}) {
+        EXPECT_EQ(column_of(head), Column::u) << head;
+    }
+    for (const char* head : {"Sensitivitäts-koeffizient", "Sensitivitätskoeff.", "Sens.-Koeff.", "Sens.-coeff. c_i"}) {
+        EXPECT_EQ(column_of(head), Column::sensitivity) << head;
+    }
+    EXPECT_EQ(column_of("prob.-distribution"), Column::distribution);
+    EXPECT_EQ(column_of("Unsich.-Beitrag"), Column::contribution);
+    // Of any y: of an x it is u.
+    EXPECT_EQ(column_of("ui(V)"), Column::contribution);
+    EXPECT_EQ(column_of("ui(V) (µV)"), Column::contribution);
+    EXPECT_EQ(column_of("u_i(y) / nm"), Column::contribution);
+    EXPECT_NE(column_of("ui(xi)"), Column::contribution);
+}
+
+TEST(UnusedColumns, AreSquaresAndShares) {
+    for (const char* head :
+         {"(c·u)² (kPa²)", "u²", "(c_i u_i)^2", "u_i(y)²", "c²u²", "Anteil [%]", "Varianz [mbar²]"}) {
+        EXPECT_TRUE(is_unused_column(head)) << head;
+    }
+    for (const char* head : {"Force²", "Area / mm²", "u / mm", "what"}) {
+        EXPECT_FALSE(is_unused_column(head)) << head;
+    }
+}
+
+TEST(Statements, MayHaveTheirUnitBehindTheName) {
+    for (const char* name : {"Expanded uncertainty / dB", "Expanded uncertainty / dB, k = 2", "U / mV", "U95 in mV",
+                             "Erweiterte Messunsicherheit in µm (k = 2)"}) {
+        EXPECT_EQ(statement_of(name), Statement::U) << name;
+    }
+    EXPECT_EQ(statement_of("Combined std. uncertainty / dB"), Statement::u_c);
+    EXPECT_EQ(named_statement("Expanded uncertainty / dB, k = 2")->coverage, ", k = 2");
+    EXPECT_FALSE(statement_of("Temperature in °C"));
+    EXPECT_TRUE(is_called_part("of which sensor"));
+    EXPECT_TRUE(is_called_part("davon Fühler"));
+    EXPECT_FALSE(is_called_part("Sensor"));
+}
+
 TEST(ColumnOf, TellsASmallUFromACapitalOne) {
     EXPECT_EQ(column_of("u"), Column::u);
     EXPECT_EQ(column_of("u(xi) [µm]"), Column::u);

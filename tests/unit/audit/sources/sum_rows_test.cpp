@@ -148,6 +148,94 @@ TEST(SumsBetweenRows, AreFoundWhereTheyWereAddedTwice) {
     EXPECT_EQ(critical_of(sum), "");
 }
 
+TEST(SumsBetweenRows, StandAboveTheirPartsAsWell) {
+    // The law: a total and what it is made of are one contribution, wherever the total stands.
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> size(0.1, 0.9);
+    const std::vector<std::array<std::string, 3>> names = {
+        {"Temperature (total)", "of which sensor", "of which gradient"},
+        {"Temperature, total", "Sensor", "Gradient"},
+        {"Summe Temperatur", "davon Fühler", "davon Gradient"},
+        {"Temperature", "Sensor", "Gradient"},
+        {"Subtotal temperature", "Sensor", "Gradient"}};
+    for (const auto& [total, first, second] : names) {
+        for (int layout = 0; layout < 2; ++layout) {
+            std::vector<double> all;
+            const auto next = [&all, &random, &size] {
+                all.push_back(std::round(1000.0 * size(random)) / 1000.0);
+                return text::fixed(all.back(), 3);
+            };
+            const auto row = [layout](const std::string& name, const std::string& u) {
+                return '"' + name + (layout == 0 ? "\",mg," + u + ",1," + u : "\",mg," + u + ",1,normal," + u) + "\n";
+            };
+            const auto alone = [layout](const std::string& name, double u) {
+                return '"' + name + (layout == 0 ? "\",mg,,," : "\",mg,,,,") + text::fixed(u, 3) + "\n";
+            };
+            const std::string parts = row(first, next()) + row(second, next());
+            const double of_parts = root_of_squares(all);
+            const std::string others = row("Balance", next()) + row("Timer", next());
+            const double u_c = root_of_squares(all);
+            for (const bool is_first : {true, false}) {
+                const std::string table = std::string(layout == 0 ? "Component,Unit,u,c,Contribution\n"
+                                                                  : "Component,Unit,a,Divisor,Distribution,u\n") +
+                                          (is_first ? "" : others) + alone(total, of_parts) + parts +
+                                          (is_first ? others : "") + alone("u_c", u_c) + alone("U (k = 2)", 2.0 * u_c);
+                SCOPED_TRACE(table);
+                const AuditReport report = audit_of_sums(table);
+                ASSERT_EQ(report.results.size(), 1U);
+                EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+                EXPECT_NEAR(report.results[0].recomputed.u_c, u_c, 1e-9);
+                EXPECT_TRUE(tells(report, "is taken for a sum of rows"));
+                EXPECT_EQ(first_of(report, "K01"), nullptr);
+                EXPECT_EQ(critical_of(report), "");
+            }
+        }
+    }
+}
+
+TEST(SumsBetweenRows, AboveTheirPartsAreFoundWhereTheyWereAddedTwice) {
+    const std::string rows =
+        "Component,Unit,u,c,Contribution\nTemperature,mg,,,0.36\nof which sensor,mg,0.3,1,0.3\n"
+        "of which gradient,mg,0.2,1,0.2\nBalance,mg,0.4,1,0.4\nTimer,mg,0.1,1,0.1\n";
+    const AuditReport twice = audit_of_sums(rows + "u_c,mg,,,0.66\nk,,,,2\nU,mg,,,1.31\n");
+    ASSERT_EQ(twice.results.size(), 1U);
+    EXPECT_NEAR(twice.results[0].audited.u_c, root_of_squares({0.3, 0.2, 0.4, 0.1}), 1e-9);
+    EXPECT_NE(first_of(twice, "K01"), nullptr);
+    // A row that has the size of those below it by chance, and is needed for what is stated, is one.
+    const AuditReport row = audit_of_sums(
+        "Component,Unit,u,c,Contribution\nFixture total,mg,,,5.0\nBalance,mg,3.0,1,3.0\nTimer,mg,4.0,1,4.0\n"
+        "Buoyancy,mg,1.0,1,1.0\nu_c,mg,,,7.14\nk,,,,2\nU,mg,,,14.3\n");
+    ASSERT_EQ(row.results.size(), 1U);
+    EXPECT_EQ(row.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(critical_of(row), "");
+    // So is one that u_c leaves out: no other row is a sum of those beside it.
+    const AuditReport left_out = audit_of_sums(
+        "Component,Unit,a,Divisor,u,c,Contribution\nBalance,mg,0.6,2,0.30,1,0.30\nTimer,mg,0.7,√3,0.40,1,0.40\n"
+        "Drift,mg,0.87,√3,0.50,1,0.50\nSensor,mg,0.52,√3,0.30,1,0.30\nGradient,mg,0.8,2,0.40,1,0.40\n"
+        "u_c,mg,,,,,0.71\nk,,,,,,2\nU,mg,,,,,1.42\n");
+    ASSERT_EQ(left_out.results.size(), 1U);
+    EXPECT_EQ(left_out.subject.budgets[0].rows.size(), 5U);
+    EXPECT_NE(first_of(left_out, "K01"), nullptr);
+}
+
+TEST(SumsBetweenRows, PartsOfAQuantityAreInItsContribution) {
+    const std::string heads = "Component,Unit,a,Divisor,u,c,Contribution / nm\n",
+                      parts = "Sensor,K,0.06,2,0.0300,,\nGradient,K,0.09,√3,0.0520,,\n",
+                      total = "Temperature,K,,,0.0600,575 nm/K,34.5\n",
+                      others = "Standard,nm,30,2,15.0,1,15.0\nDrift of the standard,nm,20,√3,11.5,1,11.5\n",
+                      claims = "u_c,nm,,,,,39.3\nk,,,,,,2\nU,nm,,,,,79\n";
+    for (const std::string& table : {heads + total + parts + others + claims, heads + parts + total + others + claims,
+                                     heads + others + total + parts + claims}) {
+        const AuditReport report = audit_of_sums(table);
+        SCOPED_TRACE(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, root_of_squares({34.5, 15.0, 11.547}), 0.05);
+        EXPECT_TRUE(tells(report, "is taken for a part of \"Temperature\""));
+        EXPECT_EQ(critical_of(report), "");
+    }
+}
+
 TEST(SumsBetweenRows, OfATypeMayBeContributionsOfTheSizeOfARow) {
     const std::string plain = "Quantity,u / mK\n";
     for (const std::string& table :
@@ -295,6 +383,10 @@ TEST(ResultsBesideEachOther, AreWhatTheirHeadsSay) {
             EXPECT_EQ(first_of(report, "K01") != nullptr, U == "0.20");
         }
     }
+    // What stands behind them, and nobody understands, is named.
+    const AuditReport behind =
+        audit_of_sums(rows + "\nResult,Unit,u_c,k,U\nDeviation,mN·m,0.186,2,0.37\nSafety margin,mN·m,,,0.5\n");
+    EXPECT_TRUE(tells(behind, "\"Safety margin\" has a number, and is no row and no statement that is known"));
     // Of several points nobody knows which one the rows are of.
     const AuditReport points = audit_of_sums(rows + "\nPoint,u_c,k,U\n10,0.186,2,0.37\n20,0.190,2,0.38\n");
     ASSERT_EQ(points.results.size(), 1U);
@@ -360,6 +452,27 @@ TEST(Heads, MayStandInTwoLines) {
     EXPECT_EQ(merged.subject.budgets[0].rows.size(), 4U);
     EXPECT_NEAR(merged.results[0].recomputed.u_c, root_of_squares({0.02, 0.0173, 0.0029, 0.006}), 1e-4);
     EXPECT_EQ(critical_of(merged), "");
+    // A head that is cut, or whose words stand below each other, is one head.
+    for (const char* heads : {"Größe,Grenzwert,Ver-,Teiler,Standard-,Sensitivitäts-,Unsicherheits-,Freiheits-\n"
+                              ",,teilung,,unsicherheit,koeffizient,beitrag,grade\n",
+                              "Component,Half-width,Probability,Divisor,Standard,Sensitivity,Uncertainty,Degrees of\n"
+                              ",,distribution,,uncertainty,coefficient,contribution,freedom\n",
+                              "Component,Half-width,Distribution,Divisor,Standard,Sensitivity,Contribution,Degrees of\n"
+                              ",(Ω),,,uncertainty (Ω),coefficient,(Ω),freedom\n"}) {
+        const AuditReport cut = audit_of_sums(
+            "Resistance\n" + std::string(heads) +
+            "Reference (certificate; U = 0.04 Ω; k = 2),0.04 Ω,normal,2,0.0200 Ω,1,0.0200 Ω,50\nDrift of the reference,"
+            "0.03 Ω,rectangular,√3,0.0173 Ω,1,0.0173 Ω,∞\nRepeatability,0.006 Ω,normal,1,0.0060 Ω,1,0.0060 Ω,9\n"
+            "u_c,,,,,,0.0271 Ω,\nU (k = 2),,,,,,0.054 Ω,\n");
+        SCOPED_TRACE(heads);
+        ASSERT_EQ(cut.results.size(), 1U);
+        ASSERT_EQ(cut.subject.budgets[0].rows.size(), 3U);
+        EXPECT_TRUE(cut.subject.budgets[0].unread_columns.empty());
+        const AuditedRow& row = cut.subject.budgets[0].rows[0];
+        EXPECT_TRUE(row.u && row.divisor && row.sensitivity && row.contribution && row.nu);
+        EXPECT_EQ(row.shape, Shape::normal);
+        EXPECT_EQ(critical_of(cut), "");
+    }
     // Symbols below heads are no numbers that could not be read.
     const AuditReport symbols = audit_of_sums(
         "quantity,estimate,standard uncertainty,distribution,sensitivity coefficient,uncertainty contribution\n"
@@ -470,6 +583,62 @@ TEST(Units, MayStandInACellOfTheTitle) {
         EXPECT_EQ(report.subject.budgets[0].unit, unit);
         EXPECT_EQ(critical_of(report).empty(), !unit.empty());
     }
+}
+
+TEST(Values, BelowTheRowsMayBeInAnotherUnitThanU) {
+    // The law: a value in kN is no row of a table in N, whatever it is called and wherever it stands.
+    const std::string rows =
+        "Force 10 kN\nSource,u (N),c,c·u (N)\nReference transducer (certificate; W = 0.06 %; k = 2),3.0,1,3.0\n"
+        "Drift of the reference,1.7,1,1.7\nRepeatability,1.1,1,1.1\nAlignment,0.9,1,0.9\n";
+    for (const char* value :
+         {"Force,10.003 kN\n", "Force,10003 N\n", "Force,,,10.003 kN\n", "Measured value,10.003 kN\n", ""}) {
+        const AuditReport report = audit_of_sums(rows + value +
+                                                 "Combined standard uncertainty,,,3.73 N\nExpanded uncertainty "
+                                                 "(k = 2),,,7.5 N\nRelative expanded uncertainty (k = 2),,,0.075 %\n");
+        SCOPED_TRACE(value);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 4U);
+        EXPECT_EQ(report.subject.budgets[0].unit, "N");
+        EXPECT_EQ(critical_of(report), "");
+        EXPECT_EQ(first_of(report, "K01"), nullptr);
+    }
+}
+
+TEST(Heads, MayStandAgainAboveFurtherRows) {
+    // The law: rows below heads that stand twice before any result are one budget where the result is that of all of them.
+    const std::string heads = "Component,Unit,u,c,Contribution\n",
+                      a = "Handling,mg,0.30,1,0.30\nReadings,mg,0.20,1,0.20\n",
+                      b = "Balance,mg,0.40,1,0.40\nDrift of the balance,mg,0.10,1,0.10\n";
+    for (const char* between : {"", "Type B\n", "Page 2\n", "\n", "\nType B components\n"}) {
+        const AuditReport one =
+            audit_of_sums("Type A\n" + heads + a + between + heads + b + "u_c,mg,,,0.548\nk,,,,2\nU,mg,,,1.10\n");
+        SCOPED_TRACE(between);
+        ASSERT_EQ(one.results.size(), 1U);
+        EXPECT_EQ(one.subject.budgets[0].rows.size(), 4U);
+        EXPECT_NEAR(one.results[0].recomputed.u_c, root_of_squares({0.3, 0.2, 0.4, 0.1}), 1e-9);
+        EXPECT_EQ(critical_of(one), "");
+        EXPECT_EQ(first_of(one, "K01"), nullptr);
+        // Where the result is that of the rows directly above it, the others are a budget of their own.
+        const AuditReport two =
+            audit_of_sums("Point 1\n" + heads + a + between + heads + b + "u_c,mg,,,0.412\nk,,,,2\nU,mg,,,0.82\n");
+        ASSERT_EQ(two.results.size(), 2U);
+        EXPECT_EQ(two.subject.budgets[0].rows.size(), 2U);
+        EXPECT_FALSE(two.subject.budgets[0].claims.U);
+        ASSERT_TRUE(two.subject.budgets[1].claims.U);
+        EXPECT_EQ(two.subject.budgets[1].claims.U->text, "0.82");
+        EXPECT_EQ(critical_of(two), "");
+    }
+}
+
+TEST(Heads, MayNameContributionsTwice) {
+    const AuditReport report = audit_of_sums(
+        "Micrometer\nUnsicherheitsbeitrag,Verteilung,Grenzwert / µm,Divisor,Unsicherheitsbeitrag u_i / µm,Anteil\n"
+        "Normal (KS 12; U = 0.8 µm; k = 2),Normal,0.8,2,0.400,64 %\nDrift des Normals,Rechteck,0.3,√3,0.173,12 %\n"
+        "Auflösung,Rechteck,0.5,√3,0.289,33 %\nu_c,,,,0.523,\nErweiterte Messunsicherheit U / µm (k = 2),,,,1.05,\n");
+    ASSERT_EQ(report.results.size(), 1U);
+    EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+    EXPECT_EQ(report.subject.budgets[0].unit, "µm");
+    EXPECT_EQ(critical_of(report), "");
 }
 
 TEST(Heads, OfBothTypesBesideEachOther) {

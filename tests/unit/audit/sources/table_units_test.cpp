@@ -41,6 +41,8 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_head("Value ± kPa"), "kPa");
     EXPECT_EQ(unit_in_head("u / nm"), "nm");
     EXPECT_EQ(unit_in_head("result (mm)"), "mm");
+    EXPECT_EQ(unit_in_head("u (HRC)"), "HRC");
+    EXPECT_EQ(unit_in_head("u (UUT)"), "");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
     EXPECT_EQ(unit_in_head("type (A)"), "");
     EXPECT_EQ(unit_in_head("U95 (k = 2)"), "");
@@ -50,6 +52,47 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_rest("see the annex"), "");
     EXPECT_EQ(shared_unit("mK", "degC"), "degC");
     EXPECT_EQ(shared_unit("µm", "mm"), "µm");
+}
+
+TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {
+    // The law: one contribution that lost its unit changes nothing, in whatever units u and the result are.
+    const std::vector<std::pair<std::string, double>> rows = {{"Reference (certificate; U = 3.0 µV; k = 2)", 1.5},
+                                                              {"Drift of the reference", 1.27},
+                                                              {"Thermal EMF", 0.64},
+                                                              {"Repeatability", 0.8}};
+    for (const auto& [of_u, in_u] : std::map<std::string, double>{{"µV", 1.0}, {"mV", 1e-3}, {"nV", 1e3}}) {
+        for (const auto& [of_u_c, in_u_c] :
+             std::map<std::string, double>{{"µV", 1.0}, {"mV", 1e-3}, {"V", 1e-6}, {"", 1.0}}) {
+            for (std::size_t without = 0; without < rows.size(); ++without) {
+                std::string table = "Voltage 1 V\nQuantity,u,c,Contribution\n";
+                for (std::size_t i = 0; i < rows.size(); ++i) {
+                    const auto& [name, u] = rows[i];
+                    table += name + "," + text::significant(u * in_u, 3) + " " + of_u + ",1," +
+                             text::significant(u, 3) + (i == without ? "" : " µV") + "\n";
+                }
+                table += "u_c,,," + text::significant(2.22 * in_u_c, 3) + " " + of_u_c + "\nU (k = 2),,," +
+                         text::significant(4.44 * in_u_c, 3) + " " + of_u_c + "\n";
+                const AuditReport report = report_of(table);
+                SCOPED_TRACE(table);
+                ASSERT_EQ(report.results.size(), 1U);
+                for (const AuditFinding& finding : report.findings) {
+                    EXPECT_TRUE(finding.rule != "K01" && finding.rule != "S01") << finding.what.english();
+                }
+            }
+        }
+    }
+}
+
+TEST(TableUnits, AreTheSameHoweverOftenTheyAreAskedFor) {
+    for (int i = 0; i < 3'000; ++i) {
+        ASSERT_FALSE(known_unit("no unit " + std::to_string(i)));
+        ASSERT_FALSE(known_unit("normal"));
+        ASSERT_TRUE(known_unit("-"));
+        ASSERT_TRUE(known_unit("[mV]") && known_unit(" mV "));
+        ASSERT_DOUBLE_EQ(factor_between("mV", "µV").value_or(0.0), 1000.0);
+    }
+    EXPECT_TRUE(known_unit(std::string(60, ' ') + "mm"));
+    EXPECT_FALSE(known_unit(std::string(60, 'x')));
 }
 
 TEST(TableUnits, TurnIntoEachOtherWhereTheyAreOfOneKind) {
@@ -151,15 +194,20 @@ TEST(TableUnits, ANumberThatASheetShowsInPercentIsInPercent) {
                                                      {"A5", "k"},
                                                      {"B5", "2"}});
     workbook.number_formats.push_back("0.000%");
-    for (workbook::Cell& cell : workbook.sheets[0].cells) {
-        cell.number_format = cell.value.kind == workbook::CellKind::number && cell.value.number < 1.0 ? 1 : 0;
+    for (const char* const head : {"u", "w_i"}) {  // the symbol of a relative u, and its unit is that of the format
+        workbook::Workbook shown = workbook;
+        for (workbook::Cell& cell : shown.sheets[0].cells) {
+            cell.number_format = cell.value.kind == workbook::CellKind::number && cell.value.number < 1.0 ? 1 : 0;
+            cell.value.text = cell.value.text == "u" ? head : cell.value.text;
+        }
+        const AuditSubject subject = subject_of(std::move(shown), "budget.xlsx");
+        ASSERT_EQ(subject.budgets.size(), 1U);
+        EXPECT_EQ(subject.budgets[0].unit, "%");
+        EXPECT_DOUBLE_EQ(subject.budgets[0].claims.U->value, 0.1);
+        EXPECT_DOUBLE_EQ(subject.budgets[0].rows[1].used_u, 0.04);
+        EXPECT_EQ(subject.budgets[0].U_over_k_u_c, 1.0);
+        EXPECT_TRUE(subject.budgets[0].unread_columns.empty());
     }
-    const AuditSubject subject = subject_of(std::move(workbook), "budget.xlsx");
-    ASSERT_EQ(subject.budgets.size(), 1U);
-    EXPECT_EQ(subject.budgets[0].unit, "%");
-    EXPECT_DOUBLE_EQ(subject.budgets[0].claims.U->value, 0.1);
-    EXPECT_DOUBLE_EQ(subject.budgets[0].rows[1].used_u, 0.04);
-    EXPECT_EQ(subject.budgets[0].U_over_k_u_c, 1.0);
 }
 
 // ---- the law: units, layout and language change nothing

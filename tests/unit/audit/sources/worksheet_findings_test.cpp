@@ -316,6 +316,26 @@ TEST(WorksheetFindings, W14LeavesSharesAlone) {
     EXPECT_GE(unused("correction"), 1U);
 }
 
+TEST(WorksheetFindings, W14LeavesWhatAPageOfResultsShowsAlone) {
+    const auto unused = [](const std::string& name, const std::string& formula) {
+        const test::Contents contents = {{"A1", "quantity"}, {"B1", "U or a"},
+                                         {"C1", "divisor"},  {"D1", "u"},
+                                         {"A2", "standard"}, {"B2", "0.05"},
+                                         {"C2", "2"},        {"D2", "=B2/C2"},
+                                         {"A3", "Drift"},    {"B3", "0.04"},
+                                         {"C3", "=SQRT(3)"}, {"D3", "=B3/C3"},
+                                         {"A4", "u_c"},      {"B4", "=SQRT(SUMSQ(D2:D3))"},
+                                         {"A5", "k"},        {"B5", "2"},
+                                         {"A6", "U"},        {"B6", "=B5*B4"},
+                                         {"A9", name},       {"B9", formula}};
+        return of_rule(audit(subject_of(test::workbook_of(contents), "b.xlsx"), all_rules()), "W14").size();
+    };
+    EXPECT_EQ(unused("Expanded uncertainty (certificate)", "=ROUND(B6;3)"), 0U);
+    EXPECT_EQ(unused("Uncertainty on the certificate", "=B6*1000"), 0U);
+    EXPECT_EQ(unused("Uncertainty of the buoyancy", "=B3/SQRT(3)"), 1U);
+    EXPECT_EQ(unused("Drift since the last calibration", "=B6-B3"), 1U);
+}
+
 /// The readings stand in I2 to I6; k, u_c and the cells of the repeatability as given.
 AuditReport with_readings(const std::string& s, const std::string& divisor, const std::string& nu, const std::string& k,
                           const std::string& u_c, const std::string& comment = "s; mean of 5 readings") {
