@@ -18,8 +18,9 @@ using gum::Distribution;
 using gum::DistributionKind;
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 13> k_column_keys{
-    "value", "u", "U", "k", "p", "nu", "reliability", "half_width", "beta", "d", "resolution", "mpe", "relative_u"};
+constexpr std::array<std::string_view, 14> k_column_keys{"value",      "u",           "U",          "k",         "p",
+                                                         "nu",         "reliability", "half_width", "beta",      "d",
+                                                         "resolution", "mpe",         "relative_u", "relative_U"};
 
 // ---- rows of the table of statements --------------------------------------------------------------------------------
 
