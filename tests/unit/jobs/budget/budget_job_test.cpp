@@ -324,6 +324,27 @@ TEST(BudgetJob, TakesEveryStatementOfNumbersFromColumns) {
     }
 }
 
+/// "k": 0.95 is a coverage probability, and "U": 2, "k": 0.01 are exchanged: told in a job and in a table, once for a column.
+TEST(BudgetJob, TellsCoverageFactorsBelowOne) {
+    const auto told = [](const BudgetJob& job) {
+        return std::count_if(job.warnings.begin(), job.warnings.end(),
+                             [](const gum::Diagnostic& one) { return one.code == k_warn_small_coverage_factor.code; });
+    };
+    for (const auto& [statement, expected] :
+         std::vector<std::pair<std::string, int>>{{R"j("U": 0.01, "k": 0.95)j", 1},
+                                                  {R"j("U": 2, "k": 0.01)j", 1},
+                                                  {R"j("relative_U": 0.01, "k": 0.5)j", 1},
+                                                  {R"j("U": 0.01, "k": 1)j", 0},
+                                                  {R"j("U": 0.01, "k": 2)j", 0},
+                                                  {R"j("U": 0.01, "p": 0.95)j", 0},
+                                                  {R"j("U": 0.01, "p": 0.5)j", 0}}) {
+        EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"value": 1, )j" + statement + "}}")), expected) << statement;
+    }
+    EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"unit": "V"}}, "points": {"file": "p.csv"})j",
+                               {{"p.csv", "x,x.U,x.k\n1,0.1,0.95\n2,0.1,0.95\n3,0.1,2\n"}})),
+              1);
+}
+
 TEST(BudgetJob, LeavesInputsToThePoints) {
     // No statement, half of one, readings, and a specification that waits for a value.
     const BudgetJob job = read_budget(R"j("model": "e = x - r + s + m", "inputs": {
