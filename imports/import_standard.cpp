@@ -51,7 +51,7 @@ public:
 
     /// The nominal value of the row, else the value of the reference; nothing where the table has neither. Where that is
     /// the same in all rows, it is what was set that tells them apart: a sensitivity measured at 100 m/s² and ten
-    /// frequencies is known by the frequency.
+    /// frequencies is known by the frequency. A reference that was read before the adjustment is none of a value after it.
     [[nodiscard]] std::optional<NominalValue> of(const ImportedQuantity& q) const {
         const auto row = q.row ? values_.find({q.table, *q.row}) : values_.end();
         if (row == values_.end()) {
@@ -61,10 +61,13 @@ public:
             return std::pair(entry.quantity->table, entry.quantity->column);
         };
         const auto begin = row->second.begin(), end = row->second.end();
+        const auto is_of_it = [&](const Entry& entry) {
+            return entry.quantity != &q && (q.before_adjustment || !entry.quantity->before_adjustment);
+        };
         const auto stated =
-            std::find_if(begin, end, [&](const Entry& entry) { return entry.quantity != &q && entry.type != k_set; });
+            std::find_if(begin, end, [&](const Entry& entry) { return is_of_it(entry) && entry.type != k_set; });
         const auto set = std::find_if(begin, end, [&](const Entry& entry) {
-            return entry.quantity != &q && entry.type == k_set && !repeated_.contains(column_of(entry));
+            return is_of_it(entry) && entry.type == k_set && !repeated_.contains(column_of(entry));
         });
         const bool is_known_by_it =
             stated == end || (repeated_.contains(column_of(*stated)) && seen_.at(column_of(*stated)).size() == 1);

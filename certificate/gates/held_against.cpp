@@ -162,17 +162,18 @@ std::optional<Finding> capability_taken_elsewhere(const ScopeEntry& entry, std::
                                  unit.from_si(result.to_si(measured.value)))) {
         return std::nullopt;
     }
-    return Finding{.id = "X12",
-                   .clause = "ILAC-P14:09/2020",
-                   .severity = larger ? FindingSeverity::critical : FindingSeverity::minor,
-                   .where = place_in("/accreditation/scope", i, "capability"),
-                   .what = "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
-                           "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
-                   .action =
-                       "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
-                       "outputs of the job (\"role\": \"error\" or \"deviation\"): it is then held against the place "
-                       "where it was measured. Else take the capability at the result (\"of\": \"value\"), or "
-                       "state the true parameter."};
+    return Finding{
+        .id = "X12",
+        .clause = "ILAC-P14:09/2020",
+        .severity = larger ? FindingSeverity::critical : FindingSeverity::minor,
+        .where = place_in("/accreditation/scope", i, "capability"),
+        .what = "the capability of \"" + entry.id + "\" is taken at \"" + held.name +
+                "\" = " + text::shortest(held.value) + " " + held.unit + ", and " + measured.in_words,
+        .action =
+            "Where the result is an error, a deviation, a correction or a hysteresis, state its role in the "
+            "outputs of the job (\"role\": \"error\" or \"deviation\"), and at least one point (\"points\"): "
+            "it is then held against the place where it was measured. Else take the capability at the result "
+            "(\"of\": \"value\"), or state the true parameter."};
 }
 
 }  // namespace gumcert::certificate

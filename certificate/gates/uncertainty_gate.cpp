@@ -91,7 +91,10 @@ void verdict(FindingList& found, const std::string& where, const CertifiedValue&
         const bool defined = !value.external && !value.U && !value.interval && value.u == 0.0;
         found.add(defined ? FindingSeverity::information : FindingSeverity::major, "D05", iso_17025("7.8.6.1"), where,
                   "conformity with \"" + v.specification + "\" by " + v.rule + " cannot be decided: " + v.note,
-                  "Agree with the customer on another rule, or leave the statement out.");
+                  // Another rule does not mend a slip of the pen.
+                  v.note.starts_with("the specification has the unit")
+                      ? "Correct the unit of the specification, or the results that it names."
+                      : "Agree with the customer on another rule, or leave the statement out.");
     }
     poor_measurement(found, where, value, v);
     // A reader can decide with the printed numbers only, and must come to the same verdict.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "gum/expression/conversion_check.h"
 #include "gum/expression/name.h"
 #include "gum/expression/temperature_check.h"
 #include "gum/expression/unit_check.h"
@@ -372,6 +373,7 @@ private:
         radian.unit = "rad";
         equation_kinds_.assign(trees_.size(), QuantityKind::unknown());
         temperatures_.assign(trees_.size(), TemperatureContent{});
+        products_.assign(trees_.size(), std::nullopt);
         constants_.resize(trees_.size());
         for (const std::size_t i : order_) {
             const SyntaxTree& tree = trees_[i];
@@ -408,6 +410,8 @@ private:
                 contents.push_back(has_equation ? &temperatures_[symbol->index] : nullptr);
             }
             temperatures_[i] = check_temperatures(tree, kinds, contents, warnings_);
+            products_[i] =
+                written_product(tree, [&](std::uint32_t name) { return written_product_of(meanings_[i][name]); });
             if (tree.is_implicit()) {
                 check_balance(tree, kinds.back(), problems_);
                 check_result(temperatures_[i], kinds.back(), warnings_);
@@ -504,8 +508,29 @@ private:
                 outputs.back().unit = preferred_unit(outputs.back().unit, units_used_by(symbol.index));
             }
             check_result(temperatures_[symbol.index], kind, warnings_);
+            if (declared && products_[symbol.index]) {
+                check_conversion(name, *products_[symbol.index], *declared, where, warnings_);
+            }
         }
         chosen_.push_back(symbol);
+    }
+
+    [[nodiscard]] std::optional<WrittenProduct> written_product_of(const Symbol* symbol) const {
+        if (symbol == nullptr) {
+            return std::nullopt;
+        }
+        const auto of_unit = [](const Unit& unit) { return WrittenProduct{.size = unit.difference_to_si(1.0)}; };
+        switch (symbol->kind) {
+            case Symbol::Kind::input:
+                return of_unit(inputs_[symbol->index].unit);
+            case Symbol::Kind::unknown:
+                return of_unit(unknowns_[symbol->index].unit);
+            case Symbol::Kind::equation:
+                return products_[symbol->index];
+            case Symbol::Kind::radian:
+                return WrittenProduct{};
+        }
+        return std::nullopt;
     }
 
     /// Units of the inputs and unknowns of an equation, in the order in which they stand in it and in those it uses.
@@ -660,6 +685,7 @@ private:
     std::vector<std::size_t> implicit_;
     std::vector<QuantityKind> input_kinds_, unknown_kinds_, equation_kinds_;
     std::vector<TemperatureContent> temperatures_;  // of the equations
+    std::vector<std::optional<WrittenProduct>> products_;
     std::vector<Diagnostic> warnings_;
     std::vector<std::map<std::int32_t, std::optional<double>>> constants_;  // exponents of an equation, by node
     std::vector<Symbol> chosen_;                                            // what the outputs are

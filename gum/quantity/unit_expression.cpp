@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "gum/quantity/unit_meant.h"
+
 namespace gumcert::gum {
 
 namespace {
@@ -395,7 +397,7 @@ private:
                        "Write " + std::string(ambiguous.meanings.substr(colon + 8)) + ".");
             }
         }
-        refuse(Reason::not_known, "\"" + std::string(name) + "\" is not a unit that is known");
+        refuse(Reason::not_known, "\"" + std::string(name) + "\" is not a unit that is known", unit_meant(name));
     }
 
     UnitExpression unit(int depth) {

@@ -910,7 +910,11 @@ std::optional<std::size_t> BudgetInputs::point_input(const std::string& name, co
     const auto nearest = nearest_word(name, known);
     problems.refuse(k_unknown_quantity, where, text::in_quotes(name) + " is none of the inputs",
                     "a point states inputs of the job, by NAME or NAME.key, and its own name as \"point\"",
-                    nearest ? "did you mean " + text::in_quotes(*nearest) + "?" : "correct the name");
+                    name.empty() ? "give the column a name, or remove it"
+                    : nearest    ? "did you mean " + text::in_quotes(*nearest) + "?"
+                              : "correct the name; declare a column for people in the columns of the points, such as "
+                                "\"columns\": {" +
+                                    text::in_quotes(name) + ": \"text\"}");
     return std::nullopt;
 }
 
@@ -1029,6 +1033,15 @@ void BudgetInputs::read_point_file(const std::string& name, BudgetJob& job) {
             continue;
         }
         const std::string where = text::where_in_text(name, field.place);
+        if (const std::size_t bracket = field.name.find_first_of("[("); bracket != std::string::npos && bracket > 0) {
+            std::string bare = field.name.substr(0, bracket);
+            bare.erase(bare.find_last_not_of(' ') + 1);
+            file->problems->refuse(k_unknown_key, where, "the column " + text::in_quotes(field.name),
+                                   "a column is called NAME or NAME.key: its unit is that of the input",
+                                   "write " + text::in_quotes(bare) + ", and state the unit in the job");
+            is_known = false;
+            continue;
+        }
         const std::size_t dot = field.name.rfind('.');
         const bool is_reading = dot != std::string::npos && dot + 1 < field.name.size() &&
                                 field.name.find_first_not_of("0123456789", dot + 1) == std::string::npos;

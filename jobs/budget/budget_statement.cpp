@@ -18,8 +18,9 @@ using gum::Distribution;
 using gum::DistributionKind;
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 13> k_column_keys{
-    "value", "u", "U", "k", "p", "nu", "reliability", "half_width", "beta", "d", "resolution", "mpe", "relative_u"};
+constexpr std::array<std::string_view, 14> k_column_keys{"value",      "u",           "U",          "k",         "p",
+                                                         "nu",         "reliability", "half_width", "beta",      "d",
+                                                         "resolution", "mpe",         "relative_u", "relative_U"};
 
 // ---- rows of the table of statements --------------------------------------------------------------------------------
 
@@ -381,8 +382,14 @@ bool StatementReader::read_expanded_uncertainty(bool is_relative) {
     if (!has_value || !expanded || !nu || !k) {
         return false;
     }
+    const double factor = k.value_or(1.0);
+    if (keys_.has("k") && factor < 1.0) {
+        keys_.warn(k_warn_small_coverage_factor, "k", "a coverage factor of " + text::shortest_plain(factor),
+                   "U = k u with k about 2 for a coverage probability of 95 %",
+                   "check that it is the coverage factor, and neither the coverage probability (\"p\") nor U");
+    }
     const auto reference = is_relative ? reference_of_relative(key) : std::optional{1.0};
-    return reference && set_standard_uncertainty(*expanded * *reference / *k, *nu);
+    return reference && set_standard_uncertainty(*expanded * *reference / factor, *nu);
 }
 
 bool StatementReader::read_from_covariance() {

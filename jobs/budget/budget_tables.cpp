@@ -66,6 +66,8 @@ public:
                 read_list(*list, part.pointer("tables"));
             } else if (wants_table()) {
                 add_default(TableRequest(), document_.where(part.pointer("points")));
+            } else if (!has_points() && !part.has("points")) {
+                warn_of_roles(part);
             }
         }
         section_ = 0;  // what follows looks at each point's own section
@@ -108,6 +110,34 @@ private:
     [[nodiscard]] bool wants_table() const {
         return has_points() && (!job_.sections.empty() || !job_.point_columns.empty() || !job_.input_parts.empty() ||
                                 !job_.output_parts.empty());
+    }
+    /// What a quantity is to the reader stands in the heading of its column: without points there is none, and neither the digital
+    /// certificate nor the range of a scope knows at which nominal value an error was measured.
+    void warn_of_roles(const JsonObject& part) const {
+        std::vector<std::string> names;
+        if (job_.sections.empty()) {
+            for (const gum::BudgetInput& i : job_.inputs) {
+                if (job_.input_parts.contains(i.name)) {
+                    names.push_back(text::in_quotes(i.name));
+                }
+            }
+        }
+        for (const auto& [name, unit] : results_[section_]) {
+            const QuantityPart part_of = part_of_result(name);
+            const bool is_plain = part_of.role == "measured_value" && part_of.stage.empty();  // what a result is anyway
+            if (job_.output_parts.contains(name) && !is_plain) {
+                names.push_back(text::in_quotes(name));
+            }
+        }
+        if (!names.empty()) {
+            problems_.warn(
+                k_warn_roles_without_points, document_.where(part.pointer("outputs")),
+                std::string(names.size() == 1 ? "role or stage of " : "roles or stages of ") + text::listed(names, 5) +
+                    ", and no points",
+                "a role is the heading of a column, the name of its numbers in the digital certificate, and the "
+                "place at which an error is held against a scope; without points there is no such table",
+                "state \"points\": [{}]: one row with all of them");
+        }
     }
     /// A column of points that has something at the points of this section.
     [[nodiscard]] bool is_here(const PointColumn& c) const {

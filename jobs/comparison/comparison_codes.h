@@ -68,8 +68,6 @@ inline constexpr InputCode k_compared_job{"GC-INPUT-0541", "a job that cannot be
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_no_result{"GC-WARN-0020", "a participant without a single result"};
-inline constexpr InputCode k_warn_small_coverage_factor{"GC-WARN-0021",
-                                                        "a coverage factor below 1, perhaps a coverage probability"};
 inline constexpr InputCode k_warn_exact_assigned_value{"GC-WARN-0022",
                                                        "an assigned value that is taken as exactly known"};
 inline constexpr InputCode k_warn_uncertainty_without_value{"GC-WARN-0023",

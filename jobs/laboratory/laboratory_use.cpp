@@ -864,9 +864,11 @@ bool LaboratoryUse::refuse_without_folder(json& data, const CertificatePlace& pl
     }
     const auto refuse = [&](json& value, const std::string& relative) {
         if (value.is_string() || (value.is_object() && value.contains("id"))) {
-            place.below(relative).refuse(k_laboratory_missing, described(value) + ", and no laboratory",
-                                         "what is not written out stands in the files of the laboratory",
-                                         "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER");
+            place.below(relative).refuse(
+                k_laboratory_missing, described(value) + ", and no laboratory",
+                "what is not written out stands in the files of the laboratory",
+                "add \"laboratory\": \"FOLDER\" to the job, or use --laboratory FOLDER; without such a "
+                "folder write it out, such as {\"name\": \"A. Feld\"}");
             discard(value);
         }
     };

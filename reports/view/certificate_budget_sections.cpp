@@ -6,6 +6,7 @@
 #include "gum/rounding.h"
 #include "reports/plots/budget_plots.h"
 #include "reports/plots/svg_plot.h"
+#include "reports/printed_texts.h"
 #include "reports/record/record_sections.h"
 #include "reports/record/reported_result.h"
 #include "reports/reported_results.h"
@@ -570,7 +571,10 @@ void budgets(CertificateBuilder& builder, const Wording& words, const Evaluation
     for (std::size_t i = 0; i < with_budget.size(); ++i) {
         budget(builder, words, *with_budget[i], i);
         if (!tables_only && i < k_most_plots && with_budget[i]->budget.size() > 1) {
-            draw(builder, words, words.fill("figure_shares", {{"name", with_budget[i]->name}}),
+            // An input whose first derivative vanishes has no share by the law, and may be most of what trials give.
+            const bool by_trials = reported_result(*with_budget[i]).method == "monte_carlo";
+            draw(builder, words,
+                 words.fill(by_trials ? "figure_shares_of_law" : "figure_shares", {{"name", with_budget[i]->name}}),
                  share_plot(*with_budget[i], words, "plot-shares-" + std::to_string(i)));
         }
     }

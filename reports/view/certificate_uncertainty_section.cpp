@@ -174,12 +174,66 @@ bool is_certified(const Result& result, const EvaluationRecord& record) {
     });
 }
 
-/// Whether a row of a budget adds to the uncertainty of its result. Where no row has a sensitivity the uncertainty of the input
-/// is all that is known of it.
-bool contributes(const BudgetRow& row, const Result& result) {
+/// Names in an equation: of quantities, and of functions, which no row of a budget is called.
+std::vector<std::string> names_in_equation(std::string_view equation) {
+    const auto begins = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+    };
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::vector<std::string> names;
+    for (std::size_t at = 0; at < equation.size();) {
+        const std::size_t from = at;
+        const bool number = is_digit(equation[at]);
+        while (at < equation.size() && (begins(equation[at]) || is_digit(equation[at]) || equation[at] == '\'')) {
+            ++at;
+        }
+        if (at == from) {
+            ++at;
+        } else if (!number) {  // "2e" of 2e-6 is no name
+            names.emplace_back(equation.substr(from, at - from));
+        }
+    }
+    return names;
+}
+
+/// What a result rests on, as the equations of the record say it: itself, what its equation names, and what these rest on.
+std::set<std::string> rests_on(const EvaluationRecord& record, const std::string& result) {
+    std::set<std::string> reached{result};
+    if (!record.model) {
+        return reached;
+    }
+    const auto& unknowns = record.model->unknowns;
+    for (std::size_t before = 0; before != reached.size();) {
+        before = reached.size();
+        const bool implicit = std::any_of(unknowns.begin(), unknowns.end(),
+                                          [&](const std::string& name) { return reached.contains(name); });
+        for (const std::string& equation : record.model->equations) {
+            const std::string left = equation.substr(0, equation.find_first_of(" ="));
+            if (reached.contains(left) || (implicit && left == "0")) {
+                const std::vector<std::string> names = names_in_equation(equation);
+                reached.insert(names.begin(), names.end());
+            }
+        }
+    }
+    return reached;
+}
+
+/// Whether a row of a budget adds to the uncertainty of its result. The trials of Monte Carlo vary every uncertain input that the
+/// result rests on, also one whose sensitivity coefficient is 0: the angle of a cosine error may be the whole of it.
+/// \param influences  what the result rests on; itself alone where no equation says it
+bool contributes(const BudgetRow& row, const Result& result, const std::set<std::string>& influences) {
+    if (row.contribution.number != 0.0) {
+        return true;
+    }
+    if (result.reported.method == "monte_carlo" && influences.size() > 1) {
+        return row.role == "fit" ? std::any_of(row.components.begin(), row.components.end(),
+                                               [&](const BudgetRow& part) { return influences.contains(part.input); })
+                                 : row.u.number != 0.0 && influences.contains(row.input);
+    }
+    // Where no row has a sensitivity the uncertainty of the input is all that is known of it.
     const bool has_sensitivities = std::any_of(result.budget.begin(), result.budget.end(),
                                                [](const BudgetRow& r) { return r.contribution.number != 0.0; });
-    return has_sensitivities ? row.contribution.number != 0.0 : row.u.number != 0.0;
+    return !has_sensitivities && row.u.number != 0.0;
 }
 
 /// Names of what contributes to the uncertainty of a certified result, each once.
@@ -198,9 +252,15 @@ std::vector<Text> contributions(const EvaluationRecord& record, const Wording& w
     }
     const bool some_are_certified = std::any_of(record.results.begin(), record.results.end(),
                                                 [&](const Result& r) { return is_certified(r, record); });
+    std::map<std::string, std::set<std::string>> influences;  // the points of a table have one equation
     for (const Result& r : record.results) {
+        const std::string& quantity = r.quantity.empty() ? r.name : r.quantity;
+        const auto known = influences.find(quantity);
+        const auto& of_result = known == influences.end()
+                                    ? influences.emplace(quantity, rests_on(record, quantity)).first->second
+                                    : known->second;
         for (const BudgetRow& row : r.budget) {
-            if ((some_are_certified && !is_certified(r, record)) || !contributes(row, r)) {
+            if ((some_are_certified && !is_certified(r, record)) || !contributes(row, r, of_result)) {
                 continue;
             }
             if (row.role != "fit") {

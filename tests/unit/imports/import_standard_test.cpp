@@ -254,5 +254,29 @@ TEST(ImportStandard, ResultsBeforeAnAdjustmentAreNoValuesOfTheStandard) {
                  gum::InputError);
 }
 
+// A torque wrench that was set to 10 N m: what the reference showed before the adjustment is not where it was measured after it.
+TEST(ImportStandard, AReferenceOfBeforeAnAdjustmentIsNoPlaceOfAValueAfterIt) {
+    const std::string found = list_of("basic_referenceValue", "10.31 51.4", "\\newton\\metre", "", "beforeAdjustment");
+    const std::string left = list_of("basic_referenceValue", "10.02 50.07", "\\newton\\metre", "", "afterAdjustment");
+    const std::string set = list_of("gumcert_setting", "10 50", "\\newton\\metre", "");
+    const std::string errors = list_of("e_f", "-3.0 -2.7", "\\percent", "0.5 0.5", "beforeAdjustment") +
+                               list_of("e_l", "-0.2 -0.1", "\\percent", "0.5 0.3", "afterAdjustment");
+    const auto nominal_values = [&](const std::string& columns) {
+        std::vector<double> values;
+        const nlohmann::json job = nlohmann::json::parse(import_list(columns + errors).job);
+        for (const nlohmann::json& line : job["calibrations"][0]["results"]) {
+            values.push_back(line.value("nominal", 0.0));
+        }
+        return values;
+    };
+    EXPECT_THAT(nominal_values(set + found + left), testing::ElementsAre(10.02, 50.07));
+    EXPECT_THAT(nominal_values(set + left + found), testing::ElementsAre(10.02, 50.07));
+    EXPECT_THAT(nominal_values(found + set), testing::ElementsAre(10.0, 50.0))
+        << "what was set, where nothing else is its own";
+    EXPECT_THAT(nominal_values(list_of("basic_referenceValue", "9 49", "\\newton\\metre", "") + found),
+                testing::ElementsAre(9.0, 49.0))
+        << "one that has no stage is that of both";
+}
+
 }  // namespace
 }  // namespace gumcert::imports

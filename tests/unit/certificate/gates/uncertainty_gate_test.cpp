@@ -65,6 +65,11 @@ TEST(UncertaintyGate, FindsARuleThatCannotBeApplied) {
     const Finding found = only(uncertainty_findings(c));
     expect_finding(found, "D05", "ISO/IEC 17025:2017, 7.8.6.1", FindingSeverity::major, "l");
     EXPECT_THAT(found.what, testing::HasSubstr("the ratio is 1.2"));
+    EXPECT_THAT(found.action, testing::HasSubstr("another rule"));
+    // A specification in mA of a voltage is a slip, and no rule mends it.
+    length(c).verdict->note = "the specification has the unit \"mA\", and the result \"mV\"";
+    EXPECT_EQ(only(uncertainty_findings(c)).action,
+              "Correct the unit of the specification, or the results that it names.");
 }
 
 TEST(UncertaintyGate, SaysThatADefinedValueIsNotDecided) {

@@ -292,6 +292,59 @@ TEST(BudgetJob, ReadsPointsFromATable) {
     EXPECT_FALSE(gum::model_inputs(job)[1].constant);
 }
 
+/// A law: what numbers state in the job, columns state at the points, with the same value, u and degrees of freedom.
+TEST(BudgetJob, TakesEveryStatementOfNumbersFromColumns) {
+    const std::vector<std::vector<std::pair<std::string, std::string>>> statements{
+        {{"value", "5"}, {"u", "0.2"}},
+        {{"value", "5"}, {"u", "0.2"}, {"nu", "7"}},
+        {{"value", "5"}, {"U", "0.2"}, {"k", "2"}},
+        {{"value", "5"}, {"U", "0.2"}, {"p", "0.95"}, {"nu", "7"}},
+        {{"value", "5"}, {"half_width", "0.2"}, {"reliability", "0.25"}},
+        {{"value", "5"}, {"resolution", "0.2"}},
+        {{"value", "5"}, {"mpe", "0.2"}},
+        {{"value", "5"}, {"relative_u", "0.002"}},
+        {{"value", "5"}, {"relative_U", "0.002"}, {"k", "2"}},
+        {{"value", "-5"}, {"relative_U", "0.002"}, {"p", "0.95"}}};
+    for (const auto& statement : statements) {
+        std::string object, header, row;
+        for (const auto& [key, number] : statement) {
+            object += (object.empty() ? "" : ", ") + ('"' + key + "\": ") + number;
+            header += (header.empty() ? "x" : ",x") + (key == "value" ? "" : "." + key);
+            row += (row.empty() ? "" : ",") + number;
+        }
+        SCOPED_TRACE(header);
+        const BudgetJob in_job = read_budget(R"j("inputs": {"x": {"unit": "mm", )j" + object + "}}");
+        const BudgetJob in_file = read_budget(R"j("inputs": {"x": {"unit": "mm"}}, "points": {"file": "p.csv"})j",
+                                              {{"p.csv", header + "\n" + row + "\n"}});
+        const gum::StatedQuantity& stated = in_job.inputs.at(0).components.at(0);
+        const gum::StatedQuantity& read = in_file.points.at(0).inputs.at(0).second.components.at(0);
+        EXPECT_EQ(read.value, stated.value);
+        EXPECT_EQ(read.u, stated.u);
+        EXPECT_EQ(read.degrees_of_freedom, stated.degrees_of_freedom);
+    }
+}
+
+/// "k": 0.95 is a coverage probability, and "U": 2, "k": 0.01 are exchanged: told in a job and in a table, once for a column.
+TEST(BudgetJob, TellsCoverageFactorsBelowOne) {
+    const auto told = [](const BudgetJob& job) {
+        return std::count_if(job.warnings.begin(), job.warnings.end(),
+                             [](const gum::Diagnostic& one) { return one.code == k_warn_small_coverage_factor.code; });
+    };
+    for (const auto& [statement, expected] :
+         std::vector<std::pair<std::string, int>>{{R"j("U": 0.01, "k": 0.95)j", 1},
+                                                  {R"j("U": 2, "k": 0.01)j", 1},
+                                                  {R"j("relative_U": 0.01, "k": 0.5)j", 1},
+                                                  {R"j("U": 0.01, "k": 1)j", 0},
+                                                  {R"j("U": 0.01, "k": 2)j", 0},
+                                                  {R"j("U": 0.01, "p": 0.95)j", 0},
+                                                  {R"j("U": 0.01, "p": 0.5)j", 0}}) {
+        EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"value": 1, )j" + statement + "}}")), expected) << statement;
+    }
+    EXPECT_EQ(told(read_budget(R"j("inputs": {"x": {"unit": "V"}}, "points": {"file": "p.csv"})j",
+                               {{"p.csv", "x,x.U,x.k\n1,0.1,0.95\n2,0.1,0.95\n3,0.1,2\n"}})),
+              1);
+}
+
 TEST(BudgetJob, LeavesInputsToThePoints) {
     // No statement, half of one, readings, and a specification that waits for a value.
     const BudgetJob job = read_budget(R"j("model": "e = x - r + s + m", "inputs": {

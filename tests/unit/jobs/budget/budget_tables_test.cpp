@@ -387,6 +387,43 @@ TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotSay) {
     }
 }
 
+/// Roles are those of columns: where no table of points can show them that is told, and the cure is one row.
+TEST(BudgetTables, TellRolesThatNoPointsShow) {
+    struct Case {
+        std::string input, output, rest;
+        std::vector<std::string> named;
+    };
+    const std::vector<Case> all = {
+        {R"j(, "role": "nominal")j", R"j(, "role": "deviation")j", "", {R"("m_N")", R"("E")"}},
+        {"", R"j(, "role": "deviation")j", "", {R"("E")"}},
+        {"", R"j(, "stage": "as_left")j", "", {R"("E")"}},
+        {R"j(, "role": "nominal")j", "", "", {R"("m_N")"}},
+        {"", "", "", {}},
+        {"", R"j(, "role": "measured_value")j", "", {}},
+        {R"j(, "role": "nominal")j", R"j(, "role": "deviation")j", R"j(, "points": [{}])j", {}},
+        {R"j(, "role": "nominal")j", R"j(, "role": "deviation")j", R"j(, "points": [{"m": 1001}, {"m": 999}])j", {}}};
+    for (const Case& one : all) {
+        SCOPED_TRACE(one.input + one.output + one.rest);
+        const BudgetJob job =
+            read_budget(R"j("model": "E = m - m_N", "inputs": {"m": {"unit": "g", "value": 1000.005, "u": 0.001},
+            "m_N": {"unit": "g", "value": 1000, "constant": true)j" +
+                        one.input + R"j(}}, "outputs": {"E": {"unit": "mg")j" + one.output + "}}" + one.rest);
+        const auto told = std::find_if(job.warnings.begin(), job.warnings.end(), [](const gum::Diagnostic& d) {
+            return d.code == k_warn_roles_without_points.code;
+        });
+        ASSERT_EQ(told != job.warnings.end(), !one.named.empty());
+        for (const std::string& name : one.named) {
+            EXPECT_THAT(told->what, testing::HasSubstr(name));
+        }
+        if (told != job.warnings.end()) {
+            EXPECT_THAT(told->action, testing::HasSubstr(R"("points": [{}])"));
+        }
+        if (one.rest == R"j(, "points": [{}])j") {
+            EXPECT_THAT(shown(job.tables.at(0)), testing::IsSupersetOf({"column:m_N", "value:E", "U:E"}));
+        }
+    }
+}
+
 /// A row of 1 V is that of the point "1" only where it is the only one; rows that show the same are told apart by the names.
 TEST(BudgetTables, ShowTheNamesOfPointsThatTheirRowsDoNotTellApart) {
     struct Case {

@@ -340,6 +340,19 @@ TEST(BudgetCertificate, PlotsHaveAlternativeTexts) {
     EXPECT_THAT(render_html(test::sample_two_results_record(), assets()), HasSubstr("Residual / 10⁻³ K"));
 }
 
+/// The shares are those of the law: of a result of trials they are not what its uncertainty consists of.
+TEST(BudgetCertificate, SharesAreSaidToBeThoseOfTheLawWhereTrialsAreReported) {
+    EvaluationRecord r = test::sample_budget_record();
+    EXPECT_THAT(render_html(r, assets()), HasSubstr("What dominates the uncertainty of "));
+    r.results[0].reported = monte_carlo_result(50000203.0, 568.0, {49999020.0, 50000856.0}, 0.99, "vanishing");
+    print_reported(r.results[0].reported, r.results[0].unit);
+    const std::string html = render_html(r, assets());
+    EXPECT_THAT(html, Not(HasSubstr("What dominates")));
+    EXPECT_THAT(
+        html,
+        HasSubstr("by the law of propagation of uncertainty. The reported result is that of the Monte Carlo method."));
+}
+
 TEST(BudgetCertificate, HostileNamesAreShownAsTexts) {
     const auto with = [](const std::string& name) {
         EvaluationRecord r = test::sample_two_results_record();

@@ -630,6 +630,39 @@ TEST(CertificateSentences, OnContributionsNameWhatContributes) {
     }
 }
 
+/// A law: where trials are reported, every uncertain input that the result rests on is named, whatever its sensitivity
+/// coefficient is, and none on which it does not rest.
+TEST(CertificateSentences, OnContributionsNameWhatTrialsVaryWhereTheyAreReported) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        Draw draw(seed);
+        EvaluationRecord record = test::certified_budget_record();
+        Result& result = record.results.front();
+        const bool by_trials = !draw.one_in(3);
+        result.reported.method = by_trials ? "monte_carlo" : "law_of_propagation";
+        // The result names an equation of its own, and this names the inputs.
+        record.model.emplace();
+        std::string sum = "0.5e-3*1e2";
+        std::string expected;
+        bool first = true;
+        for (BudgetRow& row : result.budget) {
+            const bool named = first || !draw.one_in(3);
+            row.u.number = draw.one_in(4) && !first ? 0.0 : 1.0;
+            row.contribution.number = first ? 1.0 : 0.0;  // a cosine error: the coefficients vanish
+            sum += named ? " + cos(" + row.input + ")" : "";
+            if (first || (by_trials && named && row.u.number != 0.0)) {
+                expected += (expected.empty() ? "" : ", ") + row.input;
+            }
+            first = false;
+        }
+        record.model->equations = {result.quantity + " = length*2", "length = " + sum,
+                                   "other = e + " + result.quantity};
+        const std::vector<std::string> lines =
+            beginning(document_of_record(record).uncertainty, "Contributions considered: ");
+        ASSERT_EQ(lines.size(), 1U);
+        EXPECT_THAT(lines.front(), ::testing::StartsWith("Contributions considered: " + expected + ". ")) << sum;
+    }
+}
+
 TEST(CertificateSentences, OnMonteCarloSayHowManyTrialsEachValueHadAndWhatIsShown) {
     EvaluationRecord record = test::certified_budget_record();
     Result& first = record.results.front();

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gumcert::gum {
+
+/// What to write for a name that is no unit, where people write it for one: "rpm" for "RPM", "N m" for "Nm"; "" where nothing is near.
+/// The name alone is looked at, and stays refused: "MHZ" is nearer to MHz than to mHz only for people.
+/// Example: unit_meant("RPM") is "Write rpm."
+[[nodiscard]] std::string unit_meant(std::string_view name);
+
+}  // namespace gumcert::gum
