@@ -25,4 +25,36 @@ CertificateData data_of_section(const CertificateData& data, std::string_view se
     return own;
 }
 
+StatedBySections stated_by_sections(const CertificateData& data, const std::vector<CertifiedTable>& tables) {
+    const auto each_states = [&](const auto& states) {
+        return !tables.empty() && std::all_of(tables.begin(), tables.end(), [&](const CertifiedTable& table) {
+            return std::any_of(data.sections.begin(), data.sections.end(), [&](const SectionData& section) {
+                return section.section == table.section && states(section);
+            });
+        });
+    };
+    return {.item = data.item.serial_number.empty() && data.item.identification.empty() &&
+                    each_states([](const SectionData& section) { return section.item.has_value(); }),
+            .method = data.method.identification.empty() &&
+                      each_states([](const SectionData& section) { return section.method.has_value(); }),
+            .conditions = data.conditions.empty() &&
+                          each_states([](const SectionData& section) { return !section.conditions.empty(); })};
+}
+
+std::vector<const Item*> items_of(const CertificateData& data) {
+    std::vector<const Item*> items;
+    const auto says_nothing = [](const Item& item) {
+        return item.description.empty() && item.serial_number.empty() && item.identification.empty();
+    };
+    if (!says_nothing(data.item)) {
+        items.push_back(&data.item);
+    }
+    for (const SectionData& section : data.sections) {
+        if (section.item) {
+            items.push_back(&*section.item);
+        }
+    }
+    return items;
+}
+
 }  // namespace gumcert::certificate

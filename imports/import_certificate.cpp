@@ -288,7 +288,7 @@ public:
     }
 
     /// "Nominal value 0.5 mm, Serial number 40210, Point 10_V": the item, where the certificate has several, and what stands
-    /// in the row of a table; "" where there is neither.
+    /// in the row of a table; "" where there is neither. What was read before an adjustment says nothing of a result after it.
     [[nodiscard]] std::string place_of(const ImportedQuantity& q) const {
         std::string text;
         std::set<std::string> said;  // an item may be called by what stands in its row
@@ -307,13 +307,15 @@ public:
             return text;
         }
         for (const reports::ImportedWords& words : certificate_.words) {
-            if (words.table == q.table && *q.row < words.words.size()) {
+            if (words.table == q.table && *q.row < words.words.size() &&
+                reports::may_be_of_one_stage(q.before_adjustment, words.before_adjustment)) {
                 append((words.quantity.empty() ? "" : words.quantity + " ") + words.words[*q.row]);
             }
         }
         if (const auto found = beside_.find({q.table, *q.row}); found != beside_.end()) {
             for (const ImportedQuantity* other : found->second) {
-                if (other->quantity != q.quantity) {  // the same column once more, in another form
+                const bool once_more = other->quantity == q.quantity;  // the same column in another form
+                if (!once_more && reports::may_be_of_one_stage(q.before_adjustment, other->before_adjustment)) {
                     append((other->quantity.empty() ? other->name : other->quantity) + " " + with_unit(*other));
                 }
             }
@@ -410,6 +412,9 @@ std::string description_of(const ImportedQuantity& q, const std::string& place) 
     }
     if (q.row) {
         text += (text.empty() ? "" : ", ") + std::string("row ") + std::to_string(*q.row + 1);
+    }
+    if (q.before_adjustment) {
+        text += (text.empty() ? "" : ", ") + std::string(*q.before_adjustment ? "as found" : "as left");
     }
     return text + (place.empty() ? "" : " (" + place + ")");
 }

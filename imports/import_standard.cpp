@@ -61,13 +61,14 @@ public:
             return std::pair(entry.quantity->table, entry.quantity->column);
         };
         const auto begin = row->second.begin(), end = row->second.end();
-        const auto is_of_it = [&](const Entry& entry) {
-            return entry.quantity != &q && (q.before_adjustment || !entry.quantity->before_adjustment);
+        const auto is_beside = [&](const Entry& entry) {
+            return entry.quantity != &q &&
+                   reports::may_be_of_one_stage(q.before_adjustment, entry.quantity->before_adjustment);
         };
         const auto stated =
-            std::find_if(begin, end, [&](const Entry& entry) { return is_of_it(entry) && entry.type != k_set; });
+            std::find_if(begin, end, [&](const Entry& entry) { return is_beside(entry) && entry.type != k_set; });
         const auto set = std::find_if(begin, end, [&](const Entry& entry) {
-            return is_of_it(entry) && entry.type == k_set && !repeated_.contains(column_of(entry));
+            return is_beside(entry) && entry.type == k_set && !repeated_.contains(column_of(entry));
         });
         const bool is_known_by_it =
             stated == end || (repeated_.contains(column_of(*stated)) && seen_.at(column_of(*stated)).size() == 1);
@@ -217,7 +218,7 @@ ImportedJob import_standard(std::string_view bytes, const std::string& file, con
         if (input.contains("constant")) {
             continue;
         }
-        if (q.before_adjustment) {
+        if (q.before_adjustment == true) {
             before.push_back(name);
             continue;
         }

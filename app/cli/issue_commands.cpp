@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "app/cli/terminal/share_folder.h"
 #include "archive/printed_head.h"
 #include "certificate/gates/day_of_issue.h"
+#include "certificate/gates/gates.h"
 #include "certificate/gates/printed_languages.h"
 #include "evaluation/audit_evaluation.h"
 #include "evaluation/check_file.h"
@@ -29,9 +31,11 @@
 #include "outputs/output_files.h"
 #include "outputs/output_set.h"
 #include "reports/audit/audit_html.h"
+#include "reports/forms/document_forms.h"
 #include "reports/forms/record_sentences.h"
 #include "reports/forms/study_document.h"
 #include "reports/record/evaluation_record.h"
+#include "reports/view/named_tables.h"
 #include "text/visible_text.h"
 
 namespace gumcert::cli {
@@ -149,7 +153,7 @@ void print_written(const std::vector<outputs::OutputFile>& files) {
 
 /// A certificate that is dated later than today is not issued: reported here, and not in the record, which is the
 /// same on every day.
-/// Judges what the record cannot know: the day, and the languages that are asked for.
+/// Judges what the record cannot know: the day, the languages that are asked for, and the numbers of tables.
 void judge_issue(reports::EvaluationRecord& record, const std::vector<std::string>& languages,
                  const std::string& share) {
     if (!record.certificate) {
@@ -157,7 +161,15 @@ void judge_issue(reports::EvaluationRecord& record, const std::vector<std::strin
     }
     const bool too_early = certificate::block_issue_ahead_of_time(*record.certificate, today());
     const bool lacking = certificate::judge_printed_languages(*record.certificate, languages);
-    if (too_early || lacking) {  // what was found now has to be worded, too
+    std::vector<certificate::Finding> of_tables;
+    if (reports::names_tables_before_adjustment(*record.certificate)) {  // their numbers are those of the document
+        const reports::RenderAssets assets = render_assets(share, languages);
+        of_tables =
+            reports::findings_on_named_tables(*record.certificate, reports::view_of_document(record, assets),
+                                              languages.empty() ? record.certificate->data.languages : languages);
+        certificate::add_findings(*record.certificate, of_tables);
+    }
+    if (too_early || lacking || !of_tables.empty()) {  // what was found now has to be worded, too
         reports::identify_sentences(record, *reports::read_sentences(templates_folder(share)));
     }
 }

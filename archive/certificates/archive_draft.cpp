@@ -13,6 +13,7 @@
 #include "archive/printed_head.h"
 #include "certificate/dates.h"
 #include "certificate/gates/day_of_issue.h"
+#include "certificate/section_data.h"
 #include "encoding/sha2.h"
 #include "evaluation/read_file.h"
 #include "evaluation/recompute_record.h"
@@ -586,9 +587,9 @@ CheckedDraft checked_draft(const fs::path& record_file, const std::vector<fs::pa
     }
     const certificate::CertificateData& data = checked.record.certificate->data;
     checked.draft.number = data.number;
-    checked.draft.item = worded(data.item.description, data);
-    if (const std::string& serial = data.item.serial_number; !serial.empty()) {
-        checked.draft.item += ", " + serial;
+    for (const certificate::Item* item : certificate::items_of(data)) {
+        checked.draft.item += (checked.draft.item.empty() ? "" : "; ") + worded(item->description, data);
+        checked.draft.item += item->serial_number.empty() ? "" : ", " + item->serial_number;
     }
     CheckFindings findings;
     DocumentsOfRecord::require_as_written(record_file, checked.draft.record, findings);

@@ -5,6 +5,7 @@
 #include "certificate/dates.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
+#include "certificate/section_data.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "text/visible_text.h"
@@ -58,8 +59,12 @@ void laboratory_and_customer(FindingList& found, const CertificateData& data) {
     }
 }
 
-void method(FindingList& found, const CertificateData& data) {
+/// \param by_sections  a method that each section states passes this gate as that of the section
+void method(FindingList& found, const CertificateData& data, bool by_sections) {
     const Method& m = data.method;
+    if (by_sections) {
+        return;
+    }
     if (!is_method_identification(m.identification)) {
         found.item(k_critical, 'f', "/method/identification", "the method is not identified",
                    "State the identification of the procedure.");
@@ -84,7 +89,11 @@ void method(FindingList& found, const CertificateData& data) {
     }
 }
 
-void item(FindingList& found, const CertificateData& data, const Profile& profile) {
+/// \param by_sections  an item that each section states passes this gate as that of the section
+void item(FindingList& found, const CertificateData& data, bool by_sections) {
+    if (by_sections) {
+        return;
+    }
     if (!is_name(data.item.description)) {
         found.item(k_critical, 'g', "/item/description", "the description of the item is missing", "State it.");
     }
@@ -96,6 +105,9 @@ void item(FindingList& found, const CertificateData& data, const Profile& profil
         found.item(k_critical, 'g', "/item/condition", "the condition of the item on receipt is missing",
                    "State it; \"no damage seen\" is a condition.");
     }
+}
+
+void receipt(FindingList& found, const CertificateData& data, const Profile& profile) {
     if (data.dates.received.empty() && profile.receipt_date_mandatory) {
         found.item(k_major, 'h', "/dates/received",
                    "the date of receipt is missing, which the profile " + profile.id + " demands", "State it.");
@@ -223,8 +235,8 @@ void results(FindingList& found, const Certificate& certificate) {
     }
 }
 
-void conditions(FindingList& found, const CertificateData& data) {
-    if (data.conditions.empty()) {
+void conditions(FindingList& found, const CertificateData& data, bool by_sections) {
+    if (data.conditions.empty() && !by_sections) {
         found.critical("R07-4b", iso_17025("7.8.4.1 b"), "/conditions",
                        "the conditions that influence the results are missing", "State them as observed.");
     }
@@ -376,14 +388,16 @@ void waivers(FindingList& found, const CertificateData& data) {
 
 std::vector<Finding> completeness_findings(const Certificate& certificate) {
     const CertificateData& data = certificate.data;
+    const StatedBySections by_sections = stated_by_sections(data, certificate.tables);
     FindingList found(data);
     laboratory_and_customer(found, data);
-    method(found, data);
-    item(found, data, certificate.profile);
+    method(found, data, by_sections.method);
+    item(found, data, by_sections.item);
+    receipt(found, data, certificate.profile);
     dates(found, data);
     persons(found, data, certificate.profile);
     results(found, certificate);
-    conditions(found, data);
+    conditions(found, data, by_sections.conditions);
     adjustment(found, certificate);
     for (const auto& gate : {standard_findings, specification_findings}) {
         found.append(gate(certificate));

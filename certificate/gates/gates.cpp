@@ -34,6 +34,7 @@ void add_sections(const Certificate& certificate, std::vector<Finding>& all) {
         // The gates look at the section as if it were a certificate of its own, so that no rule is written twice. Kept
         // is only what belongs to what the section states itself; the rest was told for the certificate already.
         part.data = data_of_section(certificate.data, sections[i].section);
+        part.data.sections.clear();
         part.profile = certificate.profile;
         for (const CertifiedTable& table : certificate.tables) {
             if (table.section == sections[i].section) {

@@ -2,10 +2,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certificate/dates.h"
 #include "certificate/gates/finding_list.h"
 #include "certificate/gates/gates.h"
+#include "certificate/section_data.h"
 #include "certificate/stated_text.h"
 #include "certificate/text_words.h"
 #include "gum/argument_check.h"
@@ -103,28 +105,31 @@ void validity(FindingList& found, const StandardUsed& s, std::size_t i, const Da
     }
 }
 
+struct SameText {
+    const char* key;  ///< of the standard
+    std::string text, other;
+    const char* what;
+    FindingSeverity severity;
+};
+
 /// Texts of a standard that belong to something else of the certificate.
 void same_texts(FindingList& found, const CertificateData& data, const StandardUsed& s, std::size_t i) {
     const std::string issuer = s.issuer.in("en");
     const std::string body = data.accreditation ? data.accreditation->body.in("en") : std::string();
-    const struct {
-        const char* key;
-        const std::string& text;
-        std::string other;
-        const char* what;
-        FindingSeverity severity;
-    } all[] = {
-        {"certificate", s.certificate, data.item.serial_number, "the serial number of the item",
-         FindingSeverity::critical},
-        {"certificate", s.certificate, data.item.identification, "the serial number of the item",
-         FindingSeverity::critical},
+    std::vector<SameText> all{
         {"certificate", s.certificate, data.customer.order, "the order of the customer", FindingSeverity::critical},
         {"issuer", issuer, data.customer.name.in("en"), "the name of the customer", FindingSeverity::major},
         {"issuer", issuer, body, "the accreditation body", FindingSeverity::major},
-        {"name", s.name.in("en"), data.item.description.in("en"), "the description of the item",
-         FindingSeverity::minor},
     };
-    for (const auto& one : all) {
+    for (const Item* item : items_of(data)) {
+        for (const std::string* number : {&item->serial_number, &item->identification}) {
+            all.push_back(
+                {"certificate", s.certificate, *number, "the serial number of the item", FindingSeverity::critical});
+        }
+        all.push_back({"name", s.name.in("en"), item->description.in("en"), "the description of the item",
+                       FindingSeverity::minor});
+    }
+    for (const SameText& one : all) {
         if (is_stated(one.text) && letters_of(one.text) == letters_of(one.other)) {
             found.add(one.severity, "T08", iso_17025("6.5"), place_in("/standards", i, one.key),
                       named(s) + " has in " + one.key + " the same text as " + one.what,
@@ -143,7 +148,10 @@ void independence(FindingList& found, const CertificateData& data, const Standar
                        named(s) + " rests on this certificate itself, " + data.number,
                        "State the number of the certificate of the standard.");
     }
-    if (same(s.identification, data.item.serial_number) || same(s.identification, data.item.identification)) {
+    const std::vector<const Item*> items = items_of(data);
+    if (std::any_of(items.begin(), items.end(), [&](const Item* item) {
+            return same(s.identification, item->serial_number) || same(s.identification, item->identification);
+        })) {
         found.critical("T08", iso_17025("6.5"), place_in("/standards", i, "identification"),
                        named(s) + " has the identification of the item itself, " + s.identification,
                        "State the standard to which the item was compared.");

@@ -178,12 +178,12 @@ CellSum convolve(std::span<const Centred> distributions, double widest_grid, dou
     thread_local Eigen::FFT<double> transform;
     // The spectrum of a sum of independent quantities is the product of their spectra.
     std::vector<std::complex<double>> product;
+    std::vector<std::complex<double>> spectrum;
     for (const Centred& centred : distributions) {
-        std::vector<std::complex<double>> spectrum;
         transform.fwd(spectrum,
                       centred.symmetric ? cell_probabilities(centred.distribution, h) : asymmetric_cells(centred, h));
         if (product.empty()) {
-            product = std::move(spectrum);
+            product.swap(spectrum);
         } else {
             for (std::size_t i = 0; i < product.size(); ++i) {
                 product[i] *= spectrum[i];
@@ -649,6 +649,7 @@ struct CumulativeCells {
 
 CumulativeCells cumulative(const CellSum& sum) {
     CumulativeCells result{.h = sum.h, .upto = {}};
+    result.upto.reserve(k_convolution_cells);
     double total = 0.0;
     for (std::size_t i = 0; i < k_convolution_cells; ++i) {  // from k = 1 − n/2 on
         total += std::max(0.0, sum.cells[(i + 1 + k_convolution_cells / 2) % k_convolution_cells]);
@@ -728,6 +729,8 @@ GridDistribution::GridDistribution(std::vector<Centred> distributions) {
         return;
     }
     const CellSum sum = convolve(distributions, k_widest_grid);
+    others.reserve(static_cast<std::size_t>(
+        std::count_if(sum.cells.begin(), sum.cells.end(), [](double cell) { return cell > k_negligible_cell; })));
     double total = 0.0;
     for (std::size_t i = 0; i < k_convolution_cells; ++i) {
         if (sum.cells[i] > k_negligible_cell) {

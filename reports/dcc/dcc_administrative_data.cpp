@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "certificate/address_lines.h"
+#include "certificate/section_data.h"
 #include "reports/dcc/dcc_quantity.h"
 #include "reports/dcc/dcc_writer.h"
 #include "reports/view/certificate_conformity_section.h"
@@ -218,7 +219,12 @@ void items(DccWriter& w) {
         sections.empty() || std::any_of(sections.begin(), sections.end(), [&](const SectionSummary& section) {
             return w.item_id(section.name) == "item_1";
         });
-    item(w, w.data().item, is_of_results ? "item_1" : "");
+    const certificate::Item& of_all = w.data().item;
+    if (certificate::stated_by_sections(w.data(), w.all_tables()).item) {
+        w.optional_text("dcc:name", w.words().localised(of_all.description));
+    } else {
+        item(w, of_all, is_of_results ? "item_1" : "");
+    }
     for (const certificate::SectionData& section : w.data().sections) {
         if (section.item) {
             item(w, *section.item, w.item_id(section.section));
@@ -494,7 +500,7 @@ void statements(DccWriter& w) {
     decision_rules(w);
     w.statement("validity", words("sentence", "validity"));
     if (w.record().certificate) {
-        w.statement("only_item", words("statement", "only_item"));
+        w.statement("only_item", only_item_sentence(w.data(), words));
         if (w.record().certificate->profile.reproduction_sentence_mandatory) {
             w.statement("reproduction", words("statement", "reproduction"));
         }

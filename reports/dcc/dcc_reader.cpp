@@ -44,7 +44,7 @@ struct Context {
     std::size_t table = 0;
     /// That the next element around it refers to: one for all rows, or one a row. Null: none.
     std::shared_ptr<const std::vector<std::size_t>> items;
-    bool before_adjustment = false;
+    std::optional<bool> before_adjustment;
 };
 
 bool is_name_character(char c) {
@@ -654,7 +654,8 @@ void Reader::add_quantity(const XmlElement& quantity, const Context& context) {
     if (const XmlElement* const words = quantity.child("dcc:charsXMLList"); words != nullptr && context.table > 0) {
         out_.words.push_back({.table = context.table,
                               .quantity = first_content(quantity.child("dcc:name")),
-                              .words = xml_list(words->text)});
+                              .words = xml_list(words->text),
+                              .before_adjustment = context.before_adjustment});
     }
     for (const XmlElement& child : quantity.children) {
         const std::vector<Form> forms = forms_of(child);
@@ -733,7 +734,9 @@ void Reader::walk(const XmlElement& element, Context context) {
             context.role = role;
         }
     }
-    context.before_adjustment = is_before_adjustment(element).value_or(context.before_adjustment);
+    if (const std::optional<bool> own = is_before_adjustment(element)) {
+        context.before_adjustment = own;
+    }
     if (element.name == "dcc:list") {
         context.table = ++tables_;
     } else if (element.name == "dcc:metaData") {
@@ -754,7 +757,7 @@ void Reader::walk(const XmlElement& element, Context context) {
         return;
     }
     if (element.child("si:valueXMLList") != nullptr) {  // dcc:relativeUncertaintyXmlList
-        add_rows(element, {context.role, context.result, "relative_uncertainty", 0, nullptr},
+        add_rows(element, {context.role, context.result, "relative_uncertainty", 0, nullptr, context.before_adjustment},
                  xml_list_of_reals(element), {}, "a relative uncertainty of the quantity before");
         return;
     }
@@ -840,6 +843,10 @@ ImportedCertificate certificate_of(const XmlElement& root, std::string_view byte
 }
 
 }  // namespace
+
+bool may_be_of_one_stage(const std::optional<bool>& before_adjustment, const std::optional<bool>& other) {
+    return !before_adjustment || !other || *before_adjustment == *other;
+}
 
 ImportedCertificate read_dcc(std::string_view bytes, const std::string& file) {
     return certificate_of(read_dcc_root(bytes, file), bytes, file);

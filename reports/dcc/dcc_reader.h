@@ -39,8 +39,9 @@ struct ImportedQuantity : ImportedNumber {
     std::optional<std::size_t> row;  ///< in a list, from 0
     /// What the number is about, where the document has several items and refers to one: in ImportedCertificate::items
     std::optional<std::size_t> about;
-    bool before_adjustment = false;  ///< by dcc:status of its influence conditions, or of those of what it is part of
-    std::size_t table = 0;           ///< quantities of one dcc:list share a number; 0 outside of any
+    /// By dcc:status of its influence conditions, or of those of what it is part of; none: it does not say.
+    std::optional<bool> before_adjustment;
+    std::size_t table = 0;  ///< quantities of one dcc:list share a number; 0 outside of any
     std::vector<ImportedNumber> also;
     std::string remark;
     /// Whether the issuer says that it is inside of its accreditation (basic_isInCMC); none: it says nothing
@@ -51,11 +52,15 @@ struct ImportedQuantity : ImportedNumber {
     std::string conformity_declaration;  ///< what is declared beside it, in English where it is
 };
 
+/// Whether two numbers may belong together: not where one was found before an adjustment and the other after it.
+[[nodiscard]] bool may_be_of_one_stage(const std::optional<bool>& before_adjustment, const std::optional<bool>& other);
+
 /// A column of words beside columns of numbers, such as the names of the points.
 struct ImportedWords {
     std::size_t table = 0;  ///< as ImportedQuantity::table
     std::string quantity;
     std::vector<std::string> words;  ///< one a row
+    std::optional<bool> before_adjustment;
 };
 
 /// An item of a certificate, or a piece of a set.

@@ -165,7 +165,8 @@ const certificate::ShownColumn* shown_as(const CertifiedTable& table, const std:
 }
 
 /// Words, one a row; blanks would split them.
-void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type, std::vector<std::string> entries) {
+void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type, std::vector<std::string> entries,
+                    const std::string& stage = {}) {
     for (std::string& entry : entries) {
         std::string joined;
         for (const std::string& word : xml_list(entry)) {
@@ -176,6 +177,7 @@ void words_quantity(DccWriter& w, const Text& name, const std::string& ref_type,
     w.xml.open("dcc:quantity", {{"refType", ref_type}});
     w.text("dcc:name", name);
     w.xml.element("dcc:charsXMLList", full_list(entries));
+    write_stage(w, stage);
     w.xml.close();
 }
 
@@ -373,7 +375,7 @@ void point_column(DccWriter& w, const certificate::PointColumn& column) {
     const std::string own = "gumcert_" + as_token(column.name);
     const std::string ref_type = known.empty() ? own : known + " " + own;
     if (std::none_of(column.values.begin(), column.values.end(), [](const auto& v) { return v.has_value(); })) {
-        words_quantity(w, name, ref_type, column.printed);
+        words_quantity(w, name, ref_type, column.printed, column.stage);
         return;
     }
     std::vector<std::string> entries;

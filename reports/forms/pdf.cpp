@@ -63,9 +63,8 @@ std::string checked_pdf(const nlohmann::json& view, const RenderAssets& assets, 
                         PdfWorker& worker, const std::string& main) {
     const bool further_fonts = !assets.fonts.empty() && needs_further_fonts(view);
     std::string pdf = worker.set(with_pdf_keys(view, further_fonts, !dcc.empty()).dump(), dcc, further_fonts, main);
-    std::vector<gum::Diagnostic> findings = check_pdf(pdf, dcc);
+    auto [findings, pages] = check_and_read_pdf(pdf, dcc);
     if (findings.empty()) {
-        const std::vector<std::string> pages = texts_of_pages(pdf);
         findings = check_pages(pages, texts_of_every_page(view));
         if (findings.empty()) {
             findings = check_numbers(pages, view);

@@ -1,9 +1,13 @@
 #include "reports/forms/pdf_conformity.h"
 
+#include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/qpdf_objects.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <exception>
+#include <map>
 #include <memory>
 #include <new>
 #include <set>
@@ -38,9 +42,136 @@ std::string text_of(Object object) {
     return object.isString() ? object.getUTF8Value() : std::string();
 }
 
+/// Whether an object is an element of the structure in its plainest form: names, numbers, references, short texts, lists and
+/// dictionaries of them, no key twice, and none of the keys that Check asks for. Nineteen in twenty objects of a tagged
+/// document are such elements, and the reader takes most of its time for them. What is written in any other way, or not
+/// well, is left to it.
+class PlainElement {
+public:
+    /// \param bytes  of the file from the place of the object on
+    static bool is_at(std::string_view bytes, QPDFObjGen number) {
+        PlainElement element(bytes);
+        return element.takes(std::to_string(number.getObj())) && element.takes(std::to_string(number.getGen())) &&
+               element.takes("obj") && element.is_dictionary(0) && element.is_element_ && element.takes("endobj");
+    }
+
+private:
+    explicit PlainElement(std::string_view bytes) : rest_(bytes) {}
+
+    void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \n\r"), rest_.size())); }
+
+    static bool is_regular(char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
+               c == '_';
+    }
+
+    /// The regular characters that stand next, behind blanks; "" where there is none.
+    std::string_view word() {
+        skip_blanks();
+        std::size_t length = 0;
+        while (length < rest_.size() && is_regular(rest_[length])) {
+            ++length;
+        }
+        const std::string_view taken = rest_.substr(0, length);
+        rest_.remove_prefix(length);
+        return taken;
+    }
+    bool takes(std::string_view expected) { return word() == expected; }
+    bool takes_sign(std::string_view sign) {
+        skip_blanks();
+        const bool is_there = rest_.starts_with(sign);
+        rest_.remove_prefix(is_there ? sign.size() : 0);
+        return is_there;
+    }
+
+    bool is_dictionary(int depth) {
+        // An action, a font, a file or an image would be told by one of these.
+        static constexpr std::array<std::string_view, 9> k_asked_for{"Subtype", "EF",          "JS",     "AA", "XFA",
+                                                                     "F",       "Interpolate", "Filter", ""};
+        std::vector<std::string_view> keys;
+        if (!takes_sign("<<")) {
+            return false;
+        }
+        while (!takes_sign(">>")) {
+            if (!takes_sign("/")) {
+                return false;
+            }
+            const std::string_view key = word();
+            const auto is_key = [&](std::string_view other) { return key == other; };
+            if (std::any_of(k_asked_for.begin(), k_asked_for.end(), is_key) ||
+                std::any_of(keys.begin(), keys.end(), is_key) || (depth > 0 && (key == "Type" || key == "S"))) {
+                return false;
+            }
+            keys.push_back(key);
+            if (key == "Type") {
+                is_element_ = takes_sign("/") && takes("StructElem");
+                if (!is_element_) {
+                    return false;
+                }
+            } else if (!is_value(depth + 1)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool is_value(int depth) {
+        constexpr int k_deepest = 8;
+        skip_blanks();
+        if (rest_.empty() || depth > k_deepest) {
+            return false;
+        }
+        if (rest_.starts_with("<<")) {
+            return is_dictionary(depth);
+        }
+        if (takes_sign("[")) {
+            while (!takes_sign("]")) {
+                if (!is_value(depth + 1)) {
+                    return false;
+                }
+            }
+            return true;
+        }
+        if (takes_sign("/")) {
+            return !word().empty();
+        }
+        if (takes_sign("(")) {
+            const std::size_t end = rest_.find_first_of("()\\");
+            const bool is_text = end != std::string_view::npos && rest_[end] == ')';
+            rest_.remove_prefix(is_text ? end + 1 : 0);
+            return is_text;
+        }
+        return is_number(word());
+    }
+
+    /// A number; of a reference, three words: the others are taken, too.
+    bool is_number(std::string_view text) {
+        const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+        const std::size_t point = std::min(digits.find('.'), digits.size());
+        const auto are_digits = [](std::string_view part) {
+            return std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+        };
+        if (digits.size() <= (point < digits.size() ? 1U : 0U) || digits.size() > 20 ||
+            !are_digits(digits.substr(0, point)) || !are_digits(digits.substr(std::min(point + 1, digits.size())))) {
+            return false;
+        }
+        const std::string_view before = rest_;
+        const std::string_view generation = word();
+        if (generation.empty() || !are_digits(generation) || !takes("R")) {
+            rest_ = before;
+        }
+        return true;
+    }
+
+    std::string_view rest_;
+    bool is_element_ = false;
+};
+
 class Check {
 public:
     Check(std::string_view bytes, std::string_view attachment) : bytes_(bytes), attachment_(attachment) {}
+
+    [[nodiscard]] QPDF& pdf() { return pdf_; }
 
     std::vector<gum::Diagnostic> findings() {
         check_frame();
@@ -53,8 +184,13 @@ public:
             check_metadata(catalog);
             check_output_intent(catalog);
             check_reading(catalog);
-            for (Object& object : pdf_.getAllObjects()) {
-                check_object(object, 0);
+            for (const auto& [number, place] : pdf_.getXRefTable()) {
+                const bool has_place = place.getType() == 1 && place.getOffset() > 0 &&
+                                       static_cast<std::size_t>(place.getOffset()) < bytes_.size();
+                if (!has_place ||
+                    !PlainElement::is_at(bytes_.substr(static_cast<std::size_t>(place.getOffset())), number)) {
+                    check_object(pdf_.getObject(number), 0);
+                }
             }
             check_annotations();
             check_attachment(catalog);
@@ -162,6 +298,9 @@ private:
                 "GC-REPORT-0031", "not tagged", "a PDF/A-3a has the structure of its content");
     }
 
+    using Entries = std::map<std::string, Object>;
+
+    /// A document has thousands of objects, most of them of its structure: each is unpacked once.
     void check_object(Object object, int depth) {
         constexpr int k_deepest = 100;  // direct objects within each other; ours have less than ten
         if (depth > k_deepest) {
@@ -171,12 +310,12 @@ private:
                 check_direct(item, depth);
             }
         } else if (is_dictionary(object)) {
-            Object dictionary = dictionary_of(object);
-            check_dictionary(dictionary);
+            Entries entries = dictionary_of(object).getDictAsMap();
+            check_dictionary(entries);
             if (object.isStream()) {
-                check_filters(dictionary);
+                check_filters(entries);
             }
-            for (auto& [key, value] : dictionary.getDictAsMap()) {
+            for (auto& [key, value] : entries) {
                 check_direct(value, depth);
             }
         }
@@ -189,41 +328,52 @@ private:
         }
     }
 
-    void check_dictionary(Object dictionary) {
-        Object type = dictionary.getKey("/Type");
+    /// Null where it is not there, or is null, which is the same.
+    static Object entry(Entries& entries, const std::string& key) {
+        static const Object k_null = Object::newNull();
+        const auto found = entries.find(key);
+        return found == entries.end() ? k_null : found->second;
+    }
+    static bool has_entry(Entries& entries, const std::string& key) {
+        const auto found = entries.find(key);
+        return found != entries.end() && !found->second.isNull();
+    }
+
+    void check_dictionary(Entries& entries) {
+        Object type = entry(entries, "/Type");
         if (is_name(type, "/Font")) {
-            check_font(dictionary);
-        } else if (is_name(type, "/Filespec") || dictionary.hasKey("/EF")) {
-            check_file_specification(dictionary);
+            check_font(entries);
+        } else if (is_name(type, "/Filespec") || has_entry(entries, "/EF")) {
+            check_file_specification(entries);
         }
-        check_activity(dictionary, is_name(type, "/StructElem"));
-        Object interpolate = dictionary.getKey("/Interpolate");
+        check_activity(entries, is_name(type, "/StructElem"));
+        Object interpolate = entry(entries, "/Interpolate");
         require(!(interpolate.isBool() && interpolate.getBoolValue()), "GC-REPORT-0029", "an image is interpolated",
                 "images of a PDF/A-3 are shown as they are");
     }
 
-    void check_activity(Object dictionary, bool structure) {
+    void check_activity(Entries& entries, bool structure) {
         static const std::set<std::string> k_actions = {"/JavaScript",  "/Launch",    "/Movie",     "/Sound",
                                                         "/Rendition",   "/ResetForm", "/Hide",      "/ImportData",
                                                         "/SetOCGState", "/Trans",     "/GoTo3DView"};
         static const std::set<std::string> k_annotations = {"/RichMedia", "/Movie", "/Sound", "/Screen", "/3D"};
-        Object action = dictionary.getKey("/S");
+        Object action = entry(entries, "/S");
         if (!structure && action.isName() && k_actions.contains(action.getName())) {
             report("GC-REPORT-0028", "an action " + action.getName(), "a PDF/A-3 does nothing by itself");
         }
-        Object kind = dictionary.getKey("/Subtype");
+        Object kind = entry(entries, "/Subtype");
         if (kind.isName() && k_annotations.contains(kind.getName())) {
             report("GC-REPORT-0028", "an annotation " + kind.getName(), "a PDF/A-3 has no rich media");
         }
         for (const char* key : {"/JS", "/AA", "/XFA"}) {
-            if (dictionary.hasKey(key)) {
+            if (has_entry(entries, key)) {
                 report("GC-REPORT-0028", std::string("an entry ") + key, "a PDF/A-3 does nothing by itself");
             }
         }
     }
 
-    void check_filters(Object dictionary) {
-        Object filter = dictionary.getKey("/Filter");
+    void check_filters(Entries& entries) {
+        Object filter = entry(entries, "/Filter");
         std::vector<Object> filters = filter.isArray() ? filter.getArrayAsVector() : std::vector<Object>{filter};
         for (Object& one : filters) {
             if (is_name(one, "/LZWDecode") || is_name(one, "/LZW") || is_name(one, "/Crypt")) {
@@ -231,22 +381,22 @@ private:
                        "streams of a PDF/A-3 have no LZW and no encryption");
             }
         }
-        require(!dictionary.hasKey("/F") || is_name(dictionary.getKey("/Type"), "/EmbeddedFile"), "GC-REPORT-0029",
+        require(!has_entry(entries, "/F") || is_name(entry(entries, "/Type"), "/EmbeddedFile"), "GC-REPORT-0029",
                 "a stream is in another file", "a PDF/A-3 is complete by itself");
     }
 
-    void check_font(Object font) {
-        Object kind = font.getKey("/Subtype");
-        Object base = font.getKey("/BaseFont");
+    void check_font(Entries& font) {
+        Object kind = entry(font, "/Subtype");
+        Object base = entry(font, "/BaseFont");
         const std::string name = base.isName() ? base.getName() : std::string("/without a name");
         // A descendant font is checked as part of its Type0 font; a Type3 font consists of drawings.
         const bool descendant = is_name(kind, "/CIDFontType0") || is_name(kind, "/CIDFontType2");
-        if (!descendant && !font.hasKey("/ToUnicode")) {
+        if (!descendant && !has_entry(font, "/ToUnicode")) {
             report("GC-REPORT-0026", "the font " + name + " has no ToUnicode",
                    "every character of a PDF/A-3a can be read as Unicode");
         }
         if (is_name(kind, "/Type0")) {
-            Object descendants = font.getKey("/DescendantFonts");
+            Object descendants = entry(font, "/DescendantFonts");
             require(descendants.isArray() && descendants.getArrayNItems() == 1, "GC-REPORT-0026",
                     "a composite font without its one descendant", "fonts are complete");
             return;
@@ -254,7 +404,7 @@ private:
         if (is_name(kind, "/Type3")) {
             return;
         }
-        Object descriptor = font.getKey("/FontDescriptor");
+        Object descriptor = entry(font, "/FontDescriptor");
         const bool embedded = descriptor.isDictionary() && (descriptor.getKey("/FontFile").isStream() ||
                                                             descriptor.getKey("/FontFile2").isStream() ||
                                                             descriptor.getKey("/FontFile3").isStream());
@@ -263,12 +413,12 @@ private:
         }
     }
 
-    void check_file_specification(Object specification) {
-        require(!text_of(specification.getKey("/F")).empty() && !text_of(specification.getKey("/UF")).empty(),
+    void check_file_specification(Entries& specification) {
+        require(!text_of(entry(specification, "/F")).empty() && !text_of(entry(specification, "/UF")).empty(),
                 "GC-REPORT-0027", "an attachment without its name in /F and /UF", "an attachment has a name");
-        require(specification.getKey("/AFRelationship").isName(), "GC-REPORT-0027",
+        require(entry(specification, "/AFRelationship").isName(), "GC-REPORT-0027",
                 "an attachment without /AFRelationship", "a PDF/A-3 says how an attachment belongs to it");
-        Object streams = specification.getKey("/EF");
+        Object streams = entry(specification, "/EF");
         Object stream = streams.isDictionary() ? streams.getKey("/F") : Object::newNull();
         require(stream.isStream() && stream.getDict().getKey("/Subtype").isName(), "GC-REPORT-0027",
                 "an attachment without MIME type", "a PDF/A-3 says what an attachment is");
@@ -338,6 +488,15 @@ private:
 
 std::vector<gum::Diagnostic> check_pdf(std::string_view pdf, std::string_view attachment) {
     return Check(pdf, attachment).findings();
+}
+
+CheckedPdf check_and_read_pdf(std::string_view pdf, std::string_view attachment) {
+    Check check(pdf, attachment);
+    CheckedPdf checked{.findings = check.findings(), .page_texts = {}};
+    if (checked.findings.empty()) {
+        checked.page_texts = texts_of_pages(check.pdf());
+    }
+    return checked;
 }
 
 }  // namespace gumcert::reports

@@ -15,4 +15,12 @@ namespace gumcert::reports {
 /// \param attachment  bytes that the attachment must have; "" = there must be none
 [[nodiscard]] std::vector<gum::Diagnostic> check_pdf(std::string_view pdf, std::string_view attachment);
 
+struct CheckedPdf {
+    std::vector<gum::Diagnostic> findings;  ///< of check_pdf()
+    std::vector<std::string> page_texts;    ///< as of texts_of_pages(); none where there are findings
+};
+/// The check and the texts of the pages of a PDF that is read once for both.
+/// \throws as texts_of_pages()
+[[nodiscard]] CheckedPdf check_and_read_pdf(std::string_view pdf, std::string_view attachment);
+
 }  // namespace gumcert::reports

@@ -4,6 +4,8 @@
 #include "reports/forms/qpdf_objects.h"
 #include "text/utf8.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -174,7 +176,7 @@ CodeTexts code_texts(Object font, Unpacker& unpacker) {
     return texts;
 }
 
-bool is_left_out(const std::string& character) {
+bool is_left_out(std::string_view character) {
     return character == " " || character == std::string_view(&k_end_of_drawn_text, 1) || character == "\n" ||
            character == "\t" || character == "\u00A0" || character == "\u200B" || character == "\u202F" ||
            character == "-" || character == "\u00AD" || character == "\u2010" || character == "\u2011";
@@ -183,13 +185,16 @@ bool is_left_out(const std::string& character) {
 /// Without blanks and hyphens.
 std::string bare(const std::string& text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size();) {
+    out.reserve(text.size());
+    const std::string_view all = text;
+    for (std::size_t i = 0; i < all.size();) {
         std::size_t length = 1;
-        while (i + length < text.size() && text::is_continuation(text[i + length])) {
+        while (i + length < all.size() && text::is_continuation(all[i + length])) {
             ++length;
         }
-        const std::string character = text.substr(i, length);
-        out += is_left_out(character) ? "" : character;
+        if (const std::string_view character = all.substr(i, length); !is_left_out(character)) {
+            out += character;
+        }
         i += length;
     }
     return out;
@@ -378,10 +383,9 @@ std::string without_blanks(const std::string& text) {
     return bare(text);
 }
 
-std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
-    QPDF pdf;
-    pdf.setSuppressWarnings(true);
-    pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
+namespace {
+
+std::vector<std::string> drawn_texts_of(QPDF& pdf) {
     Unpacker unpacker;
     Fonts fonts(unpacker);
     std::vector<std::string> texts;
@@ -397,6 +401,20 @@ std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
         }
     }
     return texts;
+}
+
+std::vector<std::string> bare_texts(std::vector<std::string> texts) {
+    std::transform(texts.begin(), texts.end(), texts.begin(), bare);
+    return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> drawn_texts_of_pages(std::string_view bytes) {
+    QPDF pdf;
+    pdf.setSuppressWarnings(true);
+    pdf.processMemoryFile("PDF", bytes.data(), bytes.size());
+    return drawn_texts_of(pdf);
 }
 
 std::vector<TextBesideDrawn> texts_beside_drawn(std::string_view bytes) {
@@ -422,9 +440,11 @@ std::vector<TextBesideDrawn> texts_beside_drawn(std::string_view bytes) {
 }
 
 std::vector<std::string> texts_of_pages(std::string_view bytes) {
-    std::vector<std::string> texts = drawn_texts_of_pages(bytes);
-    std::transform(texts.begin(), texts.end(), texts.begin(), bare);
-    return texts;
+    return bare_texts(drawn_texts_of_pages(bytes));
+}
+
+std::vector<std::string> texts_of_pages(QPDF& pdf) {
+    return bare_texts(drawn_texts_of(pdf));
 }
 
 gum::Diagnostic missing_on_a_page(const std::string& where, const std::string& text) {

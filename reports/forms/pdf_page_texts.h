@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+class QPDF;
+
 namespace gumcert::reports {
 
 /// The text of every page of a PDF as a reader copies it, by the ToUnicode maps of its fonts, in the order in which it
@@ -17,6 +19,8 @@ namespace gumcert::reports {
 ///                        unpacks to more than 32 MiB, all of them to more than 1 GiB, or the text is longer than 256 MiB;
 ///                        std::bad_alloc says nothing of the file
 [[nodiscard]] std::vector<std::string> texts_of_pages(std::string_view pdf);
+/// The same of a file that was read already.
+[[nodiscard]] std::vector<std::string> texts_of_pages(QPDF& pdf);
 
 /// Behind every text that is drawn by itself: a cell of a table, a word, a part of a number.
 inline constexpr char k_end_of_drawn_text = '\x1F';

@@ -34,19 +34,9 @@ Text person_text(const std::optional<certificate::Person>& person, const Wording
     return function.empty() ? Text(person->name) : person->name + ", " + function;
 }
 
-Text item_in_one_line(const certificate::Item& item, const Wording& words) {
-    Text text = words.localised(item.description);
-    for (const std::string* part : {&item.manufacturer, &item.type, &item.serial_number, &item.identification}) {
-        if (!part->empty()) {
-            text += text.empty() ? Text(*part) : Text(", " + *part);
-        }
-    }
-    return text;
-}
-
 void add_certificate_facts(Facts& facts, const Wording& words, const CertificateData& data) {
     add_fact(facts, words("certificate", "number"), data.number);
-    add_fact(facts, words("heading", "item"), item_in_one_line(data.item, words));
+    add_fact(facts, words("heading", "item"), items_in_one_line(data, words));
     add_fact(facts, words("certificate", "customer"), words.localised(data.customer.name));
     add_fact(facts, words("certificate", "order"), data.customer.order);
     add_fact(facts, words("certificate", "performed"), from_to(data.dates.performed_from, data.dates.performed_to));

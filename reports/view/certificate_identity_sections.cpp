@@ -1,9 +1,11 @@
 #include "reports/view/certificate_identity_sections.h"
 
 #include "certificate/address_lines.h"
+#include "certificate/section_data.h"
 #include "reports/point_headings.h"
 #include "reports/printable_text.h"
 #include "reports/printed_texts.h"
+#include "reports/record/record_sections.h"
 #include "reports/view/certificate_conformity_section.h"
 #include "reports/view/certificate_uncertainty_section.h"
 #include "reports/view/certificate_view.h"
@@ -154,9 +156,35 @@ json accreditation_symbol(const Certificate& certificate, const Wording& words) 
 
 namespace {
 
-void item_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+/// Description, manufacturer, type and numbers of an item, marked where the customer stated them.
+Text item_in_one_line(const certificate::Item& item, const Wording& words) {
+    Text text = item_text(item, "description", words.localised(item.description));
+    for (const auto& [key, part] : {std::pair("manufacturer", &item.manufacturer),
+                                    {"type", &item.type},
+                                    {"serial_number", &item.serial_number},
+                                    {"identification", &item.identification}}) {
+        if (!part->empty()) {
+            text += (text.empty() ? Text() : Text(", ")) + item_text(item, key, *part);
+        }
+    }
+    return text;
+}
+
+void item_section(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
+    const CertificateData& data = record.certificate->data;
     builder.section("item");
     Facts rows = item_facts(words, data.item);
+    if (certificate::stated_by_sections(data, record.certificate->tables).item) {
+        // What is stated of all of them, then each one in a line; its other facts stand with its results.
+        std::erase_if(rows, [](const auto& fact) { return fact.second.empty(); });
+        for (const SectionSummary& section : record.sections) {
+            for (const certificate::SectionData& own : data.sections) {
+                if (own.section == section.name && own.item) {
+                    rows.emplace_back(words.localised(title_of(section)), item_in_one_line(*own.item, words));
+                }
+            }
+        }
+    }
     builder.definitions(rows);
     for (const certificate::SectionData& section : data.sections) {
         if (section.item) {
@@ -360,7 +388,7 @@ void authorisation_section(CertificateBuilder& builder, const Wording& words, co
 }
 
 json foot(const Certificate& certificate, const Wording& words) {
-    json lines = json::array({line(words("statement", "only_item"), words)});
+    json lines = json::array({line(only_item_sentence(certificate.data, words), words)});
     if (certificate.profile.reproduction_sentence_mandatory) {
         lines.push_back(line(words("statement", "reproduction"), words));
     }
@@ -484,6 +512,20 @@ Facts item_facts(const Wording& words, const certificate::Item& item) {
     return rows;
 }
 
+Text items_in_one_line(const CertificateData& data, const Wording& words) {
+    Text text;
+    for (const certificate::Item* item : certificate::items_of(data)) {
+        certificate::Item unmarked = *item;
+        unmarked.stated_by_customer.clear();
+        text += (text.empty() ? Text() : Text("; ")) + item_in_one_line(unmarked, words);
+    }
+    return text;
+}
+
+Text only_item_sentence(const CertificateData& data, const Wording& words) {
+    return words("statement", certificate::items_of(data).size() > 1 ? "only_items" : "only_item");
+}
+
 Text item_text(const certificate::Item& item, const std::string& key, const Text& text) {
     const auto& marked = item.stated_by_customer;
     const bool by_customer = std::find(marked.begin(), marked.end(), key) != marked.end();
@@ -502,7 +544,7 @@ Text amendment_sentence(const certificate::Amendment& amendment, const Wording& 
 nlohmann::json identity_page(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const Certificate& certificate = *record.certificate;
     const CertificateData& data = certificate.data;
-    item_section(builder, words, data);
+    item_section(builder, words, record);
     customer_section(builder, words, data.customer);
     dates_section(builder, words, data);
     summary_section(builder, words, record);

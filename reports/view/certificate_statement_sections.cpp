@@ -1,6 +1,7 @@
 #include "reports/view/certificate_statement_sections.h"
 
 #include "certificate/result_names.h"
+#include "certificate/section_data.h"
 #include "gum/quantity/unit.h"
 #include "reports/deviations.h"
 #include "reports/plots/certified_plots.h"
@@ -226,10 +227,19 @@ void add_deviations(Facts& rows, const Wording& words, std::vector<Text> deviati
     }
 }
 
-void method_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+/// \param by_sections  each section states its own
+void method_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data, bool by_sections) {
     builder.section("method_used");
-    Facts rows = method_facts(words, data.method);
-    add_deviations(rows, words, deviations_in_words(words, data), data.method.no_deviations);
+    Facts rows;
+    std::vector<Text> deviations = deviations_in_words(words, data);
+    if (by_sections) {
+        rows.emplace_back(words("certificate", "method"), words("certificate", "with_each_section"));
+    } else {
+        rows = method_facts(words, data.method);
+    }
+    if (!by_sections || !deviations.empty()) {
+        add_deviations(rows, words, std::move(deviations), data.method.no_deviations);
+    }
     rows.emplace_back(words("certificate", "sampling"),
                       data.sampling.empty() ? words("certificate", "not_applicable") : words.localised(data.sampling));
     if (data.persons.performed_by) {
@@ -319,10 +329,11 @@ void conditions_table(CertificateBuilder& builder, const Wording& words, const s
     builder.table(id, words("statement", "conditions_table"), columns, lines);
 }
 
-void conditions_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data) {
+void conditions_section(CertificateBuilder& builder, const Wording& words, const CertificateData& data,
+                        bool by_sections) {
     builder.section("conditions");
     if (data.conditions.empty()) {
-        builder.paragraph(words("statement", "no_conditions"));
+        builder.paragraph(words("statement", by_sections ? "conditions_with_sections" : "no_conditions"));
     } else {
         conditions_table(builder, words, "conditions", data.conditions);
     }
@@ -408,9 +419,10 @@ void all_findings(CertificateBuilder& builder, const Wording& words, const Certi
 
 void method_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {
     const CertificateData& data = record.certificate->data;
-    method_section(builder, words, data);
+    const certificate::StatedBySections by_sections = certificate::stated_by_sections(data, record.certificate->tables);
+    method_section(builder, words, data, by_sections.method);
     traceability_section(builder, words, data);
-    conditions_section(builder, words, data);
+    conditions_section(builder, words, data, by_sections.conditions);
 }
 
 void result_sections(CertificateBuilder& builder, const Wording& words, const EvaluationRecord& record) {

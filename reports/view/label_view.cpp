@@ -1,6 +1,7 @@
 #include "reports/view/label_view.h"
 
 #include "certificate/dates.h"
+#include "certificate/section_data.h"
 #include "reports/printable_text.h"
 #include "reports/view/certificate_identity_sections.h"
 
@@ -21,13 +22,30 @@ constexpr std::array<const char*, 12> k_months = {"january",   "february", "marc
                                                   "may",       "june",     "july",     "august",
                                                   "september", "october",  "november", "december"};
 
-/// "SN-1001, INV-55": what tells the item from others of its kind; else what it is.
+/// "SN-1001, INV-55": what tells an item from others of its kind; else what it is.
 std::string item_on_label(const certificate::Item& item, const Wording& words) {
     std::string text = item.serial_number;
     if (!item.identification.empty()) {
         text += (text.empty() ? "" : ", ") + item.identification;
     }
     return text.empty() ? words.localised(item.description).first() : text;
+}
+
+/// That of the certificate, or the items of its sections, as many as are still read on a label.
+std::string items_on_label(const certificate::Certificate& certificate, const Wording& words) {
+    const certificate::CertificateData& data = certificate.data;
+    if (!certificate::stated_by_sections(data, certificate.tables).item) {
+        return item_on_label(data.item, words);
+    }
+    constexpr std::size_t k_most = 3;
+    std::string text;
+    std::size_t count = 0;
+    for (const certificate::SectionData& section : data.sections) {
+        if (section.item && ++count <= k_most) {
+            text += (text.empty() ? "" : "; ") + item_on_label(*section.item, words);
+        }
+    }
+    return count > k_most ? text + " \u2026" : text;
 }
 
 }  // namespace
@@ -62,7 +80,7 @@ json label_view(const EvaluationRecord& record, const Wording& words) {
     const auto row = [](const Text& label, const std::string& value) {
         return json{{"label", label.first()}, {"value", printable(value)}};
     };
-    json rows = json::array({row(words("label_on_item", "item"), item_on_label(data.item, words)),
+    json rows = json::array({row(words("label_on_item", "item"), items_on_label(*record.certificate, words)),
                              row(words("label_on_item", "certificate"), data.number)});
     const std::string& performed =
         data.dates.performed_to.empty() ? data.dates.performed_from : data.dates.performed_to;

@@ -39,5 +39,38 @@ TEST(SectionData, OfASectionThatStatesNothingAreThoseOfTheCertificate) {
     }
 }
 
+// A set of instruments has an item, a method and conditions a section, and none of the whole.
+TEST(SectionData, OfEachSectionStandForThoseOfTheWhole) {
+    CertificateData data = two_sections();
+    const std::vector<CertifiedTable> of_ac{
+        {.id = "results", .section = "AC", .argument = {}, .layout = {}, .columns = {}}};
+    std::vector<CertifiedTable> of_both = of_ac;
+    of_both.push_back(of_ac.front());
+    of_both.back().section = "DC";
+    EXPECT_FALSE(stated_by_sections(data, of_ac).method) << "the certificate states one";
+    data.item.serial_number.clear();
+    data.item.description = "Set of two";
+    data.method = {};
+    data.conditions.clear();
+    EXPECT_FALSE(stated_by_sections(data, of_ac).item);
+    EXPECT_FALSE(stated_by_sections(data, of_ac).conditions);
+    EXPECT_TRUE(stated_by_sections(data, of_ac).method);
+    EXPECT_FALSE(stated_by_sections(data, of_both).method) << "DC states none";
+    EXPECT_FALSE(stated_by_sections(data, {}).method);
+    data.sections[0].item.emplace().serial_number = "SN-2";
+    data.sections[0].conditions.emplace_back().unit = "degC";
+    EXPECT_TRUE(stated_by_sections(data, of_ac).item);
+    EXPECT_TRUE(stated_by_sections(data, of_ac).conditions);
+    data.sections.push_back(data.sections[0]);
+    data.sections[1].section = "DC";
+    EXPECT_TRUE(stated_by_sections(data, of_both).item);
+    ASSERT_EQ(items_of(data).size(), 3U);
+    EXPECT_EQ(items_of(data)[1]->serial_number, "SN-2");
+    data.item.identification = "INV-1";
+    EXPECT_FALSE(stated_by_sections(data, of_both).item) << "the set has a number of its own";
+    data.item = {};
+    EXPECT_EQ(items_of(data).size(), 2U);
+}
+
 }  // namespace
 }  // namespace gumcert::certificate

@@ -219,6 +219,38 @@ TEST(ImportCertificate, CarriesTheRowOfATable) {
     EXPECT_EQ(imported.remarks[1].what, "2 results without uncertainty are left out");
 }
 
+/// A reading before an adjustment stands in the same row as the result after it, and says nothing of it.
+TEST(ImportCertificate, TellsAResultByWhatIsOfItsStage) {
+    const auto of_stage = [](std::string quantity, const std::string& status) {
+        quantity.insert(quantity.rfind("</dcc:quantity>"),
+                        "<dcc:influenceConditions><dcc:influenceCondition><dcc:name><dcc:content>stage</dcc:content>"
+                        "</dcc:name><dcc:status>" +
+                            status +
+                            "</dcc:status><dcc:data><dcc:text><dcc:content>stage</dcc:content></dcc:text></dcc:data>"
+                            "</dcc:influenceCondition></dcc:influenceConditions>");
+        return quantity;
+    };
+    const auto words = [](const std::string& name, const std::string& all) {
+        return "<dcc:quantity><dcc:name><dcc:content>" + name + "</dcc:content></dcc:name><dcc:charsXMLList>" + all +
+               "</dcc:charsXMLList></dcc:quantity>";
+    };
+    const ImportedJob imported = import_certificate(
+        with_quantities("<dcc:list>" + column("Setting", "20 40", "\\metre", "") +
+                        of_stage(column("Reference", "20.4 40.3", "\\metre", ""), "beforeAdjustment") +
+                        of_stage(words("Remark", "worn worn"), "beforeAdjustment") +
+                        of_stage(column("Error", "0.4 0.3", "\\metre", "0.1", "basic_measurementError", "e_f"),
+                                 "beforeAdjustment") +
+                        of_stage(column("Measured", "20.1 40.0", "\\metre", ""), "afterAdjustment") +
+                        of_stage(column("Deviation", "0.1 0.0", "\\metre", "0.1", "basic_measurementError", "e_l"),
+                                 "afterAdjustment") +
+                        "</dcc:list>"),
+        "a.xml");
+    const nlohmann::json inputs = nlohmann::json::parse(imported.job)["inputs"];
+    ASSERT_EQ(inputs.size(), 4U) << imported.job;
+    EXPECT_EQ(inputs["e_f_1"]["description"], "Error, row 1, as found (Remark worn, Setting 20 m, Reference 20.4 m)");
+    EXPECT_EQ(inputs["e_l_2"]["description"], "Deviation, row 2, as left (Setting 40 m, Measured 40.0 m)");
+}
+
 TEST(ImportCertificate, RemarksTheSameOfAColumnOnce) {
     const ImportedJob imported =
         import_certificate(with_quantities("<dcc:list>" + column("A", "1 2 3", "|quux", "0.1") +

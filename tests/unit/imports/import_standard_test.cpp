@@ -250,6 +250,13 @@ TEST(ImportStandard, ResultsBeforeAnAdjustmentAreNoValuesOfTheStandard) {
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0]["value"], 0.1);
     EXPECT_THAT(imported.remarks, testing::Contains(testing::Field(&gum::Diagnostic::code, "GC-LAB-0022")));
+    // Where there is no nominal value, that of the reference is taken: the one beside the result.
+    const std::string type = "basic_referenceValue";
+    const ImportedJob by_reference =
+        import_list(list_of(type + " gumcert_f", "1 51", "\\kelvin", "", "beforeAdjustment") +
+                    list_of(type + " gumcert_l", "2 52", "\\kelvin", "", "afterAdjustment") +
+                    list_of("e_l", "0.1 0.2", "\\kelvin", "0.01 0.02", "afterAdjustment"));
+    EXPECT_EQ(nlohmann::json::parse(by_reference.job)["calibrations"][0]["results"][0]["nominal"], 2);
     EXPECT_THROW((void)import_list(nominal + list_of("e_f", "0.5 0.6", "\\kelvin", "0.01 0.02", "beforeAdjustment")),
                  gum::InputError);
 }

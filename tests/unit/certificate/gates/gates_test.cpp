@@ -100,6 +100,39 @@ TEST(Gates, CompareNamesOfPersonsAlike) {
     }
 }
 
+// Items of sections are looked at one by one; the certificate needs none beside them.
+TEST(Gates, TakeItemsMethodsAndConditionsOfSectionsForThoseOfTheWhole) {
+    Certificate c = passed_certificate();
+    c.tables.push_back(c.tables[0]);
+    c.tables[0].section = "A";
+    c.tables[0].columns.erase(c.tables[0].columns.begin() + 1);
+    c.tables[1].section = "B";
+    c.tables[1].columns.erase(c.tables[1].columns.begin());
+    for (const char* name : {"A", "B"}) {
+        SectionData& section = c.data.sections.emplace_back();
+        section.section = name;
+        section.item = c.data.item;
+        section.item->serial_number = "SN-2" + std::string(name);
+        section.method = c.data.method;
+        section.conditions = c.data.conditions;
+    }
+    c.data.item = {};
+    c.data.method = {};
+    c.data.conditions.clear();
+    pass_gates(c);
+    EXPECT_THAT(ids(c.findings), testing::IsEmpty());
+    Certificate one_without = c;
+    one_without.data.sections[1].item->serial_number.clear();
+    one_without.data.sections[1].item->identification.clear();
+    pass_gates(one_without);
+    ASSERT_THAT(ids(one_without.findings), testing::ElementsAre("R07-g"));
+    EXPECT_EQ(one_without.findings[0].where, "/sections/1/item/serial_number");
+    c.data.sections[1].item.reset();
+    pass_gates(c);
+    EXPECT_THAT(ids(c.findings), testing::Each("R07-g"));
+    EXPECT_EQ(c.findings.size(), 3U) << "description, number and condition of the whole";
+}
+
 TEST(Gates, NeverBlockASpecimen) {
     Certificate c = passed_certificate();
     c.data.status = "specimen";

@@ -1,11 +1,14 @@
 #include "reports/forms/pdf_conformity.h"
+#include "reports/forms/pdf_page_texts.h"
 #include "reports/forms/qpdf_objects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gumcert::reports {
@@ -196,6 +199,52 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     return text.replace(at, from.size(), to);
+}
+
+std::string with_element(const std::string& element) {
+    Sample sample;
+    Object made = sample.pdf.makeIndirectObject(Object::parse(element));
+    sample.root.getKey("/StructTreeRoot").replaceKey("/K", Object::newArray({made}));
+    return sample.bytes();
+}
+
+// Elements of the structure in their plainest form are not read one by one; in any other form they are.
+TEST(PdfConformity, ElementsOfTheStructureDoNothing) {
+    const std::string begin = "<< /Type /StructElem /S /TD /K [1 2 -3.5] /ID (element-7) ";
+    for (const char* plain : {">>", "/A [<< /O /Layout /Placement /Block /BorderColor [0 0 .5] >> << /O /Table >>] >>",
+                              "/Alt (an \\(other\\) text) >>", "/K2 << /Type /MCR /MCID 3 >> >>"}) {
+        EXPECT_THAT(codes(with_element(begin + plain)), testing::IsEmpty()) << plain;
+    }
+    for (const auto& [active, code] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"/AA << >> >>", "GC-REPORT-0028"},
+             {"/A << /O /Layout /JS (x) >> >>", "GC-REPORT-0028"},
+             {"/A [[<< /S /JavaScript >>]] >>", "GC-REPORT-0028"},
+             {"/A << /Subtype /RichMedia >> >>", "GC-REPORT-0028"},
+             {"/Interpolate true >>", "GC-REPORT-0029"},
+             {"/EF << >> >>", "GC-REPORT-0027"},
+             {"/A << /Type /Font /Subtype /Type1 /ToUnicode 0 >> >>", "GC-REPORT-0026"}}) {
+        const std::vector<std::string> found = codes(with_element(begin + active));
+        ASSERT_FALSE(found.empty()) << active;
+        EXPECT_THAT(found[0], testing::StartsWith(code)) << active;
+    }
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string bytes = with_element(begin + ">>");
+        return codes(bytes.replace(bytes.find(from), from.size(), to));
+    };
+    EXPECT_THAT(changed("/ID (element-7)", "/#4aS (ment-7) "), testing::Contains(testing::StartsWith("GC-REPORT-0028")))
+        << "a name may be written otherwise";
+    EXPECT_THAT(changed("(element-7)", "(element-7 "), testing::Contains(testing::StartsWith("GC-REPORT-0020")));
+    EXPECT_THAT(changed("/ID (element-7)", "/S /TH /A null "), testing::Contains(testing::StartsWith("GC-REPORT-0020")))
+        << "a key that is there twice";
+}
+
+TEST(PdfConformity, TextsAreThoseOfThePages) {
+    Sample sample;
+    const std::string bytes = sample.bytes();
+    const CheckedPdf checked = check_and_read_pdf(bytes, k_attachment);
+    EXPECT_THAT(checked.findings, testing::IsEmpty());
+    EXPECT_EQ(checked.page_texts, texts_of_pages(bytes));
+    EXPECT_THAT(check_and_read_pdf(bytes, "").page_texts, testing::IsEmpty());
 }
 
 TEST(PdfConformity, DamagedBytesAreFound) {

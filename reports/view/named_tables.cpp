@@ -1,0 +1,160 @@
+#include "reports/view/named_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "text/small_letters.h"
+
+namespace gumcert::reports {
+
+namespace {
+
+using nlohmann::json;
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// The number that begins at `at`, which is moved behind it.
+std::optional<std::size_t> number_at(std::string_view text, std::size_t& at) {
+    std::size_t number = 0;
+    const auto read = std::from_chars(text.data() + at, text.data() + text.size(), number);
+    if (read.ec != std::errc()) {
+        return std::nullopt;
+    }
+    at = static_cast<std::size_t>(read.ptr - text.data());
+    return number;
+}
+
+/// One of these words at a place, which is moved behind it.
+template <std::size_t n>
+bool skip_word(std::string_view text, std::size_t& at, const std::array<std::string_view, n>& words) {
+    for (const std::string_view word : words) {
+        if (text.substr(at).starts_with(word)) {
+            at += word.size();
+            return true;
+        }
+    }
+    return false;
+}
+
+void skip_blanks(std::string_view text, std::size_t& at) {
+    static constexpr std::array<std::string_view, 3> k_blanks{" ", "\u00a0", "\u202f"};
+    while (skip_word(text, at, k_blanks)) {
+    }
+}
+
+// The longer one of two words that begin alike comes first.
+constexpr std::array<std::string_view, 9> k_tables{"tables", "table", "tabellen", "tabelle", "tablas",
+                                                   "tabla",  "表格",  "附表",     "表"};
+constexpr std::array<std::string_view, 15> k_between{"and", "und", "to", "bis", "y", "e", "a", "及",
+                                                     "與",  "和",  "至", "、",  ",", "-", "–"};
+/// What says that a table may be one of another document.
+constexpr std::array<std::string_view, 16> k_documents{
+    "certificate", "report",   "annex",    "appendix", "schein", "zertifikat", "bericht", "anhang",
+    "anlage",      "document", "dokument", "informe",  "anexo",  "證書",       "報告",    "附件"};
+
+/// Numbers of the tables with results in the view of a document.
+std::vector<std::size_t> tables_with_results(const json& view) {
+    std::vector<std::size_t> numbers;
+    for (const json& section : view.at("sections")) {
+        const std::string& id = section.at("id").get_ref<const std::string&>();
+        if (section.at("kind") == "annex" || id == "findings" || id == "traceability" || id == "conditions" ||
+            id == "amendment") {
+            continue;
+        }
+        for (const json& block : section.at("blocks")) {
+            for (const json& table : block.at("table")) {
+                const std::string& number = table.at("number").get_ref<const std::string&>();
+                std::size_t at = number.find_first_of("0123456789");
+                const bool of_conditions = table.at("id").get_ref<const std::string&>().starts_with("conditions");
+                if (at != std::string::npos && !of_conditions) {
+                    numbers.push_back(number_at(number, at).value_or(0));
+                }
+            }
+        }
+    }
+    return numbers;
+}
+
+}  // namespace
+
+std::vector<std::size_t> own_tables_named(std::string_view words) {
+    const std::string text = text::in_small_letters(words);
+    for (const std::string_view document : k_documents) {
+        if (text.find(document) != std::string::npos) {
+            return {};
+        }
+    }
+    std::vector<std::size_t> named;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        if (is_digit(text[at])) {
+            return {};
+        }
+        if (!skip_word(text, at, k_tables)) {
+            ++at;
+            continue;
+        }
+        skip_blanks(text, at);
+        // "Tables 2, 3 and 5": what stands between two numbers is a word of the list, and belongs to it only then.
+        std::size_t next = at;
+        while (const std::optional<std::size_t> number = number_at(text, next)) {
+            named.push_back(*number);
+            at = next;
+            skip_blanks(text, next);
+            skip_word(text, next, k_between);
+            skip_blanks(text, next);
+            skip_word(text, next, k_tables);
+            skip_blanks(text, next);
+            if (next == at) {
+                break;
+            }
+        }
+    }
+    return named;
+}
+
+bool names_tables_before_adjustment(const certificate::Certificate& certificate) {
+    if (!certificate.data.adjustment || !certificate.data.adjustment->adjusted) {
+        return false;
+    }
+    const certificate::LocalisedText& where = certificate.data.adjustment->as_found;
+    return !own_tables_named(where.plain).empty() ||
+           std::any_of(where.by_language.begin(), where.by_language.end(),
+                       [](const auto& one) { return !own_tables_named(one.second).empty(); });
+}
+
+std::vector<certificate::Finding> findings_on_named_tables(const certificate::Certificate& certificate,
+                                                           const nlohmann::json& view,
+                                                           const std::vector<std::string>& languages) {
+    if (!names_tables_before_adjustment(certificate)) {
+        return {};
+    }
+    const std::vector<std::size_t> there = tables_with_results(view);
+    for (const std::string& language : languages) {
+        for (const std::size_t number : own_tables_named(certificate.data.adjustment->as_found.in(language))) {
+            if (there.empty() || std::find(there.begin(), there.end(), number) != there.end()) {
+                continue;
+            }
+            const auto [first, last] = std::minmax_element(there.begin(), there.end());
+            const std::string named =
+                "the results before the adjustment are said to stand in table " + std::to_string(number) + ", and ";
+            return {{.id = "R07-4d",
+                     .clause = "ISO/IEC 17025:2017, 7.8.4.1 d",
+                     .severity = certificate::FindingSeverity::critical,
+                     .where = "/adjustment/as_found",
+                     .what = *first == *last
+                                 ? named + "table " + std::to_string(*first) + " has the results of this certificate"
+                                 : named + "tables " + std::to_string(*first) + " to " + std::to_string(*last) +
+                                       " have the results of this certificate",
+                     .action = "Name the table that has them, or the certificate with its number."}};
+        }
+    }
+    return {};
+}
+
+}  // namespace gumcert::reports
