@@ -283,8 +283,12 @@ std::optional<double> parse_number(const CsvCell& cell, std::string_view column,
     if (error != std::errc{} || !whole) {
         if (text.find(',') != std::string_view::npos &&
             text.find_first_not_of("0123456789,.+-eE \xC2\xA0") == std::string_view::npos) {
-            return refuse(k_csv_decimal_comma, "numbers have a decimal point and no thousands separators",
-                          "write it with a decimal point and without separators");
+            return decimal_comma
+                       ? refuse(k_csv_decimal_comma,
+                                "the numbers of this table have decimal commas and no other separators",
+                                "write it with one comma and without separators")
+                       : refuse(k_csv_decimal_comma, "numbers have a decimal point and no thousands separators",
+                                "write it with a decimal point and without separators");
         }
         std::string action = "correct the value";
         if (text.front() == ' ' || text.back() == ' ' || text.front() == '\t' || text.back() == '\t') {
@@ -533,7 +537,10 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
     }
     const std::size_t problems_before = problems.refusals();
     Storage storage;
-    Scanner scanner(*text, storage, problems);
+    // A matrix has no header: a semicolon in it separates columns, and a comma beside it is that of a number.
+    const char separator = text->find(';') == std::string_view::npos ? ',' : ';';
+    const bool decimal_comma = separator == ';' && text->find(',') != std::string_view::npos;
+    Scanner scanner(*text, storage, problems, separator);
     std::vector<CsvCell> fields;
     const auto size = static_cast<Eigen::Index>(order);
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
@@ -558,7 +565,7 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
             continue;
         }
         for (std::size_t i = 0; i < order; ++i) {
-            if (const auto value = parse_number(fields[i], "", range, problems)) {
+            if (const auto value = parse_number(fields[i], "", range, problems, decimal_comma)) {
                 matrix(static_cast<Eigen::Index>(rows - 1), static_cast<Eigen::Index>(i)) = *value;
             }
         }

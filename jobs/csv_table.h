@@ -88,7 +88,7 @@ private:
                                                      std::span<const std::string_view> optional, ProblemList& problems,
                                                      const CsvLimits& limits = {});
 
-/// Reads a square matrix of numbers without a header.
+/// Reads a square matrix of numbers without a header. Semicolons may separate its columns, with decimal commas or points.
 ///
 /// \param order  number of rows and columns that it must have, at least 1
 /// \param unit   of its elements, for messages
