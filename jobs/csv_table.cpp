@@ -426,6 +426,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
                       "the column " + text::in_quotes(cell.text) + " is not used", "columns are known by their names",
                       nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "remove it if it is not needed");
     }
+    table.unused_ = std::move(unknown);
 
     std::size_t row_count = 0;
     while (!scanner.at_end()) {
@@ -457,6 +458,16 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         return std::nullopt;
     }
     return table;
+}
+
+std::vector<std::string_view> CsvTable::missing_columns() const {
+    std::vector<std::string_view> missing;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (!positions_[i]) {
+            missing.push_back(names_[i]);
+        }
+    }
+    return missing;
 }
 
 const CsvCell& CsvTable::cell(std::size_t row, std::size_t column) const {
