@@ -390,6 +390,11 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
         remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
     }
     std::vector<std::string> converted;
+    if (any_item(comparison, [](const gum::ItemResult& item) {
+            return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
+        })) {
+        converted.emplace_back("X");
+    }
     for (const gum::ScoredResult& result : comparison.results) {
         const std::string& id = job.participants[result.participant].id;
         if (result.of_scores && std::find(converted.begin(), converted.end(), id) == converted.end()) {

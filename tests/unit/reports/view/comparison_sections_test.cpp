@@ -126,6 +126,39 @@ TEST(ComparisonReport, FirstPageSaysWhatTheSignOfADifferenceMeansAndWhatUStandsF
     EXPECT_THAT(answer_of(record), HasSubstr("coverage probability of 95.45 %"));
 }
 
+TEST(ComparisonReport, FirstPageSaysWhichProbabilityUOfADifferenceHas) {
+    for (EvaluationRecord record : samples()) {
+        record.coverage_probability.text = "95.45 %";
+        record.comparison->score_probability = 0.9545;
+        EXPECT_THAT(answer_of(record), Not(HasSubstr("Expanded uncertainties of differences")));
+        record.coverage_probability.text = "99.00 %";
+        EXPECT_THAT(answer_of(record), HasSubstr(squeezed("Expanded uncertainties of differences for a coverage "
+                                                          "probability of 95.45 %, as Eₙ takes them")));
+        for (const std::string& language : k_languages) {
+            EXPECT_THAT(answer_of(record, language),
+                        HasSubstr(language == "de" || language == "es" ? "95,45" : "95.45"))
+                << language;
+        }
+    }
+}
+
+TEST(ComparisonReport, FirstPageNamesTheAssignedValueWhoseFactorIsNotTaken) {
+    EvaluationRecord record = one_item(6);
+    for (ComparisonPoint& point : record.comparison->points) {
+        point.U_of_scores = {};
+    }
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.method = "given";
+    item.reference_participant = "";
+    item.U_rests_on = "statement";
+    item.U_of_scores = {};
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+    item.U_of_scores = {0.13, "0.13"};
+    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factors of X are those of another"));
+    item.U_rests_on = "scatter";
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+}
+
 TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNothing) {
     EvaluationRecord record = one_item(6);
     ComparisonItemEvaluation& item = record.comparison->items[0];
