@@ -142,6 +142,15 @@ TEST(ComparisonReport, FirstPageSaysWhichProbabilityUOfADifferenceHas) {
     }
 }
 
+TEST(ComparisonReport, NamesTheLimitOfThePowerThatDecides) {
+    // gum::k_least_power_to_confirm is 0.92.
+    EvaluationRecord record = test::sample_methods_record();
+    record.comparison->summary[0].power_to_confirm = {0.905, "90.5 %"};
+    for (const std::string& language : k_languages) {
+        EXPECT_THAT(text_of(record, language), HasSubstr(" 92 %")) << language;
+    }
+}
+
 TEST(ComparisonReport, FirstPageNamesTheAssignedValueWhoseFactorIsNotTaken) {
     EvaluationRecord record = one_item(6);
     for (ComparisonPoint& point : record.comparison->points) {
