@@ -241,12 +241,14 @@ void Application::posterior() {
         measured_.distribution ? width_of_normal(largest_risk_) : measured_.standard_uncertainty);
     if (measured_.distribution) {
         solved = posterior_zone(solved);
-        if (posterior_->rests_on_tail(y_.value)) {
-            contradicts_ = true;
-            take_as_normal();
-        }
-        if (contradicts_) {
-            cannot("population and measurement contradict each other");
+        if (contradicts_ || posterior_->rests_on_tail(y_.value)) {
+            // What a tail says of both together is no knowledge: the measurement is left, and judges as without a rule
+            // that applies.
+            with_prior_ = false;
+            decision_.note.clear();
+            cannot(
+                "population and measurement contradict each other, and probabilities are those of the measurement "
+                "alone");
         }
     }
     if (solved) {
@@ -529,7 +531,7 @@ bool Application::trials_leave_open(double risk) const {
 /// conformity (ISO 14253-1). Rules with zones of rejection or a probability to prove have their own; with any other one
 /// y ± U lies outside of the tolerance.
 bool Application::nonconformity_is_proven() {
-    if (zones_ == Zones::by_proof || (with_prior_ && !contradicts_)) {
+    if (zones_ == Zones::by_proof || with_prior_) {
         return proven_on_one_side(1.0 - largest_risk_);
     }
     if (!decision_.rejection.lower && !decision_.rejection.upper) {
@@ -615,7 +617,7 @@ void Application::explain() {
     add_sentence(decision_.note, decision_rule_id(rule_) +
                                      (fails ? " accepts no value here: " : " cannot be applied: ") + reason_ + ".");
     if (fails) {
-        const bool by_U = zones_ == Zones::two || (zones_ == Zones::by_risk && (!with_prior_ || contradicts_));
+        const bool by_U = zones_ == Zones::two || (zones_ == Zones::by_risk && !with_prior_);
         add_sentence(decision_.note, by_U ? "Nonconformity is proven all the same: y ± U lies outside of the limits."
                                           : "Nonconformity is proven all the same: the value lies where the rule "
                                             "rejects.");

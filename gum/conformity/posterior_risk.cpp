@@ -118,7 +118,7 @@ PosteriorRisk::Masses PosteriorRisk::masses_at(double value) const {
 }
 
 bool PosteriorRisk::rests_on_tail(double value) const {
-    constexpr double k_share = 0.01;
+    constexpr double k_share = 0.1;
     if (offsets_.empty()) {
         return false;
     }
