@@ -918,6 +918,11 @@ TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {
     EXPECT_EQ(rows_of(view, "bias").size(), c.summary.size());
     EXPECT_THAT(text_of(record), HasSubstr("the reference is not better than the method"));
     EXPECT_EQ(view["type"], "Calibration certificate");
+    EXPECT_THAT(text_of(record), Not(HasSubstr("Expanded uncertainties of differences")));
+    ASSERT_FALSE(c.points.empty());
+    c.points[0].U_of_scores = {0.12, "0.12"};
+    EXPECT_THAT(text_of(record), HasSubstr(squeezed("Expanded uncertainties of differences for a coverage probability "
+                                                    "of 95.45 %, as Eₙ takes them")));
 }
 
 }  // namespace
