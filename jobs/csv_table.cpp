@@ -283,8 +283,12 @@ std::optional<double> parse_number(const CsvCell& cell, std::string_view column,
     if (error != std::errc{} || !whole) {
         if (text.find(',') != std::string_view::npos &&
             text.find_first_not_of("0123456789,.+-eE \xC2\xA0") == std::string_view::npos) {
-            return refuse(k_csv_decimal_comma, "numbers have a decimal point and no thousands separators",
-                          "write it with a decimal point and without separators");
+            return decimal_comma
+                       ? refuse(k_csv_decimal_comma,
+                                "the numbers of this table have decimal commas and no other separators",
+                                "write it with one comma and without separators")
+                       : refuse(k_csv_decimal_comma, "numbers have a decimal point and no thousands separators",
+                                "write it with a decimal point and without separators");
         }
         std::string action = "correct the value";
         if (text.front() == ' ' || text.back() == ' ' || text.front() == '\t' || text.back() == '\t') {
@@ -422,6 +426,7 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
                       "the column " + text::in_quotes(cell.text) + " is not used", "columns are known by their names",
                       nearest ? "did you mean \"" + std::string{*nearest} + "\"?" : "remove it if it is not needed");
     }
+    table.unused_ = std::move(unknown);
 
     std::size_t row_count = 0;
     while (!scanner.at_end()) {
@@ -453,6 +458,16 @@ std::optional<CsvTable> read_csv_table(std::string bytes, std::span<const std::s
         return std::nullopt;
     }
     return table;
+}
+
+std::vector<std::string_view> CsvTable::missing_columns() const {
+    std::vector<std::string_view> missing;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (!positions_[i]) {
+            missing.push_back(names_[i]);
+        }
+    }
+    return missing;
 }
 
 const CsvCell& CsvTable::cell(std::size_t row, std::size_t column) const {
@@ -533,7 +548,10 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
     }
     const std::size_t problems_before = problems.refusals();
     Storage storage;
-    Scanner scanner(*text, storage, problems);
+    // A matrix has no header: a semicolon in it separates columns, and a comma beside it is that of a number.
+    const char separator = text->find(';') == std::string_view::npos ? ',' : ';';
+    const bool decimal_comma = separator == ';' && text->find(',') != std::string_view::npos;
+    Scanner scanner(*text, storage, problems, separator);
     std::vector<CsvCell> fields;
     const auto size = static_cast<Eigen::Index>(order);
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
@@ -558,7 +576,7 @@ std::optional<Eigen::MatrixXd> read_csv_matrix(const std::string& bytes, std::si
             continue;
         }
         for (std::size_t i = 0; i < order; ++i) {
-            if (const auto value = parse_number(fields[i], "", range, problems)) {
+            if (const auto value = parse_number(fields[i], "", range, problems, decimal_comma)) {
                 matrix(static_cast<Eigen::Index>(rows - 1), static_cast<Eigen::Index>(i)) = *value;
             }
         }

@@ -40,6 +40,10 @@ struct CsvCell {
 class CsvTable {
 public:
     [[nodiscard]] std::size_t rows() const noexcept { return width_ == 0 ? 0 : cells_.size() / width_; }
+    /// The columns that were asked for and are not there.
+    [[nodiscard]] std::vector<std::string_view> missing_columns() const;
+    /// Headers of the columns that nobody asked for; each was warned of.
+    [[nodiscard]] std::span<const CsvCell> unused_columns() const noexcept { return unused_; }
     /// False when ragged rows were refused and left out.
     [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
     [[nodiscard]] bool has_column(std::size_t column) const { return positions_[column].has_value(); }
@@ -76,6 +80,7 @@ private:
     std::size_t width_ = 0;                              ///< columns of the file
     bool is_complete_ = true;
     bool decimal_comma_ = false;  ///< of its numbers; columns are separated by semicolons then
+    std::vector<CsvCell> unused_;
     std::vector<CsvCell> cells_;  ///< row by row
 };
 
@@ -88,7 +93,7 @@ private:
                                                      std::span<const std::string_view> optional, ProblemList& problems,
                                                      const CsvLimits& limits = {});
 
-/// Reads a square matrix of numbers without a header.
+/// Reads a square matrix of numbers without a header. Semicolons may separate its columns, with decimal commas or points.
 ///
 /// \param order  number of rows and columns that it must have, at least 1
 /// \param unit   of its elements, for messages

@@ -183,8 +183,8 @@ inline constexpr InputCode k_warn_step_passed{"GC-WARN-0016",
 inline constexpr InputCode k_warn_range_of_no_point{"GC-WARN-0017", "the accuracy of a range that no point has"};
 inline constexpr InputCode k_warn_point_not_shown{"GC-WARN-0018", "a specified point whose row a table does not name"};
 inline constexpr InputCode k_warn_roles_without_points{"GC-WARN-0019", "roles of quantities in a job without points"};
-inline constexpr InputCode k_warn_small_coverage_factor{"GC-WARN-0021",
-                                                        "a coverage factor below 1, perhaps a coverage probability"};
+inline constexpr InputCode k_warn_unusual_coverage_factor{"GC-WARN-0021",
+                                                          "a coverage factor that is perhaps a coverage probability"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_input_codes{k_file_too_large,

@@ -115,6 +115,21 @@ const char* score_symbol(const std::string& score) {
     return score == "z_prime" ? "z'" : score == "D" ? "P_A %" : score.c_str();
 }
 
+/// "action (D)": a signal, and who gives it where that is not the score beside it.
+std::string signal_in_words(const reports::ComparisonPoint& point, const std::string& score) {
+    const std::vector<std::string>& by = point.signal_by;
+    if (by.empty() || std::find(by.begin(), by.end(), score) != by.end()) {
+        return point.signal;
+    }
+    std::string names;
+    for (const std::string& name : by) {
+        names += (names.empty() ? "" : ", ") + std::string(name == "En_audited" ? "En with findings corrected"
+                                                           : name == "En_worst" ? "En for the worst correlation"
+                                                                                : score_symbol(name));
+    }
+    return point.signal + " (" + names + ")";
+}
+
 void print_names(const char* what, const std::vector<std::string>& names) {
     constexpr std::size_t k_most_names = 30;
     if (!names.empty()) {
@@ -163,7 +178,7 @@ void print_item(const reports::Comparison& comparison, const reports::Comparison
             print_to_stdout("   {} {:>6}", score_symbol(item.score), deciding_score(point, item.score));
         }
         print_to_stdout(
-            "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + point.signal,
+            "{}{}\n", point.signal == "none" || point.signal.empty() ? "" : "   " + signal_in_words(point, item.score),
             reports::agreement_is_open(point) ? "   " + point.En_worst.text + " for the worst correlation" : "");
     }
     if (left_out > 0) {
@@ -226,7 +241,8 @@ const char* verdict_text(const std::string& verdict, bool lacks_degrees) {
            : verdict == "agreement_reference_limited" ? "agreement, limited by the uncertainty of the reference"
            : verdict == "uncertainty_too_large" ? "agreement, but the uncertainties are larger than the differences"
            : verdict == "reference_not_better"  ? "no contradiction; the reference is not better than the method"
-           : verdict == "correlation_unknown"   ? "agreement only if both methods share nothing"
+           : verdict == "correlation_unknown"
+               ? "no contradiction if both methods share nothing; with what they may share it cannot be said"
            : verdict == "agreement_few_points" ? "agreement; too few points to tell whether the uncertainties are right"
            : verdict == "uncertainty_not_confirmed" ? "agreement; whether the uncertainties are right cannot be told"
            : verdict == "joint_test_open"           ? "no verdict: whether chance explains all differences is open"

@@ -162,8 +162,8 @@ enum class AgreementVerdict {
 /// "Validated" is a test of equivalence: both a U of the method that should be twice as large and one that should be
 /// half as large must be refuted, each with an error of 5 % (the largest share of such methods that are validated).
 /// It is asked for only where a right U passes it with this power, and so is validated nine times in ten together with
-/// the limits on single points: with a good reference that takes 14 or 15 independent points, because the sum of
-/// squares of fewer scatters too much.
+/// the limits on single points: that takes 13 to 15 independent points with a reference that is four times better or
+/// more, and 18 with one that is three times better, because the sum of squares of fewer scatters too much.
 inline constexpr double k_error_of_confirmation = 0.05;
 inline constexpr double k_least_power_to_confirm = 0.92;
 /// \param worst_plausible_en  largest |E_n| for the worst plausible correlation; nothing where r is known

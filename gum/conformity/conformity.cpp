@@ -66,7 +66,13 @@ private:
 
     [[nodiscard]] bool nonconformity_is_proven();
     [[nodiscard]] bool proven_on_one_side(double probability) const;
-    [[nodiscard]] std::optional<ToleranceLimits> posterior_zone(const std::optional<ToleranceLimits>& normal) const;
+    void take_as_normal();
+    [[nodiscard]] std::optional<ToleranceLimits> posterior_limits_of_normal(double u) const;
+    [[nodiscard]] std::optional<ToleranceLimits> posterior_zone(const std::optional<ToleranceLimits>& normal);
+    [[nodiscard]] std::optional<ToleranceLimits> without_tails(ToleranceLimits zone,
+                                                               const std::optional<ToleranceLimits>& normal,
+                                                               double accepted, double low, double high);
+    [[nodiscard]] double before_tail(double accepted, double limit) const;
     [[nodiscard]] bool trials_leave_open(double risk) const;
     [[nodiscard]] double width_of_normal(double risk) const;
     [[nodiscard]] bool at_most(double a, double b) const;
@@ -87,6 +93,7 @@ private:
     bool with_prior_ = false;
     MeasuredValue measured_;                  // with_prior_: what is combined with the population
     std::optional<PosteriorRisk> posterior_;  // with_prior_
+    bool contradicts_ = false;                // with_prior_: only a tail of the measurement meets the population
     std::string reason_;                      // why the rule cannot be applied, or no value can pass
     ConformityDecision decision_;
 };
@@ -226,18 +233,47 @@ void Application::posterior() {
     if (std::isfinite(y_.degrees_of_freedom) || has_long_tails(y_)) {
         // Tails that fall off more slowly than those of the population let it speak for any value far outside of the
         // limits. The normal distribution that is as wide at the risk of the rule does not.
-        measured_ = {.value = y_.value,
-                     .standard_uncertainty = width_of_normal(largest_risk_),
-                     .expanded_uncertainty = y_.expanded_uncertainty};
-        add_sentence(
-            decision_.note,
-            "The measurement is taken as normally distributed, as wide as its own distribution at the risk of the "
-            "rule.");
+        take_as_normal();
+    } else {
+        posterior_.emplace(measured_, limits_, *population_);
     }
+    std::optional<ToleranceLimits> solved = posterior_limits_of_normal(
+        measured_.distribution ? width_of_normal(largest_risk_) : measured_.standard_uncertainty);
+    if (measured_.distribution) {
+        solved = posterior_zone(solved);
+        if (contradicts_ || posterior_->rests_on_tail(y_.value)) {
+            // What a tail says of both together is no knowledge: the measurement is left, and judges as without a rule
+            // that applies.
+            with_prior_ = false;
+            decision_.note.clear();
+            cannot(
+                "population and measurement contradict each other, and probabilities are those of the measurement "
+                "alone");
+        }
+    }
+    if (solved) {
+        decision_.acceptance = *solved;
+        decision_.guard_band =
+            std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
+                     limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
+    }
+    decision_.formula =
+        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+}
+
+void Application::take_as_normal() {
+    measured_ = {.value = y_.value,
+                 .standard_uncertainty = width_of_normal(largest_risk_),
+                 .expanded_uncertainty = y_.expanded_uncertainty};
+    add_sentence(decision_.note,
+                 "The measurement is taken as normally distributed, as wide as its own distribution at the risk of the "
+                 "rule.");
     posterior_.emplace(measured_, limits_, *population_);
-    // Prior and normal measurement give a normal distribution whose value is a weighted mean: its limits, taken back to
-    // values that a measurement shows. Of another measurement they say where to look.
-    const double u = measured_.standard_uncertainty;
+}
+
+/// Limits of the values that a normal measurement with u may show. Prior and normal measurement give a normal
+/// distribution whose value is a weighted mean: its limits, taken back to values that a measurement shows.
+std::optional<ToleranceLimits> Application::posterior_limits_of_normal(double u) const {
     const double s0 = population_->deviation;
     const double weight = s0 * s0 / (s0 * s0 + u * u);
     const MeasuredValue after{.value = population_->centre + weight * (y_.value - population_->centre),
@@ -251,22 +287,56 @@ void Application::posterior() {
             }
         }
     }
-    if (measured_.distribution) {
-        solved = posterior_zone(solved);
+    return solved;
+}
+
+/// The farthest value towards a limit for which no tail decides.
+double Application::before_tail(double accepted, double limit) const {
+    constexpr int k_bisections = 60;
+    if (!posterior_->rests_on_tail(limit)) {
+        return limit;
     }
-    if (solved) {
-        decision_.acceptance = *solved;
-        decision_.guard_band =
-            std::max(limits_.lower ? *solved->lower - *limits_.lower : -std::numeric_limits<double>::infinity(),
-                     limits_.upper ? *limits_.upper - *solved->upper : -std::numeric_limits<double>::infinity());
+    for (int i = 0; i < k_bisections; ++i) {
+        const double middle = 0.5 * (accepted + limit);
+        (posterior_->rests_on_tail(middle) ? limit : accepted) = middle;
     }
-    decision_.formula =
-        "pass: 1 − " + in_tolerance() + " ≤ R with the population as prior; R = " + text::shortest(largest_risk_);
+    return accepted;
+}
+
+/// Accepted values as far as the measurement tells. On the long side of a skewed distribution only its farthest tail
+/// may set a limit, or none at all: then it lies where that tail begins, or where a normal distribution as wide at the
+/// risk of the rule has it, whichever is nearer.
+/// \param normal     limits of that distribution
+/// \param accepted   a value that no tail decides
+/// \param low, high  where the search ended
+std::optional<ToleranceLimits> Application::without_tails(ToleranceLimits zone,
+                                                          const std::optional<ToleranceLimits>& normal, double accepted,
+                                                          double low, double high) {
+    const bool open_below = zone.lower && (*zone.lower <= low || posterior_->rests_on_tail(*zone.lower));
+    const bool open_above = zone.upper && (*zone.upper >= high || posterior_->rests_on_tail(*zone.upper));
+    if (!open_below && !open_above) {
+        return zone;
+    }
+    if (!normal) {
+        return std::nullopt;
+    }
+    if (open_below) {
+        zone.lower = std::max(before_tail(accepted, *zone.lower), *normal->lower);
+        contradicts_ = contradicts_ || y_.value < *zone.lower;
+    }
+    if (open_above) {
+        zone.upper = std::min(before_tail(accepted, *zone.upper), *normal->upper);
+        contradicts_ = contradicts_ || y_.value > *zone.upper;
+    }
+    add_sentence(decision_.note,
+                 "An acceptance limit that only the farthest tail of the measurement would set lies where that tail "
+                 "begins, or where a normal distribution as wide at the risk of the rule has it.");
+    return zone;
 }
 
 /// DR-09, method 4, of a measurement that is not normal: the accepted values around y, or around the best one.
-/// \param normal  limits that a normal measurement with the same u would have
-std::optional<ToleranceLimits> Application::posterior_zone(const std::optional<ToleranceLimits>& normal) const {
+/// \param normal  limits of a normal measurement that is as wide at the risk
+std::optional<ToleranceLimits> Application::posterior_zone(const std::optional<ToleranceLimits>& normal) {
     const double u = y_.standard_uncertainty;
     const double low = std::min(limits_.lower.value_or(*limits_.upper - 8.0 * u),
                                 normal && normal->lower ? *normal->lower : std::numeric_limits<double>::infinity()) -
@@ -275,11 +345,11 @@ std::optional<ToleranceLimits> Application::posterior_zone(const std::optional<T
                                  normal && normal->upper ? *normal->upper : -std::numeric_limits<double>::infinity()) +
                         4.0 * u;
     double best = y_.value;
-    double least = risk_of(best);
+    double least = posterior_->rests_on_tail(best) ? 1.0 : risk_of(best);
     constexpr int k_tried = 32;
     for (int i = 0; least > largest_risk_ && i <= k_tried; ++i) {
         const double s = low + (high - low) * i / k_tried;
-        if (const double risk = risk_of(s); risk < least) {
+        if (const double risk = risk_of(s); risk < least && !posterior_->rests_on_tail(s)) {
             least = risk;
             best = s;
         }
@@ -291,7 +361,7 @@ std::optional<ToleranceLimits> Application::posterior_zone(const std::optional<T
         accepted_around([&](double s) { return risk_of(s); }, largest_risk_, best, low, high, y_.value);
     zone.lower = limits_.lower ? zone.lower : std::nullopt;
     zone.upper = limits_.upper ? zone.upper : std::nullopt;
-    return zone;
+    return without_tails(zone, normal, best, low, high);
 }
 
 void Application::z540_3() {

@@ -11,9 +11,11 @@ namespace gumcert::gum {
 namespace {
 
 constexpr int k_parts = 2048;
-constexpr double k_no_tail = 1e-12;      // what is left out of the measurement on either side
-constexpr double k_widest = 1e9;         // [u], of a distribution whose tails do not end
-constexpr double k_least_mass = 1e-280;  // of the product: below it prior and measurement exclude each other
+constexpr double k_no_tail = 1e-12;          // what is left out of the measurement on either side
+constexpr double k_widest = 1e9;             // [u], of a distribution whose tails do not end
+constexpr double k_unknown_tail = 1e-9;      // of a distribution: no model is right so far out
+constexpr double k_trials_that_tell = 30.0;  // in a tail of trials
+constexpr double k_least_mass = 1e-280;      // of the product: below it prior and measurement exclude each other
 
 /// How far the measurement reaches from its value, either side alike, in terms of u.
 double reach_of(const MeasuredValue& y) {
@@ -81,13 +83,11 @@ OutsideProbabilities PosteriorRisk::of_normal(double value) const {
             limits_.upper ? one_sided({.upper = limits_.upper}) : 0.0};
 }
 
-OutsideProbabilities PosteriorRisk::at(double value) const {
-    if (offsets_.empty()) {
-        return of_normal(value);
-    }
+PosteriorRisk::Masses PosteriorRisk::masses_at(double value) const {
+    const double tail = y_.trials > 0.0 ? std::max(k_unknown_tail, k_trials_that_tell / y_.trials) : k_unknown_tail;
     const NormalMass prior(population_);
-    OutsideProbabilities outside;
-    double all = 0.0;
+    Masses masses;
+    OutsideProbabilities& outside = masses.outside;
     double a = value + offsets_.front();
     double tail_a = prior.tail(a);
     double under_a = under_.front();
@@ -95,7 +95,8 @@ OutsideProbabilities PosteriorRisk::at(double value) const {
     const auto add = [&](double b, double under_b) {
         const double tail_b = prior.tail(b);
         const double mass = a < b ? (under_b - under_a) * prior.between(a, tail_a, b, tail_b) / (b - a) : 0.0;
-        all += mass;
+        masses.all += mass;
+        masses.in_tail += under_b < tail || under_a > 1.0 - tail ? mass : 0.0;
         outside.below += limits_.lower && b <= *limits_.lower ? mass : 0.0;
         outside.above += limits_.upper && a >= *limits_.upper ? mass : 0.0;
         a = b;
@@ -113,11 +114,28 @@ OutsideProbabilities PosteriorRisk::at(double value) const {
         }
         add(b, under_[i]);
     }
-    if (!(all > k_least_mass)) {
+    return masses;
+}
+
+bool PosteriorRisk::rests_on_tail(double value) const {
+    constexpr double k_share = 0.1;
+    if (offsets_.empty()) {
+        return false;
+    }
+    const Masses masses = masses_at(value);
+    return masses.all > k_least_mass && masses.in_tail > k_share * masses.all;
+}
+
+OutsideProbabilities PosteriorRisk::at(double value) const {
+    if (offsets_.empty()) {
+        return of_normal(value);
+    }
+    const Masses masses = masses_at(value);
+    if (!(masses.all > k_least_mass)) {
         const bool is_below = limits_.lower && (!limits_.upper || value < 0.5 * (*limits_.lower + *limits_.upper));
         return is_below ? OutsideProbabilities{1.0, 0.0} : OutsideProbabilities{0.0, 1.0};
     }
-    return {outside.below / all, outside.above / all};
+    return {masses.outside.below / masses.all, masses.outside.above / masses.all};
 }
 
 }  // namespace gumcert::gum

@@ -29,8 +29,17 @@ public:
     /// \param value  that a measurement with the dispersion of y shows
     /// Where population and measurement exclude each other: 1 on the side of the value.
     [[nodiscard]] OutsideProbabilities at(double value) const;
+    /// Whether what is known then rests on the farthest tail of the measurement, beyond a probability of 1e-9, or of 30
+    /// trials: the population lies where the measurement says next to nothing, and any answer is one of its model.
+    [[nodiscard]] bool rests_on_tail(double value) const;
 
 private:
+    struct Masses {
+        OutsideProbabilities outside;
+        double all = 0.0, in_tail = 0.0;
+    };
+
+    [[nodiscard]] Masses masses_at(double value) const;
     [[nodiscard]] OutsideProbabilities of_normal(double value) const;
 
     const MeasuredValue& y_;

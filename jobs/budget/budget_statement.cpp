@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jobs/budget/budget_statement_reader.h"
+#include "jobs/job_limits.h"
 #include "text/lists.h"
 #include "text/numbers.h"
 #include "text/visible_text.h"
@@ -383,8 +384,8 @@ bool StatementReader::read_expanded_uncertainty(bool is_relative) {
         return false;
     }
     const double factor = k.value_or(1.0);
-    if (keys_.has("k") && factor < 1.0) {
-        keys_.warn(k_warn_small_coverage_factor, "k", "a coverage factor of " + text::shortest_plain(factor),
+    if (keys_.has("k") && is_unusual_coverage_factor(factor, *nu)) {
+        keys_.warn(k_warn_unusual_coverage_factor, "k", "a coverage factor of " + text::shortest_plain(factor),
                    "U = k u with k about 2 for a coverage probability of 95 %",
                    "check that it is the coverage factor, and neither the coverage probability (\"p\") nor U");
     }

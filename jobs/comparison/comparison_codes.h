@@ -65,6 +65,10 @@ inline constexpr InputCode k_reserved_direction{"GC-INPUT-0539", "a direction wi
 inline constexpr InputCode k_degrees_of_freedom_of_nothing{"GC-INPUT-0540",
                                                            "degrees of freedom without an uncertainty"};
 inline constexpr InputCode k_compared_job{"GC-INPUT-0541", "a job that cannot be one side of a comparison"};
+inline constexpr InputCode k_unit_of_value{"GC-INPUT-0542", "a value in another unit than the comparison takes it in"};
+inline constexpr InputCode k_reason_of_nothing{"GC-INPUT-0543",
+                                               "a reason beside a value that enters the assigned value"};
+inline constexpr InputCode k_column_in_capitals{"GC-INPUT-0544", "a column that is known in other letters"};
 
 // Warnings: the input is accepted, and a person should look at it.
 inline constexpr InputCode k_warn_no_result{"GC-WARN-0020", "a participant without a single result"};
@@ -73,6 +77,8 @@ inline constexpr InputCode k_warn_exact_assigned_value{"GC-WARN-0022",
 inline constexpr InputCode k_warn_uncertainty_without_value{"GC-WARN-0023",
                                                             "an uncertainty of a result that is missing"};
 inline constexpr InputCode k_warn_few_to_check{"GC-WARN-0024", "fewer than 10 items in a check of homogeneity"};
+inline constexpr InputCode k_warn_similar_participants{"GC-WARN-0025",
+                                                       "participants whose ids differ in spelling only"};
 
 /// The whole table, in the order of the codes.
 inline constexpr std::array k_comparison_codes{k_comparison_form,
@@ -116,10 +122,14 @@ inline constexpr std::array k_comparison_codes{k_comparison_form,
                                                k_reserved_direction,
                                                k_degrees_of_freedom_of_nothing,
                                                k_compared_job,
+                                               k_unit_of_value,
+                                               k_reason_of_nothing,
+                                               k_column_in_capitals,
                                                k_warn_no_result,
-                                               k_warn_small_coverage_factor,
+                                               k_warn_unusual_coverage_factor,
                                                k_warn_exact_assigned_value,
                                                k_warn_uncertainty_without_value,
-                                               k_warn_few_to_check};
+                                               k_warn_few_to_check,
+                                               k_warn_similar_participants};
 
 }  // namespace gumcert::jobs

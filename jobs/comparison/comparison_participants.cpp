@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "jobs/comparison/comparison_items.h"
@@ -9,6 +10,7 @@
 #include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -19,9 +21,12 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 2> k_required_columns{"participant", "value"};
 // In the order of ParticipantsReader::Column.
-constexpr std::array<std::string_view, 14> k_optional_columns{
-    "item", "round", "u", "U", "k", "nu", "s", "n", "contributes", "reason", "uncertainty", "name", "group", "cmc_U"};
+constexpr std::array<std::string_view, 15> k_optional_columns{"item",        "round", "u",    "U",           "k",
+                                                              "nu",          "s",     "n",    "contributes", "reason",
+                                                              "uncertainty", "unit",  "name", "group",       "cmc_U"};
 constexpr std::size_t k_participant_columns = 3;  // the last ones
+constexpr const char* k_what_a_reason_tells =
+    "a reason tells why a result is outside of the assigned value, or why it is missing";
 
 /// One number of a place in the table of results; a job has fewer than 2²¹ of each.
 std::uint64_t key_of(std::size_t participant, std::size_t item, std::size_t round) {
@@ -51,6 +56,7 @@ void ParticipantsReader::read() {
     read_participants();
     read_results();
     refuse_mixed_labels();
+    ask_about_similar_ids();
     is_whole_ = is_whole_ && reading_.problems.refusals() == refused;
     ComparisonJob& job = reading_.job;
     if (job.items.empty()) {
@@ -313,6 +319,22 @@ void ParticipantsReader::refuse_mixed_labels() {
     }
 }
 
+void ParticipantsReader::ask_about_similar_ids() {
+    // One laboratory under two ids would count twice, and be missing where the other id reports.
+    std::map<std::string, std::string_view> known;
+    for (const gum::ComparisonParticipant& participant : reading_.job.participants) {
+        std::string form = text::in_small_letters(participant.id);
+        std::erase_if(form, [](char c) { return std::string_view(" -_.").find(c) != std::string_view::npos; });
+        const auto [first, is_new] = known.try_emplace(std::move(form), participant.id);
+        if (!is_new) {
+            reading_.problems.warn(k_warn_similar_participants, root_.where("participants"),
+                                   "the participants " + text::in_quotes(first->second) + " and " +
+                                       text::in_quotes(participant.id) + " are taken for two laboratories",
+                                   "ids are compared letter by letter", "use one id where they are one laboratory");
+        }
+    }
+}
+
 bool ParticipantsReader::is_first(const Address& address, const Place& place) {
     const auto [entry, is_new] = first_.try_emplace(key_of(address.participant, address.item, address.round), place);
     if (is_new) {
@@ -380,6 +402,11 @@ void ParticipantsReader::read_row(const CsvTable& table, std::size_t row, bool w
     }
     const auto item = item_of(text_of(table, row, c_item), place_of(c_item));
     const auto round = round_of(text_of(table, row, c_round), place_of(c_round));
+    if (item && items_are_read_) {
+        const gum::ComparisonItem& stated = reading_.job.items[*item];
+        check_unit_of_row(table, row, c_unit, stated.unit,
+                          stated.id.empty() ? "the comparison" : "the item " + text::in_quotes(stated.id), problems);
+    }
     ComparisonResult result;
     result.where = place.text();
     const bool is_missing = !read_cells(table, row, result, problems);
@@ -426,6 +453,13 @@ bool ParticipantsReader::read_cells(const CsvTable& table, std::size_t row, Comp
                         "the result does not contribute, without a reason",
                         "who is left out of an assigned value is told with the reason",
                         "write the reason into a column \"reason\"");
+    }
+    if (!result.reason.empty() && !is_stated(table, row, c_contributes)) {
+        problems.refuse(
+            k_reason_of_nothing, table.where(table.cell(row, c_reason)),
+            "the reason " + text::in_quotes(result.reason) + " beside a value that contributes", k_what_a_reason_tells,
+            "write \"no\" into a column \"contributes\", or \"yes\" where the value counts all the same; of a "
+            "result that was withdrawn leave the value empty");
     }
     if (states_s != states_n) {
         problems.refuse(k_result_without_replicates, table.where(table.cell(row, states_s ? c_s : c_n)),
@@ -495,6 +529,11 @@ void ParticipantsReader::read_result(const JsonObject& object, std::size_t parti
             object.refuse(k_parts_exceed_uncertainty, "sources", "parts of an uncertainty that is not stated",
                           "the parts belong to the uncertainty of the result", "add \"u\", or \"U\" and \"k\"");
         }
+    }
+    if (object.has("reason") && !object.has("contributes") && !is_missing) {
+        object.refuse(k_reason_of_nothing, "reason", "a reason beside a value that contributes", k_what_a_reason_tells,
+                      "add \"contributes\": false, or true where the value counts all the same; of a result that was "
+                      "withdrawn leave the value out");
     }
     if (!result.contributes && !object.has("reason") && !is_missing) {
         object.refuse(k_no_reason, "contributes", "the result does not contribute, without a reason",

@@ -65,6 +65,7 @@ private:
         c_contributes,
         c_reason,
         c_bare,
+        c_unit,
         c_name,
         c_group,
         c_cmc,
@@ -102,6 +103,7 @@ private:
     void read_audited(const JsonObject& object, ComparisonResult& result);
     void add_missing(const Address& address, std::string reason, bool has_uncertainty, const Place& place);
     void refuse_mixed_labels();
+    void ask_about_similar_ids();
 
     const ComparisonReading& reading_;
     const JsonObject& root_;

@@ -10,8 +10,10 @@
 #include "gum/quantity/dense_factors.h"
 #include "jobs/budget/budget_results.h"
 #include "jobs/comparison/comparison_statement.h"
+#include "jobs/job_limits.h"
 #include "jobs/job_reader.h"
 #include "text/numbers.h"
+#include "text/small_letters.h"
 #include "text/visible_text.h"
 
 namespace gumcert::jobs {
@@ -99,8 +101,9 @@ std::optional<gum::ResultUncertainty> evaluate(const StatedUncertainty& stated, 
         problems.refuse(*found->code, where(found->key), found->what, found->rule, found->action);
         return std::nullopt;
     }
-    if (stated.k && *stated.k < 1.0) {
-        problems.warn(k_warn_small_coverage_factor, where("k"),
+    if (stated.k &&
+        is_unusual_coverage_factor(*stated.k, stated.nu.value_or(std::numeric_limits<double>::infinity()))) {
+        problems.warn(k_warn_unusual_coverage_factor, where("k"),
                       "a coverage factor of " + text::shortest_plain(*stated.k),
                       "U = k u with k about 2 for a coverage probability of 95 %",
                       "check that it is the coverage factor and not the coverage probability");
@@ -225,8 +228,85 @@ std::optional<gum::ResultUncertainty> read_uncertainty(const ComparisonReading& 
                     [&](std::string_view key) { return object.where(key); });
 }
 
-bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems) {
+namespace {
+
+/// Whether the header of a column says that it holds uncertainties, in a word or as the symbol: "Unsicherheit", "U95",
+/// "U (k=2)", "u_c".
+bool names_uncertainty(std::string_view header) {
+    const std::string small = text::in_small_letters(header);
+    for (const std::string_view word : {"uncert", "unsicher", "incert", "不確定", "不确定"}) {
+        if (small.find(word) != std::string::npos) {
+            return true;
+        }
+    }
+    const bool is_symbol = small.starts_with('u') && (small.size() == 1 || small[1] < 'a' || small[1] > 'z');
+    return is_symbol || small == "uc";
+}
+
+/// Columns that would be used under another name: what they say must not be lost behind a warning.
+bool check_unused_columns(const CsvTable& table, bool states_uncertainty, ProblemList& problems) {
+    const std::vector<std::string_view> missing = table.missing_columns();
+    bool is_fine = true;
+    for (const CsvCell& header : table.unused_columns()) {
+        const std::string small = text::in_small_letters(header.text);
+        // One letter may be a quantity of its own: N beside n, S beside s.
+        const auto twin = std::find_if(missing.begin(), missing.end(), [&](std::string_view name) {
+            return name.size() > 1 && text::in_small_letters(name) == small;
+        });
+        if (twin != missing.end()) {
+            problems.refuse(
+                k_column_in_capitals, table.where(header),
+                "the column " + text::in_quotes(header.text) + " is not known, and " + text::in_quotes(*twin) + " is",
+                "columns are known by their names, letter by letter",
+                "rename the column, or remove it where it means something else");
+            is_fine = false;
+        } else if (!states_uncertainty && names_uncertainty(header.text)) {
+            problems.refuse(k_bare_uncertainty, table.where(header),
+                            "the column " + text::in_quotes(header.text) + " does not say which uncertainty it is",
+                            "a standard uncertainty is u, an expanded one is U with its coverage factor k",
+                            "name the column u, or U with a column k; remove it where it is neither");
+            is_fine = false;
+        }
+    }
+    return is_fine;
+}
+
+/// Whether a number means the same in both units.
+bool is_same_unit(const gum::Unit& a, const gum::Unit& b) {
+    return gum::of_one_kind(a, b) && a.to_si(0.0) == b.to_si(0.0) &&
+           std::abs(a.difference_to_si(1.0) / b.difference_to_si(1.0) - 1.0) <= k_same_number;
+}
+
+}  // namespace
+
+void check_unit_of_row(const CsvTable& table, std::size_t row, std::size_t column, const gum::Unit& wanted,
+                       std::string_view of, ProblemList& problems) {
+    if (!is_stated(table, row, column) || table.cell(row, column).text == wanted.text()) {
+        return;
+    }
+    const CsvCell& cell = table.cell(row, column);
+    bool is_same = false;
+    try {
+        is_same = is_same_unit(gum::Unit::parse(cell.text), wanted);
+    } catch (const gum::InputError&) {
+        is_same = false;  // what is no unit is not that of the values
+    }
+    if (!is_same) {
+        problems.refuse(k_unit_of_value, table.where(cell), "the unit " + text::in_quotes(cell.text),
+                        "values and uncertainties are stated in the unit of " + std::string(of) + ", " +
+                            text::in_quotes(wanted.text()) + ", and nothing is converted",
+                        "convert value and uncertainty, or correct the unit of the row or of the job");
+    }
+}
+
+bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems,
+                               bool has_others) {
     if (table.rows() == 0) {
+        return false;
+    }
+    const bool states_uncertainty =
+        has_others || table.has_column(columns.u) || table.has_column(columns.U) || table.has_column(columns.bare);
+    if (!check_unused_columns(table, states_uncertainty, problems)) {
         return false;
     }
     if (table.has_column(columns.bare)) {

@@ -142,13 +142,22 @@ void for_each_object(const ComparisonReading& reading, const nlohmann::json& arr
 struct UncertaintyColumns {
     std::size_t u = 0, U = 0, k = 0, nu = 0, bare = 0;
 };
-/// Refuses columns that no row can use: a bare uncertainty, U without k.
+/// Refuses columns that no row can use: a bare uncertainty, U without k; and columns that are not used, but would be under
+/// another name: a known one in other capitals, or an uncertainty where the table has none that is known.
+/// \param has_others  uncertainties come from elsewhere, a covariance or a budget
 /// \return true when there was nothing to refuse
-bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems);
+bool check_uncertainty_columns(const CsvTable& table, const UncertaintyColumns& columns, ProblemList& problems,
+                               bool has_others = false);
 [[nodiscard]] std::optional<gum::ResultUncertainty> read_uncertainty(const CsvTable& table, std::size_t row,
                                                                      const UncertaintyColumns& columns,
                                                                      double coverage_probability,
                                                                      ProblemList& problems);
+
+/// Refuses a row that states its value in another unit: nothing is converted.
+/// \param column  of the units; a table need not have it, nor a row state anything
+/// \param of  whose unit `wanted` is, for the message
+void check_unit_of_row(const CsvTable& table, std::size_t row, std::size_t column, const gum::Unit& wanted,
+                       std::string_view of, ProblemList& problems);
 
 /// Whether a table has a column, and the row a text in it.
 [[nodiscard]] inline bool is_stated(const CsvTable& table, std::size_t row, std::size_t column) {

@@ -18,9 +18,9 @@ using nlohmann::json;
 constexpr std::string_view k_if_no_value = "remove the point from both sides";
 
 constexpr std::array<std::string_view, 1> k_required_side_columns{"point"};
-constexpr std::array<std::string_view, 9> k_optional_side_columns{"direction", "position", "value",      "u", "U", "k",
-                                                                  "nu",        "u_common", "uncertainty"};
-enum Column : std::size_t { c_point, c_direction, c_position, c_value, c_u, c_U, c_k, c_nu, c_common, c_bare };
+constexpr std::array<std::string_view, 10> k_optional_side_columns{
+    "direction", "position", "value", "u", "U", "k", "nu", "u_common", "uncertainty", "unit"};
+enum Column : std::size_t { c_point, c_direction, c_position, c_value, c_u, c_U, c_k, c_nu, c_common, c_bare, c_unit };
 constexpr UncertaintyColumns k_uncertainty_columns{.u = c_u, .U = c_U, .k = c_k, .nu = c_nu, .bare = c_bare};
 
 bool are_too_many_points(std::size_t points, const std::string& where, ProblemList& problems) {
@@ -186,7 +186,9 @@ private:
         side_.problems = &problems;
         const auto table =
             read_csv_table(std::move(file->bytes), k_required_side_columns, k_optional_side_columns, problems);
-        if (!table || !check_uncertainty_columns(*table, k_uncertainty_columns, problems) ||
+        if (!table ||
+            !check_uncertainty_columns(*table, k_uncertainty_columns, problems,
+                                       side_.has_budget || side_.covariance_name.has_value()) ||
             are_too_many_points(table->rows(), text::visible(problems.file()), problems) ||
             !check_columns(*table, problems)) {
             side_.is_whole = false;
@@ -239,6 +241,9 @@ private:
         }
         read.point.position = table.number_if_any(row, c_position, k_compared_value);
         if (!side_.has_budget) {
+            if (unit_) {
+                check_unit_of_row(table, row, c_unit, *unit_, "the comparison", problems);
+            }
             read.value = read_value(table, row, c_value, k_if_no_value, problems).value_or(0.0);
             read.uncertainty =
                 read_uncertainty(table, row, k_uncertainty_columns, reading_.job.coverage_probability, problems);

@@ -339,6 +339,14 @@ void vectors_in_brief(CertificateBuilder& builder, const Wording& words, const C
 /// Whose stated factor E_n does not take.
 void factors_in_brief(CertificateBuilder& builder, const Wording& words, const Comparison& c) {
     std::vector<std::string> names;
+    for (const ComparisonItemEvaluation& item : c.items) {
+        // Of a reference laboratory the result is named; scatter has no stated factor.
+        if (item.U_of_scores.number && item.U_rests_on != "scatter" && item.method != "reference") {
+            const std::string name = name_of_item(c, item.id);
+            const std::string of = item.round.empty() ? name : name.empty() ? item.round : name + ", " + item.round;
+            names.push_back(c.items.size() == 1 ? "X" : "X (" + of + ")");
+        }
+    }
     for (const ComparisonPoint& p : c.points) {
         if (p.U_of_scores.number && std::find(names.begin(), names.end(), p.participant) == names.end()) {
             names.push_back(p.participant);

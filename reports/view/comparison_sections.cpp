@@ -1,5 +1,6 @@
 #include "reports/view/comparison_sections.h"
 
+#include "certificate/statement_of_uncertainty.h"
 #include "gum/quantity/unit.h"
 #include "reports/view/comparison_laboratory_sections.h"
 #include "reports/view/comparison_method_sections.h"
@@ -32,11 +33,19 @@ Facts who_and_when(const Wording& words, const EvaluationRecord& record) {
 /// What D is, what its sign means, and what the expanded uncertainties stand for.
 Facts conventions(const Wording& words, const EvaluationRecord& record) {
     const Comparison& c = *record.comparison;
-    return {{words("comparison", "sign_label"),
-             words.filled("comparison", c.form == "laboratories" ? "sign_of_laboratories" : "sign_of_methods",
-                          {{"method", c.method_name}, {"reference", c.reference_name}})},
-            {words("comparison", "expanded_label"),
-             words.filled("comparison", "expanded_text", {{"p", words.number(record.coverage_probability.text)}})}};
+    Facts facts = {
+        {words("comparison", "sign_label"),
+         words.filled("comparison", c.form == "laboratories" ? "sign_of_laboratories" : "sign_of_methods",
+                      {{"method", c.method_name}, {"reference", c.reference_name}})},
+        {words("comparison", "expanded_label"),
+         words.filled("comparison", "expanded_text", {{"p", words.number(record.coverage_probability.text)}})}};
+    // U(D) stands in a table with U(x): where they are for different probabilities, that must be said beside them.
+    const std::string of_scores = certificate::printed_coverage_probability(c.score_probability) + " %";
+    if (of_scores != record.coverage_probability.text) {
+        facts.push_back({words("comparison", "expanded_differences_label"),
+                         words.filled("comparison", "expanded_differences_text", {{"p", words.number(of_scores)}})});
+    }
+    return facts;
 }
 
 /// Weights of all results by item, round and participant.

@@ -222,8 +222,25 @@ TEST(CsvMatrix, RefusesOtherSizes) {
     EXPECT_EQ(found[1].code, k_csv_matrix_size.code);
     EXPECT_THAT(found[1].what, HasSubstr("3 rows"));
     ProblemList others("c.csv");
-    EXPECT_FALSE(read_csv_matrix("1;2\n2;4\n", 2, "µm²", others));
+    EXPECT_FALSE(read_csv_matrix("1\t2\n2\t4\n", 2, "µm²", others));
     EXPECT_EQ(others.refused().at(0).code, k_csv_separator.code);
+}
+
+TEST(CsvMatrix, ReadsSemicolonsWithDecimalCommasOrPoints) {
+    for (const char* text : {"1,5;-0,25\n-0,25;2e-1\n", "1.5;-0.25\n-0.25;2e-1\n"}) {
+        ProblemList problems("c.csv");
+        const auto matrix = read_csv_matrix(text, 2, "µm²", problems);
+        ASSERT_TRUE(matrix) << text;
+        EXPECT_EQ((*matrix)(0, 0), 1.5);
+        EXPECT_EQ((*matrix)(1, 0), -0.25);
+        EXPECT_EQ((*matrix)(1, 1), 0.2);
+    }
+    ProblemList both("c.csv");
+    EXPECT_FALSE(read_csv_matrix("1,5;0.5\n0,5;2\n", 2, "µm²", both));
+    EXPECT_EQ(both.refused().at(0).code, k_csv_decimal_comma.code);
+    ProblemList thousands("c.csv");
+    EXPECT_FALSE(read_csv_matrix("1,000,5;0\n0;2\n", 2, "µm²", thousands));
+    EXPECT_THAT(thousands.refused().at(0).rule, HasSubstr("decimal commas"));
 }
 
 }  // namespace

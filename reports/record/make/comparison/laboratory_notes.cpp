@@ -117,7 +117,37 @@ void add_consistency(ItemMessages& messages) {
         test_text);
 }
 
+/// Whether the checks of the items and the results speak of different sizes, as they do where one of them is in another
+/// unit: s_s would then be held against the wrong limit, and be much too small or too large in u(X).
+bool checks_are_of_another_size(const gum::ItemResult& item) {
+    constexpr double k_many_sigma = 10.0;
+    constexpr double k_factor = 3.0;
+    if (!item.homogeneity) {
+        return false;
+    }
+    const double sigma = item.homogeneity->limit / gum::k_assigned_value_criterion;
+    const double mean = item.homogeneity->mean;
+    const double smaller = std::min(std::abs(mean), std::abs(item.value));
+    const double larger = std::max(std::abs(mean), std::abs(item.value));
+    return std::abs(mean - item.value) > k_many_sigma * sigma &&
+           (larger > k_factor * smaller || mean * item.value < 0.0);
+}
+
 void add_checks_of_items(ItemMessages& messages) {
+    messages.add({.code = "GC-COMPARE-0132",
+                  .where = "",
+                  .what = "",
+                  .rule = "the checks of the items are stated in the unit of the results",
+                  .action = "Convert them, for s_s is part of u(X); or look for an error in the assigned value.",
+                  .severity = gum::Severity::warning},
+                 checks_are_of_another_size, [](const ComparisonItemEvaluation& item) {
+                     const std::string unit = gum::unit_for_people(item.unit);
+                     const auto in_unit = [&](const std::string& number) {
+                         return unit.empty() ? number : number + " " + unit;
+                     };
+                     return "the measurements of homogeneity lie about " + in_unit(item.homogeneity->mean.text) +
+                            ", and the assigned value is " + in_unit(item.value.text);
+                 });
     messages.add(
         {.code = "GC-COMPARE-0122",
          .where = "",
@@ -360,6 +390,11 @@ void add_remarks_on_coverage(const Evaluated& evaluated, std::vector<std::string
         remarks.emplace_back("The job names no way to the assigned value; the default was taken.");
     }
     std::vector<std::string> converted;
+    if (any_item(comparison, [](const gum::ItemResult& item) {
+            return item.U_of_scores && item.expanded_by != gum::ExpandedBy::scatter && !item.reference_participant;
+        })) {
+        converted.emplace_back("X");
+    }
     for (const gum::ScoredResult& result : comparison.results) {
         const std::string& id = job.participants[result.participant].id;
         if (result.of_scores && std::find(converted.begin(), converted.end(), id) == converted.end()) {

@@ -304,6 +304,20 @@ MethodDifferences honest(std::mt19937_64& engine, Index m, int nu, double r, boo
     return differences;
 }
 
+TEST(TestOfUncertainty, TakesThirteenToEighteenIndependentPoints) {
+    // As docs/comparison_job.md tells, by the ratio of the uncertainties of reference and method.
+    for (const auto& [ratio, least] : {std::pair(0.05, 13), std::pair(0.25, 15), std::pair(1.0 / 3.0, 18)}) {
+        for (const Index m : {static_cast<Index>(least - 1), static_cast<Index>(least)}) {
+            MethodDifferences differences = independent_points(m, 0.5);
+            const double of_method = 1.0 / (1.0 + ratio * ratio);
+            differences.method_covariance = of_method * differences.covariance;
+            differences.reference_covariance = (1.0 - of_method) * differences.covariance;
+            EXPECT_EQ(agreement(differences, k_p).power_to_confirm >= k_least_power_to_confirm, m == least)
+                << ratio << " " << m;
+        }
+    }
+}
+
 TEST(FiniteDegrees, SumOfSquaresIsOneOfSquaredT) {
     // 4·10⁵ trials of 20 t₄: P(Σ t² ≥ 42.4) = 0.309 ± 0.001; χ² says 0.0025.
     MethodDifferences differences = independent_points(20, 0.5 * std::sqrt(42.4 / 20.0));

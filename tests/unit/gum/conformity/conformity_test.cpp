@@ -429,6 +429,84 @@ TEST(DecideConformity, Dr09PosteriorOfAMeasurementThatIsNotNormal) {
     EXPECT_NE(wide.note.find("taken as normally distributed"), std::string::npos);
 }
 
+/// y + side·u (n − G)/√n with G of a gamma distribution of a whole order n: skewed to the left for side = 1.
+MeasuredValue skewed(double y, double u, int n, double side) {
+    const auto above = [n](double t) {  // P(G > t)
+        double term = std::exp(-t);
+        double sum = 0.0;
+        for (int k = 0; k < n; term *= t / ++k) {
+            sum += term;
+        }
+        return t <= 0.0 ? 1.0 : sum;
+    };
+    const double root = std::sqrt(static_cast<double>(n));
+    return {.value = y, .standard_uncertainty = u, .expanded_uncertainty = 2.0 * u, .distribution = [=](double x) {
+                const double P = above(n - side * root * (x - y) / u);
+                return side > 0.0 ? P : 1.0 - P;
+            }};
+}
+
+/// P(Y outside of 10 ± 0.1) of `skewed` to the left by Bayes, by the trapezoidal rule over ± 12 s0.
+double posterior_of_skewed(double y, double u, int n, double s0, double centre) {
+    constexpr int k_steps = 20000;
+    const double root = std::sqrt(static_cast<double>(n));
+    std::vector<std::pair<double, double>> logarithms;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= k_steps; ++i) {
+        const double x = centre + s0 * (24.0 * i / k_steps - 12.0);
+        const double t = n - root * (x - y) / u;
+        if (t > 0.0) {
+            logarithms.emplace_back(x, (n - 1) * std::log(t) - t - 0.5 * std::pow((x - centre) / s0, 2));
+            most = std::max(most, logarithms.back().second);
+        }
+    }
+    double all = 0.0, outside = 0.0;
+    for (const auto& [x, logarithm] : logarithms) {
+        const double weight = std::exp(logarithm - most);
+        all += weight;
+        outside += x < 9.9 || x > 10.1 ? weight : 0.0;
+    }
+    return outside / all;
+}
+
+TEST(DecideConformity, Dr09PosteriorOfASkewedMeasurementHasNoLimitsOfItsTail) {
+    const ToleranceLimits limits{.lower = 9.9, .upper = 10.1};
+    const auto decide = [&](const Parameters& parameters, const MeasuredValue& y) {
+        return decide_conformity(DecisionRule::z540_3, parameters, limits, y);
+    };
+    for (const int n : {9, 16, 40}) {
+        for (const double u : {0.02, 0.05}) {
+            for (const double s0 : {0.01, 0.02, 0.03, 0.05}) {
+                const Parameters parameters{.population_deviation = s0, .population_centre = 10.0, .method = "4"};
+                const ConformityDecision left = decide(parameters, skewed(10.02, u, n, 1.0));
+                const ConformityDecision right = decide(parameters, skewed(9.98, u, n, -1.0));
+                EXPECT_EQ(left.verdict, pass);
+                EXPECT_NEAR(left.conformance_probability, 1.0 - posterior_of_skewed(10.02, u, n, s0, 10.0), 1e-5);
+                ASSERT_TRUE(left.acceptance.lower && left.acceptance.upper && right.acceptance.upper);
+                EXPECT_NEAR(*left.acceptance.upper - 10.0, 10.0 - *right.acceptance.lower, 1e-6 * u);
+                EXPECT_NEAR(10.0 - *left.acceptance.lower, *right.acceptance.upper - 10.0, 1e-6 * u);
+                for (const double limit : {*left.acceptance.lower, *left.acceptance.upper}) {
+                    EXPECT_LT(posterior_of_skewed(limit, u, n, s0, 10.0), 0.0203) << n << " " << u << " " << s0;
+                }
+                // What is shown farther out is never accepted, and never said to be in the zone.
+                for (const double beyond : {0.5, 3.0, 6.0, 12.0, 25.0}) {
+                    const ConformityDecision far =
+                        decide(parameters, skewed(*left.acceptance.upper + beyond * u, u, n, 1.0));
+                    EXPECT_NE(far.verdict, pass) << n << " " << u << " " << s0 << " " << beyond;
+                    if (far.note.find("contradict") != std::string::npos && far.verdict == fail) {
+                        EXPECT_LT(far.conformance_probability, 0.05) << "that of the measurement alone";
+                    }
+                }
+            }
+        }
+    }
+    // A population beside the tolerance: the cut end of the tail, which lies between the limits, accepts nothing.
+    const ConformityDecision beside =
+        decide({.population_deviation = 0.01, .population_centre = 9.7, .method = "4"}, skewed(10.3, 0.02, 9, 1.0));
+    EXPECT_EQ(beside.verdict, fail);
+    EXPECT_FALSE(beside.acceptance.upper);
+}
+
 TEST(DecideConformity, TrialsDecideOnlyWhereTheirNumberDoes) {
     // P(Y > 10) is 5 % to within the scatter of 10 000 trials: 3·√(0.05·0.95/10⁴) = 0.65 %.
     const auto value_with_risk = [](double risk, double trials) {

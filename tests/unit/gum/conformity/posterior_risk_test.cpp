@@ -76,6 +76,23 @@ TEST(PosteriorRisk, OfANormalMeasurementIsThatOfTheWeightedMean) {
     }
 }
 
+TEST(PosteriorRisk, KnowsWhatRestsOnATail) {
+    const MeasuredValue normal = measured(Distribution::normal(10.0, 0.02));
+    const PosteriorRisk risk(normal, k_tolerance_of_ten, k_population_of_ten);
+    EXPECT_FALSE(risk.rests_on_tail(10.0));
+    EXPECT_FALSE(risk.rests_on_tail(10.3)) << "6 standard deviations of the population: it moves, and not the tail";
+    const PosteriorRisk narrow(normal, k_tolerance_of_ten, {.centre = 10.0, .deviation = 0.005});
+    EXPECT_FALSE(narrow.rests_on_tail(10.06));
+    EXPECT_TRUE(narrow.rests_on_tail(10.2)) << "10 u from where the population is";
+    // The end of a rectangle is no tail: nothing lies beyond it, and that is known.
+    const MeasuredValue rectangle = measured(Distribution::uniform(10.0, 0.03));
+    EXPECT_FALSE(PosteriorRisk(rectangle, k_tolerance_of_ten, k_population_of_ten).rests_on_tail(10.4));
+    MeasuredValue counted = normal;
+    counted.trials = 1000.0;
+    EXPECT_TRUE(PosteriorRisk(counted, k_tolerance_of_ten, {.centre = 10.0, .deviation = 0.005}).rests_on_tail(10.06))
+        << "30 trials of 1000 lie beyond 1.9 u";
+}
+
 TEST(PosteriorRisk, WherePopulationAndMeasurementExcludeEachOtherTheValueDecides) {
     const MeasuredValue y = measured(Distribution::uniform(20.0, 0.03));
     EXPECT_EQ(PosteriorRisk(y, k_tolerance_of_ten, k_population_of_ten).at(20.0).above, 1.0);

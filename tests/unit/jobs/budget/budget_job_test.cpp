@@ -327,8 +327,9 @@ TEST(BudgetJob, TakesEveryStatementOfNumbersFromColumns) {
 /// "k": 0.95 is a coverage probability, and "U": 2, "k": 0.01 are exchanged: told in a job and in a table, once for a column.
 TEST(BudgetJob, TellsCoverageFactorsBelowOne) {
     const auto told = [](const BudgetJob& job) {
-        return std::count_if(job.warnings.begin(), job.warnings.end(),
-                             [](const gum::Diagnostic& one) { return one.code == k_warn_small_coverage_factor.code; });
+        return std::count_if(job.warnings.begin(), job.warnings.end(), [](const gum::Diagnostic& one) {
+            return one.code == k_warn_unusual_coverage_factor.code;
+        });
     };
     for (const auto& [statement, expected] :
          std::vector<std::pair<std::string, int>>{{R"j("U": 0.01, "k": 0.95)j", 1},

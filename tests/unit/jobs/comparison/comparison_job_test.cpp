@@ -242,6 +242,26 @@ TEST(ComparisonJob, ReadsVectorsAndYoudenPairs) {
     EXPECT_THAT(job.youden, ElementsAre(std::pair<std::size_t, std::size_t>{2, 0}));
 }
 
+TEST(ComparisonJob, TakesAColumnOfUnitsThatAreThoseOfTheValues) {
+    const ComparisonJob job = read_comparison(
+        R"j("unit": "um", "items": [{"id": "d"}, {"id": "w", "unit": "mg/kg"}], "participants": {"file": "r.csv"})j",
+        {{"r.csv",
+          "participant,item,value,u,unit\nA,d,1,1,um\nB,d,2,1,µm\nC,d,3,1,\nA,w,1,1,ug/g\nB,w,2,1,mg kg-1\n"}});
+    EXPECT_EQ(job.results.size(), 5U);
+    EXPECT_EQ(test::texts(job.warnings), "");
+}
+
+TEST(ComparisonJob, TakesAReasonBesideAValueWhoseContributionIsStated) {
+    const ComparisonJob job =
+        read_comparison(R"j("participants": {"file": "r.csv"})j",
+                        {{"r.csv",
+                          "participant,value,u,contributes,reason\nA,1,1,yes,measured twice\nB,2,1,no,late\nC,3,1,,\n"
+                          "D,,,,withdrawn\n"}});
+    EXPECT_EQ(job.results.size(), 3U);
+    EXPECT_TRUE(job.results[0].contributes);
+    EXPECT_EQ(job.missing.size(), 1U);
+}
+
 TEST(ComparisonJob, WarnsOfWhatAPersonShouldLookAt) {
     const auto codes = [](const std::string& keys, const test::ComparisonFiles& files = {}) {
         std::vector<std::string> all;
@@ -254,7 +274,11 @@ TEST(ComparisonJob, WarnsOfWhatAPersonShouldLookAt) {
     EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u,colour\nA,1,1,red\nB,1,1,blue\n"}}),
                 ElementsAre("GC-WARN-0001"));
     EXPECT_THAT(codes(c, {{"r.csv", "participant,value,U,k\nA,1,1,0.95\nB,1,1,2\n"}}), ElementsAre("GC-WARN-0021"));
+    EXPECT_THAT(codes(c, {{"r.csv", "participant,value,U,k\nA,1,1,95\nB,1,1,2\n"}}), ElementsAre("GC-WARN-0021"));
+    EXPECT_THAT(codes(c, {{"r.csv", "participant,value,U,k,nu\nA,1,1,63.66,1\nB,1,1,13.97,\n"}}), ElementsAre());
     EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u\nA,1,1\nB,1,1\nC,,1\n"}}), ElementsAre("GC-WARN-0023"));
+    EXPECT_THAT(codes(c, {{"r.csv", "participant,value,u\nLab 1,1,1\nlab-1,1,1\nLab 10,1,1\nL,1,1\n"}}),
+                ElementsAre("GC-WARN-0025"));
     EXPECT_THAT(codes(k_three_laboratories + R"(, "assigned_value": {"value": 10})"), ElementsAre("GC-WARN-0022"));
     EXPECT_THAT(codes(k_three_laboratories + R"(, "assigned_value": {"method": "median", "power": 1})"),
                 ElementsAre("GC-WARN-0006"));

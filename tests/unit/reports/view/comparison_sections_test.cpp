@@ -126,6 +126,48 @@ TEST(ComparisonReport, FirstPageSaysWhatTheSignOfADifferenceMeansAndWhatUStandsF
     EXPECT_THAT(answer_of(record), HasSubstr("coverage probability of 95.45 %"));
 }
 
+TEST(ComparisonReport, FirstPageSaysWhichProbabilityUOfADifferenceHas) {
+    for (EvaluationRecord record : samples()) {
+        record.coverage_probability.text = "95.45 %";
+        record.comparison->score_probability = 0.9545;
+        EXPECT_THAT(answer_of(record), Not(HasSubstr("Expanded uncertainties of differences")));
+        record.coverage_probability.text = "99.00 %";
+        EXPECT_THAT(answer_of(record), HasSubstr(squeezed("Expanded uncertainties of differences for a coverage "
+                                                          "probability of 95.45 %, as Eₙ takes them")));
+        for (const std::string& language : k_languages) {
+            EXPECT_THAT(answer_of(record, language),
+                        HasSubstr(language == "de" || language == "es" ? "95,45" : "95.45"))
+                << language;
+        }
+    }
+}
+
+TEST(ComparisonReport, NamesTheLimitOfThePowerThatDecides) {
+    // gum::k_least_power_to_confirm is 0.92.
+    EvaluationRecord record = test::sample_methods_record();
+    record.comparison->summary[0].power_to_confirm = {0.905, "90.5 %"};
+    for (const std::string& language : k_languages) {
+        EXPECT_THAT(text_of(record, language), HasSubstr(" 92 %")) << language;
+    }
+}
+
+TEST(ComparisonReport, FirstPageNamesTheAssignedValueWhoseFactorIsNotTaken) {
+    EvaluationRecord record = one_item(6);
+    for (ComparisonPoint& point : record.comparison->points) {
+        point.U_of_scores = {};
+    }
+    ComparisonItemEvaluation& item = record.comparison->items[0];
+    item.method = "given";
+    item.reference_participant = "";
+    item.U_rests_on = "statement";
+    item.U_of_scores = {};
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+    item.U_of_scores = {0.13, "0.13"};
+    EXPECT_THAT(answer_of(record), HasSubstr("The coverage factors of X are those of another"));
+    item.U_rests_on = "scatter";
+    EXPECT_THAT(answer_of(record), Not(HasSubstr("in place of their U")));
+}
+
 TEST(ComparisonReport, FirstPageSaysHowTheAssignedValueWasFoundAndWhoReportedNothing) {
     EvaluationRecord record = one_item(6);
     ComparisonItemEvaluation& item = record.comparison->items[0];
@@ -876,6 +918,11 @@ TEST(ReferenceComparisonSection, HoldsVerdictAndCompanionNumbers) {
     EXPECT_EQ(rows_of(view, "bias").size(), c.summary.size());
     EXPECT_THAT(text_of(record), HasSubstr("the reference is not better than the method"));
     EXPECT_EQ(view["type"], "Calibration certificate");
+    EXPECT_THAT(text_of(record), Not(HasSubstr("Expanded uncertainties of differences")));
+    ASSERT_FALSE(c.points.empty());
+    c.points[0].U_of_scores = {0.12, "0.12"};
+    EXPECT_THAT(text_of(record), HasSubstr(squeezed("Expanded uncertainties of differences for a coverage probability "
+                                                    "of 95.45 %, as Eₙ takes them")));
 }
 
 }  // namespace

@@ -427,6 +427,28 @@ TEST(EvaluateLaboratories, ItemsThatDifferAndDrift) {
     // The correlation with the results is that of the characterisation alone.
     EXPECT_NEAR(*comparison.points[0].u_D, std::sqrt(0.01 + u * u - 2.0 * std::pow(0.058277151741435856, 2)), 1e-12);
     EXPECT_EQ(messages_of(job).back().code, "GC-COMPARE-0123");
+    const auto says = [&](const char* code) {
+        const std::vector<gum::Diagnostic> messages = messages_of(job);
+        return std::any_of(messages.begin(), messages.end(), [&](const auto& message) { return message.code == code; });
+    };
+    EXPECT_FALSE(says("GC-COMPARE-0132"));
+    job.items[0].homogeneity = homogeneity / 1000.0;
+    job.items[0].stability = stability / 1000.0;
+    EXPECT_TRUE(says("GC-COMPARE-0132")) << "in another unit";
+    job.items[0].homogeneity = -homogeneity;
+    EXPECT_TRUE(says("GC-COMPARE-0132")) << "with the other sign";
+    // Deviations about 0 differ by many times themselves, and by little in terms of sigma_pt.
+    job.items[0].homogeneity = homogeneity.array() - 9.9;
+    job.items[0].stability = stability.array() - 9.9;
+    for (auto& result : job.results) {
+        result.value -= 10.05;
+    }
+    EXPECT_FALSE(says("GC-COMPARE-0132"));
+    for (auto& result : job.results) {
+        result.value += 10.05;
+    }
+    job.items[0].homogeneity = homogeneity;
+    job.items[0].stability = stability;
 
     job.items[0].sigma_pt.reset();
     EXPECT_EQ(refusal(job).code, "GC-COMPARE-0104");
