@@ -937,9 +937,8 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
     }
 }
 
-}  // namespace
-
-std::optional<NamedStatement> named_statement(std::string_view name) {
+/// \param may_have_unit  behind the name; one is taken off, and not another one behind that
+std::optional<NamedStatement> statement_named(std::string_view name, bool may_have_unit) {
     name = trimmed(name);
     // "Result: (10.0020 ± 0.0047) bar": brackets about a value and its U explain no name.
     const std::size_t plus_minus = std::min(name.find("±"), name.find("+/-"));
@@ -959,7 +958,7 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
     }
     // "Expanded uncertainty / dB, k = 2": the unit stands behind the name.
     for (const std::string_view sign : {" / ", " in "}) {
-        const std::size_t at = name.find(sign);
+        const std::size_t at = may_have_unit ? name.find(sign) : std::string_view::npos;
         if (at == std::string_view::npos || at == 0) {
             continue;
         }
@@ -967,7 +966,11 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
         const std::size_t end = std::min(behind.find_first_of(" ,;:="), behind.size());
         if (known_unit(std::string(behind.substr(0, end)))) {
             const std::string without = std::string(name.substr(0, at)) + std::string(behind.substr(end));
-            if (std::optional<NamedStatement> named = named_statement(without)) {
+            std::optional<NamedStatement> named = statement_named(without, false);
+            // "U / V" and "Correction in µm" may be rows, as "U" and "Correction" may; "U / µg = 721 (k = 2)" is none.
+            const bool may_be_row = named && (named->may_be_quantity || named->may_be_constant);
+            if (named &&
+                (!may_be_row || (named->statement == Statement::U && coverage_in(named->assigned).says_any()))) {
                 return named;
             }
         }
@@ -1011,6 +1014,12 @@ std::optional<NamedStatement> named_statement(std::string_view name) {
         }
     }
     return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<NamedStatement> named_statement(std::string_view name) {
+    return statement_named(name, true);
 }
 
 std::optional<TypedHead> typed_head(std::string_view head) {

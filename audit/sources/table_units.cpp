@@ -122,17 +122,20 @@ std::string unit_of_contributions(const std::vector<AuditedRow>& rows, const std
     return result_unit;
 }
 
-/// The unit that most contributions state; "" where none does.
-std::string unit_of_most(const std::vector<RowUnits>& units) {
+/// The unit that contributions state, more of them than state none; "" where no unit is stated by as many.
+std::string unit_of_most(const std::vector<AuditedRow>& rows, const std::vector<RowUnits>& units) {
     std::map<std::string, std::size_t> counts;
-    for (const RowUnits& of : units) {
-        if (!of.contribution.empty()) {
-            ++counts[of.contribution];
+    std::size_t bare = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!units[i].contribution.empty()) {
+            ++counts[units[i].contribution];
+        } else if (rows[i].contribution) {
+            ++bare;
         }
     }
     const auto most = std::max_element(counts.begin(), counts.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == counts.end() ? "" : most->first;
+    return most == counts.end() || most->second <= bare ? "" : most->first;
 }
 
 /// The unit of a contribution that states none beside others that do: theirs, unless |c| u is nearer to it in that of the others
@@ -259,8 +262,17 @@ std::string text_of_unit_in_head(const std::string& head) {
         const bool is_number = unit.find_first_not_of("0123456789.,") == std::string::npos;
         return !known_unit(behind) && !is_number && known_unit(unit) ? unit : behind;  // "U / dB, k = 2"
     }
-    if (const std::size_t in = head.rfind(" in "); in != std::string::npos && known_unit(head.substr(in + 4))) {
-        return head.substr(in + 4);
+    if (const std::size_t in = head.rfind(" in "); in != std::string::npos) {
+        const std::string behind = head.substr(in + 4), unit = behind.substr(0, behind.find_first_of("( ,;:="));
+        if (known_unit(behind)) {
+            return behind;
+        }
+        // "U in mV, k = 2", "Ergebnis in g = 10,0001"; of "in % of reading" nobody knows what it is a part of.
+        const std::size_t next = behind.find_first_not_of(' ', unit.size());
+        if (next != std::string::npos && std::string_view("(,;:=").find(behind[next]) != std::string_view::npos &&
+            known_unit(unit)) {
+            return unit;
+        }
     }
     constexpr std::string_view k_plus_minus = "± ";  // "Value ± kPa"
     if (const std::size_t sign = head.find(k_plus_minus); sign != std::string::npos && sign > 0) {
@@ -379,7 +391,7 @@ bool settle_units(std::vector<AuditedRow>& rows, const std::vector<RowUnits>& un
     const auto has_uncertainty = [](const AuditedRow& row) { return row.u || row.stated || row.contribution; };
     Conversions conversions(not_read);
     const std::string of_contributions = unit_of_contributions(rows, units, result_unit),
-                      of_others = unit_of_most(units);
+                      of_others = unit_of_most(rows, units);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         AuditedRow& row = rows[i];
         const RowUnits& own = units[i];

@@ -64,13 +64,28 @@ TEST(UnusedColumns, AreSquaresAndShares) {
 }
 
 TEST(Statements, MayHaveTheirUnitBehindTheName) {
-    for (const char* name : {"Expanded uncertainty / dB", "Expanded uncertainty / dB, k = 2", "U / mV", "U95 in mV",
-                             "Erweiterte Messunsicherheit in µm (k = 2)"}) {
+    for (const char* name : {"Expanded uncertainty / dB", "Expanded uncertainty / dB, k = 2", "U / mV, k = 2",
+                             "U95 in mV", "U / µg = 721 (k = 2)", "Erweiterte Messunsicherheit in µm (k = 2)"}) {
         EXPECT_EQ(statement_of(name), Statement::U) << name;
     }
     EXPECT_EQ(statement_of("Combined std. uncertainty / dB"), Statement::u_c);
     EXPECT_EQ(named_statement("Expanded uncertainty / dB, k = 2")->coverage, ", k = 2");
     EXPECT_FALSE(statement_of("Temperature in °C"));
+    // What is a quantity without its unit may be one with it.
+    for (const char* name :
+         {"U / V", "I / A", "k / N", "Correction in µm", "Error in mm", "Tolerance in µm", "CMC / µm", "U / V = 230"}) {
+        EXPECT_FALSE(statement_of(name)) << name;
+    }
+    // One unit is taken off a name, however many stand in it: each of them twice as long to read was a minute at 18.
+    std::string many = "A";
+    for (int i = 0; i < 30; ++i) {
+        many = many + " / m";
+    }
+    for (int i = 0; i < 15; ++i) {
+        many = many + " in m";
+    }
+    EXPECT_LT(many.size(), 200U);
+    EXPECT_FALSE(statement_of(many));
     EXPECT_TRUE(is_called_part("of which sensor"));
     EXPECT_TRUE(is_called_part("davon Fühler"));
     EXPECT_FALSE(is_called_part("Sensor"));

@@ -43,6 +43,11 @@ TEST(TableUnits, AreThoseOfHeadsAndCells) {
     EXPECT_EQ(unit_in_head("result (mm)"), "mm");
     EXPECT_EQ(unit_in_head("u (HRC)"), "HRC");
     EXPECT_EQ(unit_in_head("u (UUT)"), "");
+    for (const char* head :
+         {"U in µg, k = 2", "U in µg; k = 2", "U in µg (k = 2)", "u_c in µg = 361", "U / µg (k = 2)"}) {
+        EXPECT_EQ(unit_in_head(head), "µg") << head;
+    }
+    EXPECT_EQ(unit_in_head("U in % of reading"), "");
     EXPECT_EQ(unit_in_head("contribution (y)"), "");
     EXPECT_EQ(unit_in_head("type (A)"), "");
     EXPECT_EQ(unit_in_head("U95 (k = 2)"), "");
@@ -75,6 +80,49 @@ TEST(TableUnits, OfAContributionWithoutOneAreThoseOfTheOthers) {
                 const AuditReport report = report_of(table);
                 SCOPED_TRACE(table);
                 ASSERT_EQ(report.results.size(), 1U);
+                for (const AuditFinding& finding : report.findings) {
+                    EXPECT_TRUE(finding.rule != "K01" && finding.rule != "S01") << finding.what.english();
+                }
+            }
+        }
+    }
+}
+
+TEST(TableUnits, OfAFewContributionsAreNotThoseOfTheOthers) {
+    // The law: a unit that some contributions state is that of others only where more state it than state none.
+    const AuditReport one = report_of(
+        "Length\nComponent,Unit,Contribution\nStandard,µm,1.50\nDrift,µm,1.20\nResolution,µm,0.0005 mm\n"
+        "Repeatability,µm,0.80\nu_c,µm,2.14\nk,,2\nU,µm,4.28\n");
+    ASSERT_EQ(one.results.size(), 1U);
+    EXPECT_NEAR(one.results[0].recomputed.U, 4.29, 0.01);
+    EXPECT_TRUE(critical_in(one).empty());
+    const AuditReport part = report_of(
+        "Voltage\nComponent,c,u,Contribution\nStandard,1,1.50 mV,1.50\nDrift,1,1.20 mV,1.20\n"
+        "Noise,1,0.80 mV,0.08 %\nU (k = 2),,,4.16 mV\n");
+    for (const Sentence& said : part.subject.not_read) {
+        EXPECT_EQ(said.english().find("D3"), std::string::npos) << said.english();
+        EXPECT_EQ(said.english().find("D4"), std::string::npos) << said.english();
+    }
+}
+
+TEST(TableUnits, OfAStatementMayStandInItsCell) {
+    // The law: a result is the same in whatever unit it is stated, and wherever that stands.
+    const std::string rows = "Mass\nComponent,u (mg),c,Contribution (mg)\nHandling,0.30,1,0.30\nReadings,0.20,1,0.20\n";
+    for (const char* u_c : {"Combined standard uncertainty in µg = 361\n", "u_c in µg,,,361\n", "u_c / µg = 361\n"}) {
+        for (const char* U :
+             {"Expanded uncertainty / g = 0.00072 (k = 2)\n", "Expanded uncertainty in µg (k = 2),,,721\n",
+              "Expanded uncertainty in µg; k = 2,,,721\n", "\"U in µg, k = 2\",,,721\n", "U / µg = 721 (k = 2)\n"}) {
+            for (const char* value : {"Result in g = 10.00012\n", "Result in g,,,10.00012\n"}) {
+                const AuditReport report = report_of(rows + value + u_c + U);
+                SCOPED_TRACE(std::string(value) + u_c + U);
+                ASSERT_EQ(report.results.size(), 1U);
+                EXPECT_TRUE(critical_in(report).empty());
+                const AuditedBudget& budget = report.subject.budgets[0];
+                ASSERT_TRUE(budget.claims.u_c && budget.claims.U && budget.claims.value);
+                const double in_mg = factor_between(budget.unit, "mg").value_or(0.0);
+                EXPECT_NEAR(budget.claims.u_c->value * in_mg, 0.361, 1e-9);
+                EXPECT_NEAR(budget.claims.U->value * in_mg, 0.7205, 6e-4);
+                EXPECT_NEAR(budget.claims.value->value * in_mg, 10000.12, 1e-6);
                 for (const AuditFinding& finding : report.findings) {
                     EXPECT_TRUE(finding.rule != "K01" && finding.rule != "S01") << finding.what.english();
                 }
