@@ -140,6 +140,9 @@ private:
             const AuditedRow& row = table_.rows[i];
             return !row.contribution && !row.sensitivity && u_of(row).has_value();
         };
+        std::vector<std::size_t> parts, certain;
+        std::vector<std::string> wholes, of_certain;  // names, as rows are dropped
+        std::size_t behind = 0;                       // the parts so far
         for (std::size_t i = 0; i < table_.rows.size(); ++i) {
             if (!table_.rows[i].contribution || !table_.rows[i].u) {
                 continue;
@@ -149,19 +152,30 @@ private:
                 while (are_below && end < table_.rows.size() && end - first < k_most_parts && is_part(end)) {
                     ++end;
                 }
-                while (!are_below && first > 0 && end - first < k_most_parts && is_part(first - 1)) {
+                while (!are_below && first > behind && end - first < k_most_parts && is_part(first - 1)) {
                     --first;
                 }
                 if (end - first > 1 && is_u_of(i, first, end)) {
-                    std::vector<std::size_t> parts(end - first);
-                    std::iota(parts.begin(), parts.end(), first);
-                    if (!holds_by(parts, true)) {
-                        drop_parts(parts, table_.rows[i].quantity);
-                        i = are_below ? i : first;
-                        break;
+                    // What is in kelvins is no contribution in micrometres by itself.
+                    const bool are_of_other_kind = !factor_between(table_.units[i].u, table_.units[i].contribution);
+                    for (std::size_t part = first; part < end; ++part) {
+                        parts.push_back(part);
+                        wholes.push_back(table_.rows[i].quantity);
+                        if (are_of_other_kind) {
+                            certain.push_back(part);
+                            of_certain.push_back(table_.rows[i].quantity);
+                        }
                     }
+                    behind = end;
+                    break;
                 }
             }
+        }
+        // In one unit a blank coefficient is 1 as well, and numbers may fit by chance: what is stated has to follow without the parts only.
+        if (parts.empty() || holds_by(parts, false)) {
+            drop_parts(parts, wholes);
+        } else if (!certain.empty() && !holds_by(certain, true)) {
+            drop_parts(certain, of_certain);
         }
     }
     [[nodiscard]] static std::optional<Interval> u_of(const AuditedRow& row) {
@@ -184,12 +198,12 @@ private:
         }
         return as_rounded(*table_.rows[row].u, 1.0).meets({std::sqrt(low), std::sqrt(high)});
     }
-    void drop_parts(const std::vector<std::size_t>& parts, const std::string& of) {
-        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-            const AuditedRow& row = table_.rows[*part];
+    void drop_parts(const std::vector<std::size_t>& parts, const std::vector<std::string>& wholes) {
+        for (std::size_t i = parts.size(); i > 0; --i) {
+            const AuditedRow& row = table_.rows[parts[i - 1]];
             not_read_.push_back(say("{cell}: {text} is taken for a part of {other}, and is not added again", row.place,
-                                    text::in_quotes(row.quantity), text::in_quotes(of)));
-            drop_row(*part);
+                                    text::in_quotes(row.quantity), text::in_quotes(wholes[i - 1])));
+            drop_row(parts[i - 1]);
         }
     }
 

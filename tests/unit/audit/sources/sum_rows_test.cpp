@@ -236,6 +236,52 @@ TEST(SumsBetweenRows, PartsOfAQuantityAreInItsContribution) {
     }
 }
 
+TEST(SumsBetweenRows, OfRowsWithoutACoefficientAreNoPartsByChance) {
+    // The law: rows are left out as parts only where what is stated follows without them, and not with them.
+    const std::string heads = "Mass\nComponent,Unit,u,c,Contribution / mg\n",
+                      rows = "Standard,mg,0.30,,\nDrift,mg,0.40,,\nBuoyancy,mg,0.50,0.5,0.25\n",
+                      coarse = "Standard,mg,0.1,,\nDrift,mg,0.1,,\nBuoyancy,mg,0.1,1,0.1\nBalance,mg,0.2,1,0.2\n",
+                      open = "Standard,mg,0.30,,\nDrift,mg,0.40,,\nBuoyancy,mg,0.50,1,0.50\nBalance,mg,0.2,1,0.2\n";
+    for (const std::string& table : {rows + "U,mg,,,1.2\n", rows + "u_c,mg,,,0.559\nk,,,,2\nU,mg,,,1.12\n",
+                                     coarse + "u_c,mg,,,0.3\nk,,,,2\nU,mg,,,0.6\n", open}) {
+        const AuditReport report = audit_of_sums(heads + table);
+        SCOPED_TRACE(table);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), table.starts_with(rows) ? 3U : 4U);
+        EXPECT_FALSE(tells(report, "is taken for a part of"));
+        EXPECT_EQ(critical_of(report), "");
+    }
+}
+
+TEST(SumsBetweenRows, NameTheQuantityThatPartsAreOf) {
+    const AuditReport above = audit_of_sums(
+        "Length\nComponent,Unit,u,c,Contribution / µm\nSensor,K,0.030,,\nGradient,K,0.052,,\n"
+        "Temperature,K,0.060,5 µm/K,0.300\nStandard,µm,0.40,1,0.40\nFriction,K,0.030,,\nLevel,K,0.052,,\n"
+        "Bending,K,0.060,5 µm/K,0.300\nDrift,µm,0.20,1,0.20\nu_c,µm,,,0.616\nk,,,,2\nU,µm,,,1.23\n");
+    ASSERT_EQ(above.results.size(), 1U);
+    EXPECT_EQ(above.subject.budgets[0].rows.size(), 4U);
+    for (const char* said :
+         {"\"Sensor\" is taken for a part of \"Temperature\"", "\"Gradient\" is taken for a part of \"Temperature\"",
+          "\"Friction\" is taken for a part of \"Bending\"", "\"Level\" is taken for a part of \"Bending\""}) {
+        EXPECT_TRUE(tells(above, said)) << said;
+    }
+}
+
+TEST(Rows, MayBeNamedLikeStatementsWithAUnit) {
+    for (const auto& [name, u_c] : std::vector<std::pair<std::string, std::string>>{{"Correction in µm", "0.539"},
+                                                                                    {"Error in mm", "0.539"},
+                                                                                    {"Tolerance in µm", "0.539"},
+                                                                                    {"CMC / µm", "0.539"}}) {
+        const AuditReport report = audit_of_sums("Length\nComponent,u / µm\nStandard,0.30\n" + name +
+                                                 ",0.40\nDrift,0.20\nu_c," + u_c + "\nU (k = 2),1.08\n");
+        SCOPED_TRACE(name);
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_EQ(report.subject.budgets[0].rows.size(), 3U);
+        EXPECT_NEAR(report.results[0].recomputed.u_c, 0.5385, 1e-4);
+        EXPECT_EQ(first_of(report, "K01"), nullptr);
+    }
+}
+
 TEST(SumsBetweenRows, OfATypeMayBeContributionsOfTheSizeOfARow) {
     const std::string plain = "Quantity,u / mK\n";
     for (const std::string& table :
