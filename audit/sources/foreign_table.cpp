@@ -245,15 +245,15 @@ private:
         }
         std::optional<Heads> heads = heads_of(sheet_, row);
         if (std::optional<Heads> joined = heads_in_two_lines(number, row);
-            joined && (!heads || joined->columns.size() > heads->columns.size())) {
+            joined &&
+            (!heads || (joined->columns.size() > heads->columns.size() && !names_row_below(number, *heads)))) {
             heads = std::move(joined);
             skip_until_ = number + 1;
         }
         if (heads) {
             Statements above;
             if (may_go_on(*heads)) {
-                set_apart();
-                above = apart_.back().statements;
+                apart_.push_back(table_so_far());
             } else {
                 above = heads_ ? Statements{} : std::move(statements_);
                 finish();
@@ -460,6 +460,12 @@ private:
             joined.push_back(cell);
         }
         return heads_of(sheet_, joined);
+    }
+    /// Whether the line below heads has a name under that of the quantities: it is a row then, whatever its other cells may be read as.
+    [[nodiscard]] bool names_row_below(std::uint32_t number, const Heads& heads) const {
+        const auto next = rows_->find(number + 1);
+        const Cell* name = next == rows_->end() ? nullptr : cell_in(next->second, heads.columns.at(Column::quantity));
+        return name != nullptr && !says_nothing(sheet_.words(*name));
     }
     /// The head that two lines have together, where the upper one is a part of a word, or means nothing by itself, or where the lower one is
     /// its unit.
@@ -986,15 +992,66 @@ private:
         return false;
     }
 
-    /// Rows below heads that are headed again before any result: "Type A" and "Type B", the next page.
-    struct RowsApart {
-        AuditedBudget budget;
-        std::vector<RowUnits> units;
-        Heads heads;
-        Statements statements;
-        std::set<const Cell*> with_numbers;
-        std::string title, unit_in_words;
+    struct CorrelationLine {
+        const SheetView::Row* row;
+        double r;
+        Pairs pairs;  ///< what may be the symbols of its rows
     };
+    /// What was read of a table so far. Rows below heads that are headed again before any result ("Type A" and "Type B", the next page)
+    /// are set apart as such.
+    struct TableSoFar {
+        std::optional<Heads> heads;
+        AuditedBudget budget;
+        std::vector<RowUnits> units;  ///< of its rows
+        Statements statements;
+        std::set<const Cell*> with_numbers;  ///< unknown heads of columns of numbers
+        std::string title, unit_in_words;
+        bool is_too_long = false, is_unusable = false, is_open = false, is_told = false, lost_a_row = false;
+        std::optional<NumbersUnderHeads> result_line;
+        std::vector<const SheetView::Row*> last_constants;
+        std::vector<CorrelationLine> correlation_lines;
+        const SheetView::Row* covariance_line = nullptr;
+    };
+    /// Takes the table that is read out of the reader.
+    [[nodiscard]] TableSoFar table_so_far() {
+        TableSoFar table{.heads = std::move(heads_),
+                         .budget = std::move(budget_),
+                         .units = std::move(units_),
+                         .statements = std::move(statements_),
+                         .with_numbers = std::move(with_numbers_),
+                         .title = title_,
+                         .unit_in_words = unit_in_words_,
+                         .is_too_long = is_too_long_,
+                         .is_unusable = is_unusable_,
+                         .is_open = is_open_,
+                         .is_told = is_told_,
+                         .lost_a_row = lost_a_row_,
+                         .result_line = std::move(result_line_),
+                         .last_constants = std::move(last_constants_),
+                         .correlation_lines = std::move(correlation_lines_),
+                         .covariance_line = covariance_line_};
+        clear();
+        return table;
+    }
+    void go_on_with(TableSoFar table) {
+        clear();
+        heads_ = std::move(table.heads);
+        budget_ = std::move(table.budget);
+        units_ = std::move(table.units);
+        statements_ = std::move(table.statements);
+        with_numbers_ = std::move(table.with_numbers);
+        title_ = std::move(table.title);
+        unit_in_words_ = std::move(table.unit_in_words);
+        is_too_long_ = table.is_too_long;
+        is_unusable_ = table.is_unusable;
+        is_open_ = table.is_open;
+        is_told_ = table.is_told;
+        lost_a_row_ = table.lost_a_row;
+        result_line_ = std::move(table.result_line);
+        last_constants_ = std::move(table.last_constants);
+        correlation_lines_ = std::move(table.correlation_lines);
+        covariance_line_ = table.covariance_line;
+    }
     /// Whether heads are those of the table above them, which has rows, and has stated no uncertainty so far.
     [[nodiscard]] bool may_go_on(const Heads& heads) const {
         constexpr std::size_t k_most = 20;  // parts
@@ -1006,94 +1063,71 @@ private:
                heads.columns == heads_->columns && heads.units == heads_->units && !states(Statement::u_c) &&
                !states(Statement::U) && !states(Statement::reported_U) && !states(Statement::value);
     }
-    void set_apart() {
-        apart_.push_back({.budget = std::move(budget_),
-                          .units = std::move(units_),
-                          .heads = *heads_,
-                          .statements = statements_,
-                          .with_numbers = std::move(with_numbers_),
-                          .title = title_,
-                          .unit_in_words = unit_in_words_});
-        budget_ = {};
-        units_.clear();
-        with_numbers_.clear();
-        last_constants_.clear();
+    /// Whether what is stated follows from rows as they stand, or from those of them that are no sums of others.
+    [[nodiscard]] bool follow_from(std::vector<AuditedRow> rows, std::vector<RowUnits> units,
+                                   Statements statements) const {
+        const TableSums sums{rows, units, *heads_, statements};
+        const auto follow = [&sums] {
+            const std::optional<StatedResult> of = sums.stated_of_sum();
+            const std::optional<Interval> sum = of ? sums.sum_above(*of) : std::nullopt;
+            return sum && sums.gives_statements(*sum).value_or(false);
+        };
+        if (!sums.stated_of_sum() || follow()) {
+            return sums.stated_of_sum().has_value();
+        }
+        std::vector<Sentence> unused;
+        return !settle_sums(sums, result_line_.has_value(), unused) && follow();
     }
     /// Rows that were set apart belong to the table below them where what that one states follows with them only; else they are a table
     /// of their own.
     void join_or_finish_rows_apart() {
-        std::vector<RowsApart> apart;
+        std::vector<TableSoFar> apart;
         apart.swap(apart_);
         if (apart.empty()) {
             return;
         }
         std::vector<AuditedRow> rows;
         std::vector<RowUnits> units;
-        for (const RowsApart& part : apart) {
+        for (const TableSoFar& part : apart) {
             rows.insert(rows.end(), part.budget.rows.begin(), part.budget.rows.end());
             units.insert(units.end(), part.units.begin(), part.units.end());
         }
         const std::size_t before = rows.size();
         rows.insert(rows.end(), budget_.rows.begin(), budget_.rows.end());
         units.insert(units.end(), units_.begin(), units_.end());
-        bool is_one = false;
-        if (heads_ && rows.size() > before && rows.size() <= k_most_rows) {
-            TableSums all{rows, units, *heads_, statements_};
-            const std::optional<StatedResult> of = all.stated_of_sum();
-            const std::optional<Interval> of_all = of ? all.sum_above(*of) : std::nullopt;
-            const std::optional<Interval> of_last = of ? sums().sum_above(*of) : std::nullopt;
-            is_one = of_all && all.gives_statements(*of_all).value_or(false) &&
-                     !(of_last && all.gives_statements(*of_last).value_or(false));
+        Statements merged = statements_;
+        for (const TableSoFar& part : apart) {
+            merged.numbers.insert(part.statements.numbers.begin(), part.statements.numbers.end());
+            merged.parts.insert(part.statements.parts.begin(), part.statements.parts.end());
+            merged.words.insert(part.statements.words.begin(), part.statements.words.end());
+            if (merged.coverage.empty()) {
+                merged.coverage = part.statements.coverage;
+                merged.coverage_place = part.statements.coverage_place;
+            }
         }
+        const bool is_one = heads_ && rows.size() > before && rows.size() <= k_most_rows &&
+                            follow_from(rows, units, merged) && !follow_from(budget_.rows, units_, merged);
         if (is_one) {
+            statements_ = std::move(merged);
             budget_.rows = std::move(rows);
             units_ = std::move(units);
             budget_.place = apart.front().budget.place;
             title_ = apart.front().title;
             unit_in_words_ = unit_in_words_.empty() ? apart.front().unit_in_words : unit_in_words_;
-            for (const RowsApart& part : apart) {
+            std::vector<const SheetView::Row*> constants;
+            for (const TableSoFar& part : apart) {
                 with_numbers_.insert(part.with_numbers.begin(), part.with_numbers.end());
+                constants.insert(constants.end(), part.last_constants.begin(), part.last_constants.end());
             }
+            last_constants_.insert(last_constants_.begin(), constants.begin(), constants.end());
             return;
         }
-        RowsApart last{.budget = std::move(budget_),
-                       .units = std::move(units_),
-                       .heads = heads_ ? *heads_ : Heads{},
-                       .statements = std::move(statements_),
-                       .with_numbers = std::move(with_numbers_),
-                       .title = title_,
-                       .unit_in_words = unit_in_words_};
-        const bool has_heads = heads_.has_value();
-        const auto take = [this](RowsApart& part) {
-            budget_ = std::move(part.budget);
-            units_ = std::move(part.units);
-            heads_ = std::move(part.heads);
-            statements_ = std::move(part.statements);
-            with_numbers_ = std::move(part.with_numbers);
-            title_ = std::move(part.title);
-            unit_in_words_ = std::move(part.unit_in_words);
-        };
-        const bool flags[] = {is_too_long_, is_unusable_, is_open_, is_told_, lost_a_row_};
-        const std::optional<NumbersUnderHeads> result_line = result_line_;
-        const std::vector<const SheetView::Row*> constants = last_constants_;
-        const std::vector<CorrelationLine> correlations = correlation_lines_;
-        const SheetView::Row* const covariance = covariance_line_;
-        for (RowsApart& part : apart) {
-            clear();
-            take(part);
+        TableSoFar last = table_so_far();
+        for (TableSoFar& part : apart) {
+            go_on_with(std::move(part));
             finish_one();
         }
-        clear();
-        take(last);
-        if (!has_heads) {
-            heads_.reset();
-        }
-        is_too_long_ = flags[0], is_unusable_ = flags[1], is_open_ = flags[2], is_told_ = flags[3],
-        lost_a_row_ = flags[4];
-        result_line_ = result_line;
-        last_constants_ = constants;
-        correlation_lines_ = correlations;
-        covariance_line_ = covariance;
+        go_on_with(std::move(last));
     }
     void finish() {
         join_or_finish_rows_apart();
@@ -1351,20 +1385,15 @@ private:
     bool is_too_long_ = false;
     bool is_unusable_ = false;  ///< a row has an uncertainty that could not be read
     AuditedBudget budget_;
-    std::vector<RowUnits> units_;   ///< of its rows
-    std::deque<Cell> joined_;       ///< heads that stand in two lines
-    std::vector<RowsApart> apart_;  ///< rows above it, below the same heads
+    std::vector<RowUnits> units_;    ///< of its rows
+    std::deque<Cell> joined_;        ///< heads that stand in two lines
+    std::vector<TableSoFar> apart_;  ///< rows above it, below the same heads
     Statements statements_;
     std::optional<NumbersUnderHeads> result_line_;       ///< states the value, and more
     std::size_t looks_ = 0;                              ///< at sums of the rows, for lines that look like rows
     std::optional<std::uint32_t> last_unread_;           ///< line that was named as not read, or follows such
     std::vector<const SheetView::Row*> last_constants_;  ///< behind the last row so far
     std::set<const Cell*> with_numbers_;                 ///< unknown heads of columns of numbers
-    struct CorrelationLine {
-        const SheetView::Row* row;
-        double r;
-        Pairs pairs;  ///< what may be the symbols of its rows
-    };
     std::vector<CorrelationLine> correlation_lines_;
     const SheetView::Row* covariance_line_ = nullptr;  ///< the first one with a covariance
     std::string unit_in_words_;                        ///< that a line above or below the table has for all of it

@@ -664,6 +664,12 @@ TEST(Heads, MayStandAgainAboveFurtherRows) {
         EXPECT_NEAR(one.results[0].recomputed.u_c, root_of_squares({0.3, 0.2, 0.4, 0.1}), 1e-9);
         EXPECT_EQ(critical_of(one), "");
         EXPECT_EQ(first_of(one, "K01"), nullptr);
+        // Each part may have its sum.
+        const AuditReport sums = audit_of_sums("Type A\n" + heads + a + "Subtotal A,mg,,,0.361\n" + between + heads +
+                                               b + "Subtotal B,mg,,,0.412\nu_c,mg,,,0.548\nk,,,,2\nU,mg,,,1.10\n");
+        ASSERT_EQ(sums.results.size(), 1U);
+        EXPECT_EQ(sums.subject.budgets[0].rows.size(), 4U);
+        EXPECT_EQ(first_of(sums, "K01"), nullptr);
         // Where the result is that of the rows directly above it, the others are a budget of their own.
         const AuditReport two =
             audit_of_sums("Point 1\n" + heads + a + between + heads + b + "u_c,mg,,,0.412\nk,,,,2\nU,mg,,,0.82\n");
@@ -674,6 +680,36 @@ TEST(Heads, MayStandAgainAboveFurtherRows) {
         EXPECT_EQ(two.subject.budgets[1].claims.U->text, "0.82");
         EXPECT_EQ(critical_of(two), "");
     }
+}
+
+TEST(Heads, ThatStandAgainKeepWhatOtherTablesState) {
+    // The law: what one of two tables states is not said of the other, unless their rows make up one result.
+    const std::string heads = "Component,Unit,u,c,Contribution\n",
+                      a = "Point 10 mg\n" + heads + "Handling,mg,0.30,1,0.30\nReadings,mg,0.20,1,0.20\n",
+                      b = "\nPoint 20 mg\n" + heads + "Balance,mg,0.40,1,0.40\nDrift of the balance,mg,0.10,1,0.10\n";
+    const AuditReport capability =
+        audit_of_sums(a + "CMC,mg,,,0.9\nν_eff,,,,12\nk,,,,2.2\n" + b + "u_c,mg,,,0.412\nk,,,,2\nU,mg,,,0.82\n");
+    ASSERT_EQ(capability.results.size(), 2U);
+    EXPECT_EQ(capability.subject.budgets[0].capability, 0.9);
+    const AuditedBudget& second = capability.subject.budgets[1];
+    EXPECT_FALSE(second.capability);
+    EXPECT_FALSE(second.claims.nu_eff);
+    ASSERT_TRUE(second.claims.k);
+    EXPECT_EQ(second.claims.k->value, 2.0);
+    EXPECT_EQ(first_of(capability, "K01"), nullptr);
+    EXPECT_EQ(first_of(capability, "K03"), nullptr);
+    EXPECT_EQ(first_of(capability, "X01"), nullptr);
+    const AuditReport joined = audit_of_sums(a + "CMC,mg,,,0.9\n" + b + "u_c,mg,,,0.548\nk,,,,2\nU,mg,,,1.10\n");
+    ASSERT_EQ(joined.results.size(), 1U);
+    EXPECT_EQ(joined.subject.budgets[0].rows.size(), 4U);
+    EXPECT_EQ(joined.subject.budgets[0].capability, 0.9);
+}
+
+TEST(Heads, AreNoRowBelowThem) {
+    const AuditReport report = audit_of_sums(
+        "Mass\nQuantity,u / mg,\nBalance,≈ 0.20,certificate\nStandard,0.10,\nDrift,0.05,\nU (k = 2),0.46,\n");
+    EXPECT_TRUE(tells(report, "\"≈ 0.20\" is no number; what is meant?"));
+    EXPECT_EQ(first_of(report, "K01"), nullptr);
 }
 
 TEST(Heads, MayNameContributionsTwice) {
