@@ -789,6 +789,33 @@ bool is_of_expanded(const CoverageText& coverage) {
     return k ? k->number.value >= k_least_k : coverage.p.has_value() && *coverage.p >= k_least_p;
 }
 
+}  // namespace
+
+bool says_coverage_alone(std::string_view text) {
+    constexpr std::string_view k_between = " ()[],;:=\t\n";
+    constexpr std::string_view k_words =
+        " k p t u w u95 u_95 u_c uc ν_eff nu_eff veff v_eff normal gaussian gauß coverage "
+        "factor probability level confidence approx approx. ca. with mit and und for für at bei "
+        "in of the des vom value measured measurement reading rdg result measurand indication "
+        "messwert messwerts messwertes ergebnis ergebnisses erweiterungsfaktor "
+        "überdeckungswahrscheinlichkeit überdeckungsfaktor ";
+    for (std::size_t at = text.find_first_not_of(k_between); at != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(k_between, at), text.size());
+        const std::string token(text.substr(at, end - at));
+        at = text.find_first_not_of(k_between, end);
+        const bool has_letter = std::any_of(
+            token.begin(), token.end(), [](char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80U; });
+        const bool is_number = token.front() >= '0' && token.front() <= '9';
+        if (has_letter && !is_number && !is_unit_of_part(token) && token != "–" && token != "—" && token != "≈" &&
+            k_words.find(" " + text::in_small_letters(token) + " ") == k_words.npos) {
+            return false;
+        }
+    }
+    return true;
+}
+
+namespace {
+
 /// What a name in words says of an uncertainty: "standard uncertainty of the result", "Overall uncertainty", "Messunsicherheit U".
 /// Nothing where it may be that of anything else, "uncertainty of calibration", or is one of the two only with its coverage, and
 /// that says nothing.
@@ -922,7 +949,9 @@ std::optional<NamedStatement> whole_statement(std::string_view name, std::string
         bool is_relative = false;
         if (const std::optional<Statement> by_words = uncertainty_in_words(text, coverage, is_relative);
             by_words && (!named || named->statement == Statement::u_c)) {
-            named = NamedStatement{.statement = *by_words, .is_relative = is_relative};
+            named = NamedStatement{.statement = *by_words,
+                                   .is_relative = is_relative,
+                                   .says_of_what = is_relative && !says_coverage_alone(coverage)};
         }
         if (named) {
             if (coverage_in(behind).says_any()) {

@@ -82,6 +82,7 @@ struct NamedStatement {
     bool may_be_constant = false;
     bool is_relative =
         false;  ///< "Relative expanded uncertainty": a part of the value, and none of a number in another unit
+    bool says_of_what = false;  ///< a relative one, beside coverage: "(of full scale)"
     std::string coverage = {};  ///< "(k = 2.08, p = 95 %)" of "Expanded uncertainty (k = 2.08, p = 95 %)"
     std::string assigned = {};  ///< "0.096 mg" of "U = 0.096 mg": what stands behind the name in its own cell
 };
@@ -113,6 +114,9 @@ struct CoverageText {
     [[nodiscard]] bool says_any() const { return !k.empty() || p.has_value(); }
 };
 [[nodiscard]] CoverageText coverage_in(std::string_view text);
+/// Whether a text beside a relative uncertainty says nothing but its coverage, its unit, and that it is of the value: "(%)",
+/// "k = 2, p = 95 %", "of reading", and not "of full scale" or "v. E.".
+[[nodiscard]] bool says_coverage_alone(std::string_view text);
 
 /// The k that a distribution is said with: "normal (k = 2)", "Normal 2σ", "N (2 sigma)".
 [[nodiscard]] std::optional<double> k_of_distribution(std::string_view text);

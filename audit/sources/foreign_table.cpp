@@ -1323,6 +1323,19 @@ private:
         if (budget_.rows.empty() || !are_parts || have_units_of_coefficients || !is_sum_of_parts) {
             return;
         }
+        // Without a value that has parts, and with nothing that says that the sum is one, a unit of another kind is a contradiction.
+        const auto value = statements_.numbers.find(Statement::value);
+        const bool has_value =
+            value != statements_.numbers.end() && has_parts(value->second.number, value->second.unit);
+        bool is_said = is_unit_of_part(of_contributions);
+        for (const Statement statement : {Statement::u_c, Statement::U, Statement::reported_U}) {
+            const auto number = statements_.numbers.find(statement);
+            is_said = is_said || statements_.parts.contains(statement) ||
+                      (number != statements_.numbers.end() && is_unit_of_part(number->second.unit));
+        }
+        if (!has_value && !is_said) {
+            return;
+        }
         statements_.unit_of_parts = of_contributions.empty() ? budget_.rows.front().unit : of_contributions;
         for (const Statement statement : {Statement::u_c, Statement::U, Statement::reported_U}) {
             const auto number = statements_.numbers.find(statement), part = statements_.parts.find(statement);

@@ -87,8 +87,8 @@ private:
         const bool is_that_of_rows = left_open(number, k).meets(sum);
         if (is_that_of_rows || is_of_value) {
             is_by_value_ = is_by_value_ || is_that_of_rows;
-            not_read_.push_back(say("{cell}: {text} is held against the rows as {number:number}, by the value",
-                                    part->number.place, quoted(*part), in_unit(number.value, budget_.unit)));
+            not_read_.push_back(say("{cell}: {text} is taken as {number:number}, by the value", part->number.place,
+                                    quoted(*part), in_unit(number.value, budget_.unit)));
             claim = number;
             return;
         }

@@ -253,7 +253,10 @@ public:
         : statements_(statements), not_read_(not_read) {
         const std::string of_value = own(Statement::value);
         // U in percent below rows and u_c in volts is a part of the value: the budget is in volts.
-        for (const std::string& unit : {own(Statement::u_c), of_contributions, of_rows}) {
+        // So is u_c in percent.
+        const std::string& of_added = of_contributions.empty() ? of_rows : of_contributions;
+        const std::string of_u_c = is_part_beside(own(Statement::u_c), of_added) ? "" : own(Statement::u_c);
+        for (const std::string& unit : {of_u_c, of_contributions, of_rows}) {
             of_sum_ = of_sum_.empty() ? unit : of_sum_;
         }
         if (!statements.unit_of_parts.empty()) {  // and U in volts below rows in percent is their U times the value
@@ -657,6 +660,15 @@ bool take_value_with_U(const SheetView& sheet, const SheetView::Row& row, const 
     return true;
 }
 
+/// Whether anything but coverage and units stands in a line of a relative u_c or U, which may say that it is a part of a full scale.
+bool says_of_what(const SheetView& sheet, const SheetView::Row& row, const NamedLine& line) {
+    return line.named.says_of_what || !says_coverage_alone(line.named.assigned) ||
+           std::any_of(row.begin(), row.end(), [&](const Cell* cell) {
+               const bool is_text = cell != row[line.cell] && sheet.value(*cell).kind == CellKind::text;
+               return is_text && !says_coverage_alone(sheet.words(*cell));
+           });
+}
+
 /// What was taken of a line.
 struct TakenStatement {
     Statement statement = Statement::value;
@@ -773,12 +785,14 @@ std::optional<TakenStatement> take_first(const SheetView& sheet, const SheetView
         if (line->named.is_relative && !is_unit_of_part(unit_under(heads, *result))) {
             return std::nullopt;  // a part, in a unit that nobody states
         }
-        result->is_relative = line->named.is_relative;
+        result->is_relative = line->named.is_relative && !says_of_what(sheet, row, *line);
         if (may_be_part(statement) && held != statements.numbers.end()) {
-            if (is_part_beside(held->second.unit, result->unit)) {  // "U | 0.004 | %" before "U | 0.4 | mV"
+            const std::string of_held = unit_under(heads, held->second), of_this = unit_under(heads, *result);
+            if (is_part_beside(of_held, of_this)) {  // "U | 0.004 | %" before "U | 0.4 | mV"
+                held->second.unit = of_held;
                 statements.parts.emplace(statement, std::move(held->second));
                 statements.numbers.erase(held);
-            } else if (is_part_beside(unit_under(heads, *result), unit_under(heads, held->second))) {
+            } else if (is_part_beside(of_this, of_held)) {
                 statements.parts.emplace(statement, *result);
             }
         }

@@ -154,6 +154,20 @@ TEST(CoverageIn, KnowsKAndPHoweverTheyAreWritten) {
     }
 }
 
+TEST(CoverageIn, IsAllThatStandsBesideAUOfTheValue) {
+    for (const char* text : {"", "(k = 2)", "k = 2, p = 95 %", "(%)", "in %", "ppm", "µm/m", "normal, k=2",
+                             "of reading", "(of the measured value)", "–", "0.044", "0.044 % (k = 2)"}) {
+        EXPECT_TRUE(says_coverage_alone(text)) << text;
+    }
+    for (const char* text : {"(of full scale)", "FS", "% FS", "% of span", "v. E.", "bezogen auf den Messbereich",
+                             "related to 10 N·m", "of 10 N·m", "(k = 2) of the nominal torque"}) {
+        EXPECT_FALSE(says_coverage_alone(text)) << text;
+    }
+    EXPECT_FALSE(named_statement("Relative expanded uncertainty (k = 2)")->says_of_what);
+    EXPECT_TRUE(named_statement("Relative expanded uncertainty (k = 2) of the nominal torque")->says_of_what);
+    EXPECT_TRUE(named_statement("Relative expanded uncertainty (full scale)")->says_of_what);
+}
+
 TEST(CertificateIn, IsNamedByItsNumber) {
     EXPECT_EQ(certificate_in("U = 1.5 µV, k = 2; certificate 91-E; 39 µV/K"), "certificate 91-E");
     EXPECT_EQ(certificate_in("Kalibrierschein 4711-D-K-2025"), "Kalibrierschein 4711-D-K-2025");

@@ -52,7 +52,7 @@ TEST(PartsOfAValue, AreHeldAgainstTheRows) {
         ASSERT_TRUE(report.subject.budgets[0].claims.U);
         EXPECT_NEAR(report.subject.budgets[0].claims.U->value, 4.37, 0.04);
         EXPECT_EQ(report.subject.budgets[0].unit, "mN·m");
-        EXPECT_NE(said_of_parts(report).find("is held against the rows as"), std::string::npos);
+        EXPECT_NE(said_of_parts(report).find(" is taken as "), std::string::npos);
         EXPECT_TRUE(is_free_of_critical(report));
     }
     const AuditReport both =
@@ -94,6 +94,63 @@ TEST(PartsOfAValue, OfSomethingElseAccuseNobody) {
     EXPECT_FALSE(has_parts(read_number("0", ""), "V"));
     EXPECT_FALSE(has_parts(read_number("0.5", ""), "%"));
     EXPECT_TRUE(has_parts(read_number("10.0", ""), "V"));
+}
+
+TEST(PartsOfAValue, OfWhatIsSaidBesideThemAreAskedAbout) {
+    for (const char* line :
+         {"Relative expanded uncertainty (of full scale),%,,,0.044\n",
+          "Relative expanded uncertainty (full scale),%,,,0.044\n", "Relative expanded uncertainty (FS),%,,,0.044\n",
+          "Relative expanded uncertainty (% of span),,,,0.044 %\n",
+          "Relative erweiterte Messunsicherheit (v. E.),%,,,0.044\n",
+          "Relative expanded uncertainty (k = 2) of the nominal torque,%,,,0.044\n",
+          "Relative expanded uncertainty (related to 10 N·m),%,,,0.044\n",
+          "Relative expanded uncertainty,%,,,0.044,of full scale\n"}) {
+        const AuditReport report =
+            audit_of_parts(k_rows_of_parts + "Measured value,N·m,,,6.0012\nu_c,mN·m,,,2.18\nk,,,2\n" + line);
+        SCOPED_TRACE(line + said_of_parts(report));
+        ASSERT_EQ(report.results.size(), 1U);
+        EXPECT_FALSE(report.subject.budgets[0].claims.U);
+        EXPECT_TRUE(is_free_of_critical(report));
+        EXPECT_NE(said_of_parts(report).find("to which value does it belong?"), std::string::npos);
+    }
+}
+
+TEST(PartsOfAValue, MayBeBothUncertainties) {
+    for (const char* value : {"10.0023", "6.0012"}) {
+        for (const auto& [u_c, U] : std::vector<std::pair<std::string, std::string>>{
+                 {"u_c", "U"}, {"Relative combined standard uncertainty", "Relative expanded uncertainty"}}) {
+            const std::string of = std::string(value) == "6.0012" ? "0.0363 0.073" : "0.0218 0.044";
+            const AuditReport report =
+                audit_of_parts(k_rows_of_parts + "Measured value,N·m,,," + value + "\n" + u_c + ",%,,," +
+                               of.substr(0, 6) + "\nk,,,2\n" + U + ",%,,," + of.substr(7) + "\n");
+            SCOPED_TRACE(u_c + " " + value + said_of_parts(report));
+            ASSERT_EQ(report.results.size(), 1U);
+            EXPECT_TRUE(is_free_of_critical(report));
+            EXPECT_FALSE(finds_part(report, "S01"));
+            ASSERT_TRUE(report.subject.budgets[0].claims.u_c && report.subject.budgets[0].claims.U);
+            EXPECT_NEAR(report.results[0].recomputed.u_c, report.subject.budgets[0].claims.u_c->value,
+                        0.01 * report.results[0].recomputed.u_c);
+        }
+    }
+}
+
+TEST(PartsOfAValue, AreNoneWhereNothingSaysSo) {
+    // Rows in percent make up no U in °C, and none of a value of 0.
+    const std::string rows = "Dew point\nQuantity,Unit,u\nHumidity standard,%,0.15\nDrift,%,0.07\nHysteresis,%,0.05\n";
+    for (const char* lines : {"k,,2\nU,°C,0.35\n", "Measured value,N·m,0\nk,,2\nU,N·m,0.35\n"}) {
+        const AuditReport report = audit_of_parts(rows + lines);
+        SCOPED_TRACE(lines + said_of_parts(report));
+        EXPECT_TRUE(finds_part(report, "S01"));
+    }
+    // U below a head in percent, and then in the unit of the value, is looked at twice.
+    const AuditReport both = audit_of_parts(
+        "Pressure\nQuantity,w (%),c,Contribution (%)\nStandard,0.030,1,0.030\nDrift,0.020,1,0.020\n"
+        "Hysteresis,0.029,1,0.029\nMeasured value,50.02 bar,,\nu_c,,,0.0463\nk,,,2\nU,,,0.093\n"
+        "Expanded uncertainty U,0.093 bar,,\n");
+    ASSERT_EQ(both.results.size(), 1U);
+    EXPECT_EQ(both.subject.budgets[0].unit, "%");
+    EXPECT_TRUE(is_free_of_critical(both));
+    EXPECT_NE(said_of_parts(both).find("to which value does it belong?"), std::string::npos) << said_of_parts(both);
 }
 
 TEST(PartsOfAValue, BesideTheNumberAreHeldAgainstIt) {
