@@ -380,7 +380,7 @@ std::optional<double> rest_of_rectangular(const AuditedBudget& budget) {
 }
 
 /// The smallest k that p can have by the rows: that of the distribution of their sum, where a row that states no distribution
-/// is taken as a rectangular one, and the largest of them as an arcsine one. Nothing where the rows are correlated, so that nobody knows it.
+/// is taken as a rectangular one, and the largest of those that state none as an arcsine one. Nothing where the rows are correlated, so that nobody knows it.
 std::optional<double> least_k_of_rows(const AuditedBudget& budget, double p) {
     if (!budget.correlations.empty() || budget.correlation_variance != 0.0) {
         return std::nullopt;
@@ -392,7 +392,8 @@ std::optional<double> least_k_of_rows(const AuditedBudget& budget, double p) {
         const bool is_open = row.shape == Shape::not_stated && !row.type_a.value_or(false);
         if ((is_open && !std::isfinite(row.used_nu)) || row.shape == Shape::trapezoidal || row.shape == Shape::other) {
             row.shape = Shape::rectangular;
-            largest = largest == nullptr || size_of(row) > size_of(*largest) ? &row : largest;
+            const bool is_larger = largest == nullptr || size_of(row) > size_of(*largest);
+            largest = is_open && is_larger ? &row : largest;  // one that is stated has its shape
         }
         row.used_nu = std::numeric_limits<double>::infinity();  // fewer degrees of freedom make k larger
     }

@@ -48,11 +48,13 @@ int digits_in(const StatedNumber& number) {
 }
 
 /// Cells of a workbook have all digits; how they are printed is not known. Nor is it of one whose formulas were replaced by their numbers.
-bool is_printed(const AuditSubject& subject, const std::optional<StatedNumber>& number) {
-    constexpr int k_most_printed = 9;  // significant digits of a number that somebody wrote
+/// \param most  significant digits that somebody writes: a frequency has more of them than an uncertainty
+bool is_printed(const AuditSubject& subject, const std::optional<StatedNumber>& number, int most) {
     return subject.kind != AuditSubject::Kind::workbook && number && !number->text.empty() &&
-           digits_in(*number) <= k_most_printed;
+           digits_in(*number) <= most;
 }
+
+constexpr int k_most_of_U = 9, k_most_of_value = 14;  // a double shows 15 at least
 
 /// Unit of the last digit of a printed number.
 double last_place(const StatedNumber& number) {
@@ -69,7 +71,7 @@ FindingSeverity milder_in_a_budget(const AuditSubject& subject, FindingSeverity 
 void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const std::optional<StatedNumber>& U = subject.budgets[i].claims.U;
-        if (!is_printed(subject, U) || digits_in(*U) <= 2) {
+        if (!is_printed(subject, U, k_most_of_U) || digits_in(*U) <= 2) {
             continue;
         }
         AuditFinding finding = finding_of(
@@ -83,7 +85,7 @@ void too_many_digits(const AuditSubject& subject, FindingCollector& findings) {
 void places_differ(const AuditSubject& subject, FindingCollector& findings) {
     for (std::size_t i = 0; i < subject.budgets.size(); ++i) {
         const Claims& claims = subject.budgets[i].claims;
-        if (!is_printed(subject, claims.U) || !is_printed(subject, claims.value) ||
+        if (!is_printed(subject, claims.U, k_most_of_U) || !is_printed(subject, claims.value, k_most_of_value) ||
             is_about(last_place(*claims.U), last_place(*claims.value), 1e-6)) {
             continue;
         }

@@ -1062,12 +1062,11 @@ CellsOfTables cells_of_tables(const WorksheetView& view, const AuditSubject& sub
     return cells;
 }
 
-/// Cells of the results that a subject claims.
+/// Cells of u_c and U that a subject claims. What is made of the value or of k is no result of the rows.
 std::set<CellPlace> cells_of_claims(const WorksheetView& view, const AuditSubject& subject) {
     std::set<CellPlace> cells;
     for (const AuditedBudget& budget : subject.budgets) {
-        for (const std::optional<StatedNumber>* claim :
-             {&budget.claims.value, &budget.claims.u_c, &budget.claims.k, &budget.claims.U}) {
+        for (const std::optional<StatedNumber>* claim : {&budget.claims.u_c, &budget.claims.U}) {
             if (const std::optional<CellPlace> cell = view.cell_at(place_of(*claim))) {
                 cells.insert(*cell);
             }

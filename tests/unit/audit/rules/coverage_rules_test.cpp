@@ -126,6 +126,8 @@ TEST(CoverageRules, K03DoesNotAccuseAMismatchThatStatesNoDistribution) {
         one.shape = Shape::normal;
     }
     EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
+    budget.rows[0].shape = Shape::trapezoidal;  // what is stated is not U-shaped
+    EXPECT_EQ(findings_of("K03", subject_of(budget)).size(), 1U);
 }
 
 TEST(CoverageRules, K04ConvolvesARectangularRow) {

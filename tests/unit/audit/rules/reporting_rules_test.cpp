@@ -36,6 +36,8 @@ TEST(ReportingRules, R01_counts_significant_digits) {
     // Nobody prints all digits of a double: formulas were replaced by their numbers, and a format shows fewer.
     EXPECT_EQ(found_by(reporting_rules(), "R01", printed_as("12.345678901234567", "0.31234567890123456")), "");
     EXPECT_EQ(found_by(reporting_rules(), "R02", printed_as("12.345678901234567", "0.31234567890123456")), "");
+    // A frequency is printed with more digits than an uncertainty ever is.
+    EXPECT_NE(found_by(reporting_rules(), "R02", printed_as("10000000.00012", "0.0003")), "");
     AuditSubject workbook = printed_as("10.000", "0.312");
     workbook.kind = AuditSubject::Kind::workbook;
     EXPECT_EQ(found_by(reporting_rules(), "R01", workbook), "");

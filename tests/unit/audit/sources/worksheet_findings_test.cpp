@@ -334,6 +334,8 @@ TEST(WorksheetFindings, W14LeavesWhatAPageOfResultsShowsAlone) {
     EXPECT_EQ(unused("Uncertainty on the certificate", "=B6*1000"), 0U);
     EXPECT_EQ(unused("Uncertainty of the buoyancy", "=B3/SQRT(3)"), 1U);
     EXPECT_EQ(unused("Drift since the last calibration", "=B6-B3"), 1U);
+    // k is in no result of its own.
+    EXPECT_EQ(unused("Uncertainty of the thermometer", "=0.3/B5"), 1U);
 }
 
 /// The readings stand in I2 to I6; k, u_c and the cells of the repeatability as given.
