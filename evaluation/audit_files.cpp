@@ -193,15 +193,14 @@ bool has_certificate_beside(const fs::path& file) {
 /// Whether JSON is that of another part of the program: certificate data, a laboratory's register, an audit, the list of a set of outputs.
 /// What is damaged, or says that it is a job, is looked at, and refused with what is wrong.
 bool is_other_json(const std::string& bytes) {
-    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), last = bytes.find_last_not_of(" \t\r\n");
     if (first != std::string::npos && bytes[first] == '[') {
-        return true;  // waivers
+        return bytes[last] == ']';  // waivers
     }
     const std::string schema = text::outermost_string(bytes, "schema").value_or("");
     if (!schema.empty()) {
         return !schema.starts_with("gumcert/job/") && !schema.starts_with("gumcert/record/");
     }
-    const std::size_t last = bytes.find_last_not_of(" \t\r\n");
     return last != std::string::npos && bytes[last] == '}' && !text::outermost_string(bytes, "kind");
 }
 

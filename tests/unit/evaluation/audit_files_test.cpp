@@ -88,7 +88,8 @@ TEST(AuditFiles, OfOtherPartsOfTheProgramAreNoJobs) {
     std::ofstream(all / "job.json") << R"({"schema": "gumcert/job/1", "kind": )";
     std::ofstream(all / "kind.json") << R"({"kind": "budget"})";
     std::ofstream(all / "cut.json") << R"({"title": "x", )";
-    EXPECT_EQ(files_to_audit({all}).files.size(), 4U);
+    std::ofstream(all / "cut_list.json") << R"([{"kind": "budget")";
+    EXPECT_EQ(files_to_audit({all}).files.size(), 5U);
     fs::remove_all(all);
 }
 
