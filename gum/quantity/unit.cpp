@@ -9,6 +9,7 @@
 #include "gum/quantity/diagnostic.h"
 #include "gum/quantity/unit_exponent.h"
 #include "gum/quantity/unit_expression.h"
+#include "gum/quantity/unit_meant.h"
 #include "gum/quantity/unit_table.h"
 #include "text/numbers.h"
 
@@ -228,7 +229,9 @@ void refuse_other_scales(std::string_view text) {
 
 InputError refused(std::string_view text, const UnitRefusal& refusal) {
     using Reason = UnitRefusal::Reason;
-    const auto action = [&](const char* other) { return refusal.action.empty() ? other : refusal.action; };
+    // A digit or a full stop ends a name: "mmH2O" and "%r.F." are known as a whole only.
+    const std::string own = refusal.action.empty() ? unit_meant(text) : refusal.action;
+    const auto action = [&](const char* other) { return own.empty() ? other : own; };
     switch (refusal.reason) {
         case Reason::exponent:
             return unit_error("GC-UNIT-0005", text, refusal.what,

@@ -397,12 +397,10 @@ private:
                        "Write " + std::string(ambiguous.meanings.substr(colon + 8)) + ".");
             }
         }
-        // A digit or a full stop ends a name: "mmH2O" and "%r.F." are known as a whole only.
-        const std::string whole = unit_meant(text_);
         const std::size_t before = from == 0 ? std::string_view::npos : text_.find_last_not_of(' ', from - 1);
         const bool below_a_line = before != std::string_view::npos && text_[before] == '/';
         refuse(Reason::not_known, "\"" + std::string(name) + "\" is not a unit that is known",
-               whole.empty() ? unit_meant(name, below_a_line) : whole);
+               unit_meant(name, below_a_line));
     }
 
     UnitExpression unit(int depth) {
